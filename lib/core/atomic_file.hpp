@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace faultline {
+
+/// A file that appears under its final name only when commit() succeeds: bytes go to a temporary name beside
+/// it, which is renamed at the end and removed when the object dies uncommitted. The path "-" is standard
+/// output. Every failure to write throws Error(output).
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view bytes);
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* doing);
+
+  std::string path_;
+  std::string temporary_;
+  std::FILE* file_ = nullptr;
+  bool to_stdout_ = false;
+};
+
+void write_file(const std::string& path, std::string_view bytes);
+/// Throws Error(input) that says missing, directory or unreadable.
+std::string read_file(const std::string& path);
+
+}  // namespace faultline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace faultline {
+
+enum class FaultKind {
+  none,
+  free_swinging,      ///< no torque reaches the joint
+  locked,             ///< the joint does not move
+  torque_loss,        ///< a share of the torque is lost
+  sensor_bias,        ///< the position reads too much by a constant
+  stuck_encoder,      ///< position and velocity repeat the last code
+  sensor_drift,       ///< the position error grows with time
+  friction_increase,  ///< more viscous and Coulomb friction
+  payload_change,     ///< mass added at, or taken from, the tip
+  collision,          ///< a short external force
+  unknown,            ///< a fault like none of these
+};
+
+inline constexpr int kFaultKinds = 11;
+
+/// The name used in labels, JSON and reports, such as "free_swinging".
+const char* to_string(FaultKind kind);
+/// Throws Error(usage) that lists the names when `name` is none of them.
+FaultKind fault_kind_from(const std::string& name);
+
+/// A kind at a joint. Joints count from 1; 0 when the fault belongs to no joint (none, unknown).
+struct FaultLabel {
+  FaultKind kind = FaultKind::none;
+  int joint = 0;
+
+  bool operator==(const FaultLabel&) const = default;
+};
+
+}  // namespace faultline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "lib/core/issue.hpp"
+
+#include <algorithm>
+
+namespace faultline {
+
+const char* to_string(Severity severity) {
+  switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::severe: return "severe";
+  }
+  return "unknown";
+}
+
+void Issues::add(Issue issue) {
+  issue.count = std::max<std::int64_t>(issue.count, 1);
+  for (Issue& known : issues_) {
+    if (known.code == issue.code && known.channel == issue.channel) {
+      known.count += issue.count;
+      known.rows_dropped += issue.rows_dropped;
+      known.severity = std::max(known.severity, issue.severity);
+      return;
+    }
+  }
+  issues_.push_back(std::move(issue));
+}
+
+void Issues::merge(const Issues& other) {
+  for (const Issue& issue : other.issues_) add(issue);
+}
+
+const Issue* Issues::find(const std::string& code, const std::string& channel) const {
+  for (const Issue& issue : issues_)
+    if (issue.code == code && issue.channel == channel) return &issue;
+  return nullptr;
+}
+
+std::int64_t Issues::rows_dropped() const {
+  std::int64_t rows = 0;
+  for (const Issue& issue : issues_) rows += issue.rows_dropped;
+  return rows;
+}
+
+}  // namespace faultline

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/core/fault_kind.hpp"
+#include "lib/core/issue.hpp"
+
+/// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
+namespace faultline {
+
+enum class Verdict {
+  not_run,
+  healthy,
+  faulty,
+  inconclusive,  ///< too little of the log could be judged; `verdict_reason` says why
+};
+const char* to_string(Verdict verdict);
+
+/// Who settled what a fault is.
+enum class DecidedBy { agreement, cases, evidence, criterion, abstained };
+const char* to_string(DecidedBy decided_by);
+
+/// What one network says of an episode.
+struct Opinion {
+  FaultLabel label;
+  double confidence = 0.0;  ///< 0 to 1
+};
+
+/// A case of the case base that resembles an episode.
+struct Precedent {
+  std::int64_t case_id = 0;
+  FaultLabel label;
+  double similarity = 0.0;  ///< 0 to 1
+  std::string what_was_done;
+};
+
+struct Alternative {
+  FaultLabel label;
+  std::string why;
+};
+
+/// A number that speaks for a finding.
+struct EvidenceItem {
+  std::string name;  ///< stable identifier, such as "log_likelihood_ratio"
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string unit;
+  std::string text;  ///< one line for a person
+};
+
+struct FaultFinding {
+  int id = 0;  ///< from 1, in the order of onset
+  FaultLabel label;
+  double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< estimated start of the fault
+  double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
+  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last sample that shows it
+  double confidence = 0.0;                                    ///< 0 to 1
+  Opinion mlp;
+  Opinion rbfn;
+  DecidedBy decided_by = DecidedBy::evidence;
+  std::vector<Precedent> precedents;
+  std::vector<Alternative> could_also_be;
+  std::vector<EvidenceItem> evidence;
+  std::string next_check;  ///< what a technician should look at next
+};
+
+struct LogFacts {
+  std::string path;  ///< as given, without leading folders that name a machine
+  std::string sha256;
+  std::string format;
+  std::int64_t rows_read = 0;
+  std::int64_t rows_used = 0;
+  double start_s = std::numeric_limits<double>::quiet_NaN();
+  double end_s = std::numeric_limits<double>::quiet_NaN();
+  double sample_period_s = std::numeric_limits<double>::quiet_NaN();
+  int joints = 0;
+  Issues issues;
+};
+
+struct ModelFacts {
+  std::string name;
+  std::string sha256;
+  std::string cases_sha256;
+};
+
+/// The residual of one joint over the whole log: measured minus regenerated fault-free motion (the MLP's
+/// one-step prediction), in units of its healthy root mean square, so that about 1 is healthy.
+struct ResidualSummary {
+  int joint = 0;
+  double velocity_rms = std::numeric_limits<double>::quiet_NaN();   ///< over the log, normalised
+  double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest, normalised
+  double peak_s = std::numeric_limits<double>::quiet_NaN();         ///< when
+  double position_rms = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct Diagnosis {
+  LogFacts log;
+  ModelFacts model;
+  std::string program_version;
+  Verdict verdict = Verdict::not_run;
+  std::string verdict_reason;
+  std::vector<ResidualSummary> residuals;  ///< a joint each
+  std::vector<FaultFinding> faults;        ///< by onset
+  std::vector<std::string> cannot_see;     ///< what this log and model cannot show (torque meaning, missing channels)
+};
+
+}  // namespace faultline

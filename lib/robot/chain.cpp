@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+namespace {
+
+/// |v|^2 1 - v v^T: the inertia of a unit point mass at v.
+Eigen::Matrix3d point_inertia(const Eigen::Vector3d& v) {
+  return v.squaredNorm() * Eigen::Matrix3d::Identity() - v * v.transpose();
+}
+
+}  // namespace
+
+LinkInertia<double> uniform_rod(double mass, double length, const Eigen::Vector3d& direction) {
+  LinkInertia<double> link;
+  link.mass = mass;
+  link.first_moment = 0.5 * mass * length * direction;
+  link.inertia = mass * length * length / 3.0 * point_inertia(direction);
+  return link;
+}
+
+LinkInertia<double> point_mass(double mass) {
+  LinkInertia<double> link;
+  link.mass = mass;
+  return link;
+}
+
+LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
+                                 const Eigen::Matrix3d& inertia_at_centre) {
+  LinkInertia<double> link;
+  link.mass = mass;
+  link.first_moment = mass * centre;
+  link.inertia = inertia_at_centre + mass * point_inertia(centre);
+  return link;
+}
+
+}  // namespace faultline

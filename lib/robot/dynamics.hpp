@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "lib/robot/chain.hpp"
+
+/// Rigid-body dynamics of a chain: M(q) ddq + h(q, dq) + G(q) + F(dq) = tau. Templated on the scalar, so that
+/// Ceres Jets run through it. Recursive Newton-Euler for inverse dynamics, composite rigid bodies for M
+/// (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6).
+namespace faultline {
+
+namespace detail {
+
+/// Rotation by `angle` about the unit vector `axis` (Rodrigues): child coordinates to parent coordinates.
+template <typename S>
+Matrix3<S> rotation_about(const Eigen::Vector3d& axis, const S& angle) {
+  using std::cos;
+  using std::sin;
+  const S c = cos(angle), s = sin(angle), v = S(1.0) - c;
+  const double x = axis.x(), y = axis.y(), z = axis.z();
+  Matrix3<S> r;
+  r << c + v * (x * x), v * (x * y) - s * z, v * (x * z) + s * y,  //
+      v * (x * y) + s * z, c + v * (y * y), v * (y * z) - s * x,   //
+      v * (x * z) - s * y, v * (y * z) + s * x, c + v * (z * z);
+  return r;
+}
+
+/// Pose of link i's frame in the frame of link i-1.
+template <typename S>
+struct LinkPose {
+  Matrix3<S> rotation;   ///< link i to link i-1
+  Vector3<S> position;   ///< origin of link i, in link i-1
+};
+
+template <typename S>
+LinkPose<S> link_pose(const Chain<S>& chain, int i, const S& q) {
+  const JointGeometry& joint = chain.geometry[i];
+  LinkPose<S> pose;
+  pose.position = joint.offset.template cast<S>();
+  if (i > 0) pose.position += chain.length[i - 1] * joint.direction.template cast<S>();
+  if (joint.kind == AxisKind::revolute) {
+    pose.rotation = rotation_about(joint.axis, q);
+  } else {
+    pose.rotation = Matrix3<S>::Identity();
+    pose.position += q * joint.axis.template cast<S>();
+  }
+  return pose;
+}
+
+}  // namespace detail
+
+/// Rigid-body torque M(q) ddq + h(q, dq) + G(q), without friction.
+template <typename S>
+JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
+                                 const JointVector<S>& ddq, const Eigen::Vector3d& gravity) {
+  const int n = chain.joints();
+  std::array<detail::LinkPose<S>, kMaxJoints> pose;
+  std::array<Vector3<S>, kMaxJoints> force, moment;
+  Vector3<S> omega = Vector3<S>::Zero(), alpha = Vector3<S>::Zero();
+  Vector3<S> acceleration = -gravity.template cast<S>();
+  for (int i = 0; i < n; ++i) {
+    const JointGeometry& joint = chain.geometry[i];
+    const Vector3<S> axis = joint.axis.template cast<S>();
+    pose[i] = detail::link_pose(chain, i, q[i]);
+    const Matrix3<S> to_link = pose[i].rotation.transpose();
+    const Vector3<S>& p = pose[i].position;
+    acceleration = (to_link * (acceleration + alpha.cross(p) + omega.cross(omega.cross(p)))).eval();
+    omega = (to_link * omega).eval();
+    alpha = (to_link * alpha).eval();
+    if (joint.kind == AxisKind::revolute) {
+      alpha += axis * ddq[i] + omega.cross(axis) * dq[i];
+      omega += axis * dq[i];
+    } else {
+      acceleration += axis * ddq[i] + S(2.0) * omega.cross(axis) * dq[i];
+    }
+    const LinkInertia<S>& link = chain.links[i];
+    force[i] = acceleration * link.mass + alpha.cross(link.first_moment) + omega.cross(omega.cross(link.first_moment));
+    moment[i] = link.inertia * alpha + omega.cross(link.inertia * omega) + link.first_moment.cross(acceleration);
+  }
+  JointVector<S> tau(n);
+  for (int i = n - 1; i >= 0; --i) {
+    const JointGeometry& joint = chain.geometry[i];
+    const Vector3<S> axis = joint.axis.template cast<S>();
+    tau[i] = axis.dot(joint.kind == AxisKind::revolute ? moment[i] : force[i]);
+    if (!chain.rotor_inertia.empty()) tau[i] += chain.rotor_inertia[i] * ddq[i];
+    if (i == 0) break;
+    const Vector3<S> force_in_parent = pose[i].rotation * force[i];
+    moment[i - 1] += pose[i].rotation * moment[i] + pose[i].position.cross(force_in_parent);
+    force[i - 1] += force_in_parent;
+  }
+  return tau;
+}
+
+template <typename S>
+JointVector<S> friction_torque(const Chain<S>& chain, const JointVector<S>& dq) {
+  using std::tanh;
+  JointVector<S> torque(chain.joints());
+  for (int i = 0; i < chain.joints(); ++i) {
+    const Friction<S>& f = chain.friction[i];
+    torque[i] = f.viscous * dq[i] + f.coulomb * tanh(dq[i] / f.width) + f.offset;
+  }
+  return torque;
+}
+
+/// tau = M ddq + h + G + F.
+template <typename S>
+JointVector<S> inverse_dynamics(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
+                                const JointVector<S>& ddq) {
+  return rigid_body_torque(chain, q, dq, ddq, chain.gravity) + friction_torque(chain, dq);
+}
+
+/// h(q, dq) + G(q): Coriolis, centrifugal and gravity torque.
+template <typename S>
+JointVector<S> bias_torque(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq) {
+  const JointVector<S> zero = JointVector<S>::Zero(chain.joints());
+  return rigid_body_torque(chain, q, dq, zero, chain.gravity);
+}
+
+template <typename S>
+JointVector<S> gravity_torque(const Chain<S>& chain, const JointVector<S>& q) {
+  const JointVector<S> zero = JointVector<S>::Zero(chain.joints());
+  return rigid_body_torque(chain, q, zero, zero, chain.gravity);
+}
+
+/// Inertia matrix M(q), n x n, symmetric.
+template <typename S>
+JointMatrix<S> inertia_matrix(const Chain<S>& chain, const JointVector<S>& q) {
+  const int n = chain.joints();
+  std::array<detail::LinkPose<S>, kMaxJoints> pose;
+  std::array<LinkInertia<S>, kMaxJoints> composite;
+  for (int i = 0; i < n; ++i) {
+    pose[i] = detail::link_pose(chain, i, q[i]);
+    composite[i] = chain.links[i];
+  }
+  JointMatrix<S> m(n, n);
+  for (int i = n - 1; i >= 0; --i) {
+    const LinkInertia<S>& body = composite[i];
+    const JointGeometry& joint = chain.geometry[i];
+    const Vector3<S> axis = joint.axis.template cast<S>();
+    Vector3<S> force, moment;  // that a unit acceleration of joint i asks of the composite body, at its origin
+    if (joint.kind == AxisKind::revolute) {
+      force = axis.cross(body.first_moment);
+      moment = body.inertia * axis;
+    } else {
+      force = axis * body.mass;
+      moment = body.first_moment.cross(axis);
+    }
+    for (int k = i;; --k) {
+      const JointGeometry& other = chain.geometry[k];
+      const S entry = other.axis.template cast<S>().dot(other.kind == AxisKind::revolute ? moment : force);
+      m(i, k) = entry;
+      m(k, i) = entry;
+      if (k == 0) break;
+      force = (pose[k].rotation * force).eval();
+      moment = (pose[k].rotation * moment + pose[k].position.cross(force)).eval();
+    }
+    if (!chain.rotor_inertia.empty()) m(i, i) += chain.rotor_inertia[i];
+    if (i == 0) break;
+    const Matrix3<S>& r = pose[i].rotation;
+    const Vector3<S>& p = pose[i].position;
+    const Vector3<S> h = r * body.first_moment;
+    LinkInertia<S>& parent = composite[i - 1];
+    parent.inertia += r * body.inertia * r.transpose() +
+                      (body.mass * p.squaredNorm() + S(2.0) * p.dot(h)) * Matrix3<S>::Identity() -
+                      body.mass * p * p.transpose() - p * h.transpose() - h * p.transpose();
+    parent.first_moment += h + body.mass * p;
+    parent.mass += body.mass;
+  }
+  return m;
+}
+
+/// ddq = M^-1 (tau - h - G - F).
+template <typename S>
+JointVector<S> forward_dynamics(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
+                                const JointVector<S>& tau) {
+  const JointVector<S> net = tau - bias_torque(chain, q, dq) - friction_torque(chain, dq);
+  return inertia_matrix(chain, q).ldlt().solve(net);
+}
+
+/// p = M(q) dq.
+template <typename S>
+JointVector<S> momentum(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq) {
+  return inertia_matrix(chain, q) * dq;
+}
+
+template <typename S>
+S kinetic_energy(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq) {
+  return S(0.5) * dq.dot(momentum(chain, q, dq));
+}
+
+/// Potential energy in the gravity field, zero when every centre of mass is at the base's origin.
+template <typename S>
+S potential_energy(const Chain<S>& chain, const JointVector<S>& q) {
+  Matrix3<S> rotation = Matrix3<S>::Identity();
+  Vector3<S> position = Vector3<S>::Zero();
+  S energy = S(0.0);
+  for (int i = 0; i < chain.joints(); ++i) {
+    const auto pose = detail::link_pose(chain, i, q[i]);
+    position += rotation * pose.position;
+    rotation = (rotation * pose.rotation).eval();
+    const Vector3<S> moment = rotation * chain.links[i].first_moment + chain.links[i].mass * position;
+    energy -= chain.gravity.template cast<S>().dot(moment);
+  }
+  return energy;
+}
+
+/// Position of the end of the last link in the base frame, m.
+template <typename S>
+Vector3<S> tip_position(const Chain<S>& chain, const JointVector<S>& q) {
+  Matrix3<S> rotation = Matrix3<S>::Identity();
+  Vector3<S> position = Vector3<S>::Zero();
+  for (int i = 0; i < chain.joints(); ++i) {
+    const auto pose = detail::link_pose(chain, i, q[i]);
+    position += rotation * pose.position;
+    rotation = (rotation * pose.rotation).eval();
+  }
+  const int last = chain.joints() - 1;
+  const bool has_reach = chain.geometry[last].kind == AxisKind::revolute;
+  if (has_reach) position += rotation * (chain.length[last] * chain.geometry[last].direction.template cast<S>());
+  return position;
+}
+
+}  // namespace faultline

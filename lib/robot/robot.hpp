@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/log/channels.hpp"
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+/// How a link's mass is distributed, which decides what its mass and length say about its inertia.
+enum class LinkShape {
+  rod,      ///< uniform thin rod along the link (the paper's links 1 and 2)
+  point,    ///< on the joint's origin (the paper's link 3)
+  general,  ///< mass, centre and inertia are free
+};
+
+/// A fact the user states in the robot file; std 0 means exact.
+struct KnownValue {
+  double value = 0.0;
+  double std = 0.0;
+};
+
+enum class TorqueMeaning { commanded, measured, current };
+/// What the torque did between two samples of the log.
+enum class TorqueTiming { held, linear, unknown };
+
+/// What the columns of this robot's logs mean ([log] of the robot file).
+struct LogMeaning {
+  TorqueMeaning torque = TorqueMeaning::commanded;
+  TorqueTiming torque_between_samples = TorqueTiming::unknown;
+  ColumnMap columns;
+};
+
+/// A robot as its file describes it: geometry and whatever of its parameters is known so far.
+struct Robot {
+  std::string name;
+  std::string axes;  ///< "RRP", base to tip; "" for a chain given axis by axis
+  Chain<double> chain;
+  std::vector<LinkShape> shapes;
+  /// By parameter name: m1.. (kg), l1.. (m), fv1.., fc1.., and payload facts of single logs.
+  std::map<std::string, KnownValue> known;
+  /// True when every parameter of `chain` has been identified or was given; false for nominal values.
+  bool identified = false;
+  LogMeaning log;
+
+  int joints() const { return chain.joints(); }
+};
+
+/// A preset order of axes, base to tip: "RRP", "RRPR", "RPRR", "RR", "R", "P". Lengths 1 m, masses 1 kg, no
+/// friction, gravity along -z; parallel vertical axes. "RR" moves in a vertical plane when the gravity given
+/// lies in that plane. Throws Error(usage) naming the presets for any other order.
+Robot preset_robot(const std::string& axes);
+
+/// Sets the links of `robot` whose shape is rod or point from masses (kg) and lengths (m), one each a joint.
+void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses, const std::vector<double>& lengths);
+
+}  // namespace faultline
