@@ -1,7 +1,63 @@
 // SPDX-License-Identifier: MIT
-#include <cstdio>
+#include <CLI/CLI.hpp>
 
-int main() {
-  std::puts("faultline " FAULTLINE_VERSION);
-  return 0;
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+ColorChoice color_choice_from(const std::string& when) {
+  if (when == "always") return ColorChoice::always;
+  return when == "never" ? ColorChoice::never : ColorChoice::automatic;
+}
+
+void add_global_options(CLI::App& app, Program& program) {
+  app.set_version_flag("--version", "faultline " FAULTLINE_VERSION);
+  app.add_option_function<std::string>(
+         "--color", [&program](const std::string& when) { program.color = color_choice_from(when); },
+         "Colours: auto (default), always or never; NO_COLOR is respected")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+  app.fallthrough();  // --color may also stand after the subcommand
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 nothing wrong found, 1 findings, 2 usage or option file, 3 an input cannot be\n"
+      "processed or a result not written, 4 internal error.");
+}
+
+void add_commands(CLI::App& app, Program& program) { add_inspect(app, program); }
+
+std::string selected_name(const CLI::App& app) {
+  const auto selected = app.get_subcommands();
+  return selected.empty() ? "faultline" : "faultline " + selected.front()->get_name();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Fault diagnosis of SCARA robots from recorded joint logs.", "faultline");
+  Program program;
+  add_global_options(app, program);
+  add_commands(app, program);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    print(app.help());
+    return kNothingFound;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return kNothingFound;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::usage, "command line",
+                std::string(error.what()) + "; see '" + selected_name(app) + " --help'");
+  }
+  return program.run();
+}
+
+}  // namespace
+}  // namespace faultline
+
+int main(int argc, char** argv) {
+  faultline::prepare_standard_streams();
+  return faultline::guarded([&] { return faultline::run(argc, argv); });
 }

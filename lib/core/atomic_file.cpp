@@ -13,21 +13,33 @@
 
 namespace faultline {
 
+namespace {
+
+/// A pipe or a device such as /dev/stderr, which is written straight: it must not be replaced by a file.
+bool is_device(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+}  // namespace
+
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   to_stdout_ = path_ == "-";
   if (to_stdout_) {
     file_ = stdout;
     return;
   }
-  temporary_ = path_ + ".partial-" + std::to_string(::getpid());
-  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (!is_device(path_)) temporary_ = path_ + ".partial-" + std::to_string(::getpid());
+  file_ = std::fopen(temporary_.empty() ? path_.c_str() : temporary_.c_str(), "wb");
   if (!file_) fail("created");
 }
 
 AtomicFile::~AtomicFile() {
   if (to_stdout_ || !file_) return;
   std::fclose(file_);
-  std::remove(temporary_.c_str());
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
 void AtomicFile::fail(const char* doing) {
@@ -35,9 +47,10 @@ void AtomicFile::fail(const char* doing) {
   if (file_ && !to_stdout_) std::fclose(file_);
   file_ = nullptr;
   if (!temporary_.empty()) std::remove(temporary_.c_str());
-  throw Error(ErrorCode::output, to_stdout_ ? "standard output" : path_,
-              std::string("cannot be ") + doing + " (" + reason +
-                  "); nothing was left under that name. Check that the folder exists, is writable and has room");
+  throw Error(
+      ErrorCode::output, to_stdout_ ? "standard output" : path_,
+      std::string("cannot be ") + doing + " (" + reason +
+          "); nothing was left under that name. Check that the folder exists, is writable and has room");
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -51,7 +64,7 @@ void AtomicFile::commit() {
   file_ = nullptr;
   const bool synced = ::fsync(::fileno(file)) == 0 || errno == EINVAL;
   if (std::fclose(file) != 0 || !synced) fail("written");
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renamed into place");
+  if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renamed into place");
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
@@ -65,7 +78,8 @@ std::string read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored))
     throw Error(ErrorCode::input, path, "is a directory, a file was expected");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::input, path, std::string("cannot be opened (") + std::strerror(errno) + ")");
+  if (!file)
+    throw Error(ErrorCode::input, path, std::string("cannot be opened (") + std::strerror(errno) + ")");
   std::ostringstream bytes;
   bytes << file.rdbuf();
   if (file.bad()) throw Error(ErrorCode::input, path, "cannot be read to its end");

@@ -9,7 +9,7 @@ namespace faultline {
 
 /// A file that appears under its final name only when commit() succeeds: bytes go to a temporary name beside
 /// it, which is renamed at the end and removed when the object dies uncommitted. The path "-" is standard
-/// output. Every failure to write throws Error(output).
+/// output; a pipe or device is written straight. Every failure to write throws Error(output).
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);

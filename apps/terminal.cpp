@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "apps/terminal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+bool environment_forbids_color() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return (no_color && *no_color) || (term && std::strcmp(term, "dumb") == 0);
+}
+
+const char* escape_of(Style style) {
+  switch (style) {
+    case Style::bold:
+      return "\x1b[1m";
+    case Style::dim:
+      return "\x1b[2m";
+    case Style::red:
+      return "\x1b[31m";
+    case Style::yellow:
+      return "\x1b[33m";
+    case Style::green:
+      return "\x1b[32m";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
+
+bool use_color(ColorChoice choice, std::FILE* stream) {
+  if (choice != ColorChoice::automatic) return choice == ColorChoice::always;
+  return is_terminal(stream) && !environment_forbids_color();
+}
+
+std::string styled(std::string_view text, Style style, bool color) {
+  if (!color) return std::string(text);
+  return std::string(escape_of(style)).append(text).append("\x1b[0m");
+}
+
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return;
+  throw Error(ErrorCode::output, "standard output",
+              std::string("cannot be written (") + std::strerror(errno) + "); the result is incomplete");
+}
+
+void prepare_standard_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  // open() takes the lowest free descriptor, so each missing one is filled in turn; writing to it still
+  // fails.
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) == -1 && ::open("/dev/null", O_RDONLY) == -1) return;
+}
+
+}  // namespace faultline

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace faultline {
+
+enum class ColorChoice { automatic, always, never };
+
+/// Whether to colour what goes to `stream`: `automatic` means on a terminal unless NO_COLOR is set to
+/// something or TERM is "dumb".
+bool use_color(ColorChoice choice, std::FILE* stream);
+bool is_terminal(std::FILE* stream);
+
+enum class Style { bold, dim, red, yellow, green };
+/// `text` between the escape codes of `style` when `color`, else `text`.
+std::string styled(std::string_view text, Style style, bool color);
+
+/// Writes a result to standard output at once. Throws Error(output) when it cannot be written.
+void print(std::string_view text);
+
+/// Before anything else: a reader that goes away and a file size limit become write errors instead of
+/// signals, and closed standard streams cannot be mistaken for files opened later.
+void prepare_standard_streams();
+
+}  // namespace faultline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace faultline {
+
+/// What the built program did: its two streams in full, and the exit status (128 + signal when it was
+/// killed).
+struct ProgramRun {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+struct RunOptions {
+  std::string stdout_path{};               ///< write standard output there instead of capturing it
+  std::vector<std::string> environment{};  ///< NAME=value, added to the present one
+  long long file_size_limit = -1;          ///< bytes a file may grow to (RLIMIT_FSIZE); -1 = no limit
+  long long memory_limit = -1;             ///< bytes of address space (RLIMIT_AS); -1 = no limit
+};
+
+/// Runs the built program `faultline` with these arguments and waits for its end.
+ProgramRun run_program(const std::vector<std::string>& arguments, const RunOptions& options = {});
+
+}  // namespace faultline
