@@ -219,8 +219,10 @@ Vector3<S> tip_position(const Chain<S>& chain, const JointVector<S>& q) {
     rotation = (rotation * pose.rotation).eval();
   }
   const int last = chain.joints() - 1;
-  const bool has_reach = chain.geometry[last].kind == AxisKind::revolute;
-  if (has_reach) position += rotation * (chain.length[last] * chain.geometry[last].direction.template cast<S>());
+  const Eigen::Vector3d& along = chain.geometry[last].direction;
+  const Eigen::Vector3d direction = along.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : along;
+  if (chain.geometry[last].kind == AxisKind::revolute)
+    position += rotation * (chain.length[last] * direction.template cast<S>());
   return position;
 }
 

@@ -13,10 +13,11 @@ namespace faultline {
 Robot preset_robot(const std::string& axes) {
   static const std::array<const char*, 6> presets = {"RRP", "RRPR", "RPRR", "RR", "R", "P"};
   if (std::find(presets.begin(), presets.end(), axes) == presets.end())
-    throw Error(ErrorCode::usage, "axes",
-                fmt::format("\"{}\" is none of the presets RRP, RRPR, RPRR, RR, R, P (base to tip); give another "
-                            "chain axis by axis",
-                            axes));
+    throw Error(
+        ErrorCode::usage, "axes",
+        fmt::format("\"{}\" is none of the presets RRP, RRPR, RPRR, RR, R, P (base to tip); give another "
+                    "chain axis by axis",
+                    axes));
   Robot robot;
   robot.name = axes;
   robot.axes = axes;
@@ -29,7 +30,7 @@ Robot preset_robot(const std::string& axes) {
     if (i == 0 || axes[i - 1] == 'P') joint.direction.setZero();
     robot.chain.geometry.push_back(joint);
     const bool is_tool_wrist = axes == "RRPR" && i == last_revolute;
-    robot.shapes.push_back(is_tool_wrist ? LinkShape::general
+    robot.shapes.push_back(is_tool_wrist    ? LinkShape::general
                            : axes[i] == 'R' ? LinkShape::rod
                                             : LinkShape::point);
   }
@@ -38,17 +39,26 @@ Robot preset_robot(const std::string& axes) {
   robot.chain.rotor_inertia.assign(count, 0.0);
   robot.chain.length.assign(count, 1.0);
   set_masses_and_lengths(robot, std::vector<double>(count, 1.0), std::vector<double>(count, 1.0));
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
+    if (robot.shapes[i] != LinkShape::rod) robot.chain.length[i] = 0.0;
     if (robot.shapes[i] == LinkShape::general)
       robot.chain.links[i] = general_body(1.0, Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity());
+  }
   return robot;
 }
 
-void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses, const std::vector<double>& lengths) {
+Eigen::Vector3d link_direction(const Robot& robot, int i) {
+  const auto& geometry = robot.chain.geometry;
+  const Eigen::Vector3d& direction = geometry[std::min(i + 1, robot.joints() - 1)].direction;
+  return direction.isZero() ? Eigen::Vector3d::UnitX() : direction;
+}
+
+void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
+                            const std::vector<double>& lengths) {
   for (int i = 0; i < robot.joints(); ++i) {
     robot.chain.length[i] = lengths[i];
     if (robot.shapes[i] == LinkShape::rod)
-      robot.chain.links[i] = uniform_rod(masses[i], lengths[i], Eigen::Vector3d::UnitX());
+      robot.chain.links[i] = uniform_rod(masses[i], lengths[i], link_direction(robot, i));
     else if (robot.shapes[i] == LinkShape::point)
       robot.chain.links[i] = point_mass(masses[i]);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,15 @@ struct Robot {
   std::string axes;  ///< "RRP", base to tip; "" for a chain given axis by axis
   Chain<double> chain;
   std::vector<LinkShape> shapes;
-  /// By parameter name: m1.. (kg), l1.. (m), fv1.., fc1.., and payload facts of single logs.
+  /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
+  /// friction), fo1.. (friction offset), jr1.. (rotor inertia seen at the joint). They are also set in `chain`.
   std::map<std::string, KnownValue> known;
+  /// Known mass carried at the tip (kg) during single logs, by the log's file name without folders.
+  std::map<std::string, KnownValue> payloads;
   /// True when every parameter of `chain` has been identified or was given; false for nominal values.
   bool identified = false;
+  /// Identified timing of the torque: over a sample it was tau_k + phi (tau_k+1 - tau_k). 0 is held.
+  std::optional<double> torque_phi;
   LogMeaning log;
 
   int joints() const { return chain.joints(); }
@@ -53,6 +59,9 @@ struct Robot {
 /// friction, gravity along -z; parallel vertical axes. "RR" moves in a vertical plane when the gravity given
 /// lies in that plane. Throws Error(usage) naming the presets for any other order.
 Robot preset_robot(const std::string& axes);
+
+/// Unit vector along link i in its own frame: towards the next joint, or along x for a link that says nothing.
+Eigen::Vector3d link_direction(const Robot& robot, int i);
 
 /// Sets the links of `robot` whose shape is rod or point from masses (kg) and lengths (m), one each a joint.
 void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses, const std::vector<double>& lengths);

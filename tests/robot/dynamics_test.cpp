@@ -27,10 +27,10 @@ TEST(Dynamics, ScaraEqualsTheClosedForm) {
     const auto q = draw(random, 3, 2.0), dq = draw(random, 3, 3.0), ddq = draw(random, 3, 5.0);
     const double c2 = std::cos(q[1]), s2 = std::sin(q[1]);
     const auto tau = inverse_dynamics(robot.chain, q, dq, ddq);
-    EXPECT_NEAR(tau[0],
-                (a + b + 2 * c * c2) * ddq[0] + (b + c * c2) * ddq[1] -
-                    c * s2 * (2 * dq[0] * dq[1] + dq[1] * dq[1]),
-                1e-12);
+    EXPECT_NEAR(
+        tau[0],
+        (a + b + 2 * c * c2) * ddq[0] + (b + c * c2) * ddq[1] - c * s2 * (2 * dq[0] * dq[1] + dq[1] * dq[1]),
+        1e-12);
     EXPECT_NEAR(tau[1], (b + c * c2) * ddq[0] + b * ddq[1] + c * s2 * dq[0] * dq[0], 1e-12);
     EXPECT_NEAR(tau[2], m3 * (ddq[2] + g), 1e-12);
   }

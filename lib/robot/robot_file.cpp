@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/robot_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+Eigen::Vector3d vector3(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback) {
+  if (!table.has(key)) return fallback;
+  const auto values = table.numbers(key, 3);
+  return {values[0], values[1], values[2]};
+}
+
+Eigen::Vector3d unit_vector(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback) {
+  const Eigen::Vector3d v = vector3(table, key, fallback);
+  if (v.norm() < 1e-9) table.fail(key, "expected a direction, found a vector of length zero");
+  return std::abs(v.norm() - 1.0) < 1e-12 ? v : v.normalized();
+}
+
+/// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz].
+Eigen::Matrix3d inertia_tensor(const TomlTable& table, const std::string& key) {
+  const auto v = table.numbers(key, -1);
+  if (v.size() != 3 && v.size() != 6)
+    table.fail(key,
+               fmt::format("expected [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], found {} numbers", v.size()));
+  Eigen::Matrix3d m = Eigen::Vector3d(v[0], v[1], v[2]).asDiagonal();
+  if (v.size() == 6) {
+    m(0, 1) = m(1, 0) = v[3];
+    m(0, 2) = m(2, 0) = v[4];
+    m(1, 2) = m(2, 1) = v[5];
+  }
+  return m;
+}
+
+double not_negative(const TomlTable& table, const std::string& key, double fallback) {
+  const double value = table.number(key, fallback);
+  if (value < 0.0) table.fail(key, fmt::format("expected a number that is not negative, found {}", value));
+  return value;
+}
+
+double positive(const TomlTable& table, const std::string& key, double fallback) {
+  const double value = table.number(key, fallback);
+  if (value <= 0.0) table.fail(key, fmt::format("expected a positive number, found {}", value));
+  return value;
+}
+
+void check_signs(const TomlTable& table, const std::string& key, const std::vector<double>& values,
+                 bool zero_allowed) {
+  for (const double v : values)
+    if (v < 0.0 || (v == 0.0 && !zero_allowed))
+      table.fail(key,
+                 fmt::format("expected {} numbers, found {}", zero_allowed ? "non-negative" : "positive", v));
+}
+
+/// [[joint]] without `axes`: every axis from its table.
+Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& joints) {
+  if (joints.empty())
+    table.fail(
+        "", fmt::format("says nothing about the axes; expected axes = \"RRP\" (base to tip) or one [[joint]] "
+                        "table an axis{}",
+                        table.has("axis") ? "; the key is \"axes\", not \"axis\"" : ""));
+  if (joints.size() > kMaxJoints)
+    table.fail("joint", fmt::format("expected at most {} joints, found {}", kMaxJoints, joints.size()));
+  Robot robot;
+  for (const TomlTable& joint : joints) {
+    const bool revolute = joint.choice("kind", {"revolute", "prismatic"}) == "revolute";
+    JointGeometry geometry;
+    geometry.kind = revolute ? AxisKind::revolute : AxisKind::prismatic;
+    const bool on_last_axis = robot.chain.geometry.empty() || joint.has("offset") ||
+                              robot.chain.geometry.back().kind == AxisKind::prismatic;
+    if (on_last_axis) geometry.direction.setZero();
+    robot.chain.geometry.push_back(geometry);
+    robot.shapes.push_back(revolute ? LinkShape::rod : LinkShape::point);
+  }
+  const std::size_t n = joints.size();
+  robot.chain.links.resize(n);
+  robot.chain.friction.resize(n);
+  robot.chain.rotor_inertia.assign(n, 0.0);
+  return robot;
+}
+
+void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    JointGeometry& geometry = robot.chain.geometry[i];
+    geometry.axis = unit_vector(joints[i], "axis", geometry.axis);
+    geometry.offset = vector3(joints[i], "offset", geometry.offset);
+    if (joints[i].has("direction"))
+      geometry.direction = i == 0 ? vector3(joints[i], "direction", {0, 0, 0})
+                                  : unit_vector(joints[i], "direction", geometry.direction);
+    if (i == 0 && !geometry.direction.isZero())
+      joints[i].fail("direction", "the first joint has no link before it; place it with offset");
+    const char* kind = geometry.kind == AxisKind::revolute ? "revolute" : "prismatic";
+    if (joints[i].has("kind") && joints[i].choice("kind", {"revolute", "prismatic"}) != kind)
+      joints[i].fail("kind",
+                     fmt::format("contradicts axes = \"{}\", in which this joint is {}", robot.axes, kind));
+  }
+}
+
+void read_link(Robot& robot, int i, const TomlTable& table) {
+  if (table.has("shape")) {
+    const std::string shape = table.choice("shape", {"rod", "point", "general"});
+    robot.shapes[i] = shape == "rod"     ? LinkShape::rod
+                      : shape == "point" ? LinkShape::point
+                                         : LinkShape::general;
+  } else if (table.has("inertia") || table.has("centre") || table.has("inertia_at_joint")) {
+    robot.shapes[i] = LinkShape::general;
+  }
+  robot.chain.length[i] = not_negative(table, "length", robot.shapes[i] == LinkShape::rod ? 1.0 : 0.0);
+  const double mass = not_negative(table, "mass", 1.0);
+  LinkInertia<double>& link = robot.chain.links[i];
+  if (robot.shapes[i] == LinkShape::rod) {
+    link = uniform_rod(mass, robot.chain.length[i], link_direction(robot, i));
+  } else if (robot.shapes[i] == LinkShape::point) {
+    link = point_mass(mass);
+  } else if (table.has("inertia_at_joint")) {
+    link.mass = mass;
+    link.first_moment = vector3(table, "first_moment", {0, 0, 0});
+    link.inertia = inertia_tensor(table, "inertia_at_joint");
+  } else {
+    const bool stated = table.has("inertia");
+    link = general_body(
+        mass, vector3(table, "centre", {0, 0, 0}),
+        stated ? inertia_tensor(table, "inertia") : Eigen::Matrix3d(0.01 * Eigen::Matrix3d::Identity()));
+  }
+}
+
+void read_links(Robot& robot, const TomlTable& table) {
+  const auto links = table.tables("link");
+  if (!links.empty() && static_cast<int>(links.size()) != robot.joints())
+    table.fail("link", fmt::format("expected one [[link]] for each of the {} joints, base to tip, found {}",
+                                   robot.joints(), links.size()));
+  if (links.empty() && robot.chain.length.empty()) {  // a chain given axis by axis: unit masses and lengths
+    robot.chain.length.assign(robot.joints(), 0.0);
+    for (int i = 0; i < robot.joints(); ++i) read_link(robot, i, TomlTable::parse("", ""));
+  }
+  robot.chain.length.resize(robot.joints(), 0.0);
+  for (std::size_t i = 0; i < links.size(); ++i) read_link(robot, static_cast<int>(i), links[i]);
+}
+
+void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
+  const int n = robot.joints();
+  const TomlTable friction = table.table("friction");
+  const auto set = [&](const TomlTable& from, const char* key, double Friction<double>::*member,
+                       bool any_sign) {
+    if (!from.has(key)) return;
+    const auto values = from.each(key, n);
+    if (!any_sign) check_signs(from, key, values, std::string(key) != "width");
+    for (int i = 0; i < n; ++i) robot.chain.friction[i].*member = values[i];
+  };
+  set(table, "width", &Friction<double>::width, false);
+  set(friction, "viscous", &Friction<double>::viscous, false);
+  set(friction, "coulomb", &Friction<double>::coulomb, false);
+  set(friction, "offset", &Friction<double>::offset, true);
+  set(friction, "width", &Friction<double>::width, false);
+  if (table.has("rotor_inertia")) {
+    robot.chain.rotor_inertia = table.each("rotor_inertia", n);
+    check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    Friction<double>& f = robot.chain.friction[i];
+    const TomlTable own = joints[i].table("friction");
+    f.viscous = not_negative(own, "viscous", f.viscous);
+    f.coulomb = not_negative(own, "coulomb", f.coulomb);
+    f.offset = own.number("offset", f.offset);
+    f.width = positive(own, "width", f.width);
+    robot.chain.rotor_inertia[i] = not_negative(joints[i], "rotor_inertia", robot.chain.rotor_inertia[i]);
+  }
+}
+
+KnownValue known_value(const TomlTable& table, const std::string& key) {
+  if (!table.is_table(key)) return {table.number(key), 0.0};
+  const TomlTable fact = table.table(key);
+  return {fact.number("value"), not_negative(fact, "std", 0.0)};
+}
+
+std::vector<std::string> parameter_names(int joints) {
+  std::vector<std::string> names;
+  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "jr"})
+    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  return names;
+}
+
+void read_known(Robot& robot, const TomlTable& table) {
+  const TomlTable known = table.table("known");
+  const auto names = parameter_names(robot.joints());
+  for (const std::string& key : known.keys()) {
+    if (std::find(names.begin(), names.end(), key) == names.end()) {
+      const std::string near = nearest_word(key, names);
+      known.fail(
+          key,
+          fmt::format("is no parameter of this robot; expected m, l, fv, fc, fo or jr with a joint from 1 "
+                      "to {}{}",
+                      robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
+    const KnownValue fact = known_value(known, key);
+    if (fact.value < 0.0 && key.substr(0, 2) != "fo")
+      known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
+    robot.known[key] = fact;
+    set_parameter(robot, key, fact.value);
+  }
+  const TomlTable payload = table.table("payload");
+  for (const std::string& key : payload.keys()) robot.payloads[key] = known_value(payload, key);
+}
+
+ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
+  ColumnSpec spec;
+  if (!columns.is_table(channel)) {
+    spec.name = columns.text(channel);
+    return spec;
+  }
+  const TomlTable table = columns.table(channel);
+  spec.name = table.text("name", "");
+  spec.unit = table.text("unit", "");
+  spec.sign = table.number("sign", 1.0);
+  if (std::abs(spec.sign) != 1.0) table.fail("sign", fmt::format("expected 1 or -1, found {}", spec.sign));
+  spec.scale = table.number("scale", 1.0);
+  if (spec.scale == 0.0) table.fail("scale", "expected a number other than 0");
+  spec.offset = table.number("offset", 0.0);
+  return spec;
+}
+
+std::vector<std::string> channel_names(int joints) {
+  std::vector<std::string> names{"t"};
+  for (const char* prefix : {"q", "dq", "tau", "q_ref", "dq_ref"})
+    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  return names;
+}
+
+void read_log_meaning(Robot& robot, const TomlTable& table) {
+  const TomlTable log = table.table("log");
+  if (log.has("torque")) {
+    const std::string meaning = log.choice("torque", {"commanded", "measured", "current"});
+    robot.log.torque = meaning == "commanded"  ? TorqueMeaning::commanded
+                       : meaning == "measured" ? TorqueMeaning::measured
+                                               : TorqueMeaning::current;
+  }
+  if (log.has("torque_between_samples")) {
+    const std::string timing = log.choice("torque_between_samples", {"held", "linear", "unknown"});
+    robot.log.torque_between_samples = timing == "held"     ? TorqueTiming::held
+                                       : timing == "linear" ? TorqueTiming::linear
+                                                            : TorqueTiming::unknown;
+  }
+  const TomlTable columns = log.table("columns");
+  const auto names = channel_names(robot.joints());
+  for (const std::string& channel : columns.keys()) {
+    if (std::find(names.begin(), names.end(), channel) == names.end())
+      columns.fail(channel,
+                   fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
+                               "tau1..tau{0}, q_ref1..q_ref{0} or dq_ref1..dq_ref{0}",
+                               robot.joints()));
+    robot.log.columns[channel] = column_spec(columns, channel);
+  }
+}
+
+void read_identified(Robot& robot, const TomlTable& table) {
+  robot.identified = table.has("identified");
+  const TomlTable identified = table.table("identified");
+  if (!robot.identified) return;
+  if (identified.has("torque_phi")) robot.torque_phi = identified.number("torque_phi");
+  const auto joints = identified.tables("joint");
+  if (static_cast<int>(joints.size()) != robot.joints())
+    identified.fail("joint",
+                    fmt::format("expected one [[identified.joint]] for each of the {} joints, found {}",
+                                robot.joints(), joints.size()));
+  for (int i = 0; i < robot.joints(); ++i) {
+    const TomlTable& joint = joints[i];
+    Chain<double>& chain = robot.chain;
+    chain.length[i] = joint.number("length");
+    chain.links[i].mass = joint.number("mass");
+    chain.links[i].first_moment = vector3(joint, "first_moment", {0, 0, 0});
+    chain.links[i].inertia = inertia_tensor(joint, "inertia");
+    chain.friction[i] = {joint.number("viscous"), joint.number("coulomb"), joint.number("offset"),
+                         positive(joint, "width", 0.01)};
+    chain.rotor_inertia[i] = joint.number("rotor_inertia", 0.0);
+  }
+}
+
+}  // namespace
+
+bool set_parameter(Robot& robot, const std::string& name, double value) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  int joint = 0;
+  if (digits == std::string::npos || digits == 0) return false;
+  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), joint);
+  if (error != std::errc() || end != name.data() + name.size() || joint < 1 || joint > robot.joints())
+    return false;
+  const std::string what = name.substr(0, digits);
+  const int i = joint - 1;
+  Chain<double>& chain = robot.chain;
+  LinkInertia<double>& link = chain.links[i];
+  if (what == "fv")
+    chain.friction[i].viscous = value;
+  else if (what == "fc")
+    chain.friction[i].coulomb = value;
+  else if (what == "fo")
+    chain.friction[i].offset = value;
+  else if (what == "jr")
+    chain.rotor_inertia[i] = value;
+  else if (what != "m" && what != "l")
+    return false;
+  if (what == "l") chain.length[i] = value;
+  if (robot.shapes[i] == LinkShape::rod && (what == "m" || what == "l")) {
+    link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
+  } else if (robot.shapes[i] == LinkShape::point && what == "m") {
+    link = point_mass(value);
+  } else if (what == "m") {  // a general body of the same shape: everything scales with the mass
+    const double ratio = link.mass > 0.0 ? value / link.mass : 0.0;
+    link = {value, ratio * link.first_moment, ratio * link.inertia};
+  }
+  return true;
+}
+
+Robot robot_from_table(const TomlTable& table) {
+  const auto joints = table.tables("joint");
+  Robot robot;
+  if (table.has("axes")) {
+    const std::string axes = table.text("axes");
+    try {
+      robot = preset_robot(axes);
+    } catch (const Error& error) {
+      table.fail("axes", error.message() + " in [[joint]] tables with kind, axis, offset and direction");
+    }
+    if (!joints.empty() && static_cast<int>(joints.size()) != robot.joints())
+      table.fail("joint",
+                 fmt::format("expected no [[joint]] or one for each of the {} axes of \"{}\", found {}",
+                             robot.joints(), axes, joints.size()));
+  } else {
+    robot = chain_from_joints(table, joints);
+  }
+  robot.name = table.text("name", robot.axes.empty() ? "robot" : robot.axes);
+  robot.chain.gravity = vector3(table, "gravity", robot.chain.gravity);
+  read_geometry(robot, joints);
+  read_links(robot, table);
+  read_friction(robot, table, joints);
+  read_known(robot, table);
+  read_log_meaning(robot, table);
+  read_identified(robot, table);
+  return robot;
+}
+
+Robot robot_from_toml(const std::string& text, const std::string& where) {
+  const TomlTable table = TomlTable::parse(text, where);
+  Robot robot = robot_from_table(table);
+  table.finish();
+  return robot;
+}
+
+Robot load_robot_file(const std::string& path) { return robot_from_toml(read_file(path), path); }
+
+}  // namespace faultline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/robot/robot.hpp"
+#include "lib/robot/toml_table.hpp"
+
+namespace faultline {
+
+/// Reads a robot file (TOML, docs/robot-file.md). Throws Error(usage) naming file, line, key, what was found
+/// and what was expected; Error(input) when the file cannot be read.
+Robot load_robot_file(const std::string& path);
+
+/// The same from text; `where` names it in errors.
+Robot robot_from_toml(const std::string& text, const std::string& where);
+
+/// The same from a table inside another option file, such as [robot] of a simulation spec.
+Robot robot_from_table(const TomlTable& table);
+
+/// The robot as a robot file that loads again as the same values, bit for bit. An identified robot has its
+/// parameters in [identified].
+std::string robot_file_text(const Robot& robot);
+
+/// Sets one known parameter ("m1", "l2", "fv3", "fc1", "fo1", "jr2") in `robot.chain`; does not add it to
+/// `robot.known`. False when the robot has no such parameter.
+bool set_parameter(Robot& robot, const std::string& name, double value);
+
+}  // namespace faultline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace faultline {
+
+/// A table of an option file (TOML) that remembers which keys were asked for, so that finish() can name the
+/// keys nobody understands. Every failure throws Error(usage) with file, line, key, what was found and what
+/// was expected. Keeps the TOML library out of the headers.
+class TomlTable {
+ public:
+  static TomlTable parse(const std::string& text, const std::string& where);
+
+  bool has(const std::string& key) const;
+  /// In the order of the file's text as TOML sorts it: alphabetical. Marks nothing as understood.
+  std::vector<std::string> keys() const;
+  bool is_table(const std::string& key) const;
+  bool is_text(const std::string& key) const;
+  bool is_array(const std::string& key) const;
+
+  /// A finite number; the second form gives `fallback` when the key is absent.
+  double number(const std::string& key) const;
+  double number(const std::string& key, double fallback) const;
+  std::int64_t integer(const std::string& key, std::int64_t fallback) const;
+  bool flag(const std::string& key, bool fallback) const;
+  std::string text(const std::string& key) const;
+  std::string text(const std::string& key, const std::string& fallback) const;
+  /// Exactly `count` finite numbers, or any number of them when `count` is -1.
+  std::vector<double> numbers(const std::string& key, int count) const;
+  /// A list of `count` numbers, or one number that stands for all of them.
+  std::vector<double> each(const std::string& key, int count) const;
+  /// One of `choices`.
+  std::string choice(const std::string& key, const std::vector<std::string>& choices) const;
+  /// An empty table when the key is absent.
+  TomlTable table(const std::string& key) const;
+  /// A list of tables ([[key]]); empty when the key is absent.
+  std::vector<TomlTable> tables(const std::string& key) const;
+
+  /// Throws when the table, or one taken from it, has a key that was never asked for.
+  void finish() const;
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+
+ private:
+  struct Data;
+  explicit TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+
+  std::shared_ptr<Data> data_;
+};
+
+/// The one of `known` nearest to `word` by edit distance, or "" when none is near enough to be a misspelling.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace faultline

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+void expect_same_chain(const Chain<double>& a, const Chain<double>& b) {
+  ASSERT_EQ(a.joints(), b.joints());
+  EXPECT_EQ(a.gravity, b.gravity);
+  EXPECT_EQ(a.length, b.length);
+  EXPECT_EQ(a.rotor_inertia, b.rotor_inertia);
+  for (int i = 0; i < a.joints(); ++i) {
+    EXPECT_EQ(a.geometry[i].kind, b.geometry[i].kind);
+    EXPECT_EQ(a.geometry[i].axis, b.geometry[i].axis);
+    EXPECT_EQ(a.geometry[i].offset, b.geometry[i].offset);
+    EXPECT_EQ(a.geometry[i].direction, b.geometry[i].direction);
+    EXPECT_EQ(a.links[i].mass, b.links[i].mass);
+    EXPECT_EQ(a.links[i].first_moment, b.links[i].first_moment);
+    EXPECT_EQ(a.links[i].inertia, b.links[i].inertia);
+    EXPECT_EQ(a.friction[i].viscous, b.friction[i].viscous);
+    EXPECT_EQ(a.friction[i].coulomb, b.friction[i].coulomb);
+    EXPECT_EQ(a.friction[i].offset, b.friction[i].offset);
+    EXPECT_EQ(a.friction[i].width, b.friction[i].width);
+  }
+}
+
+/// The error a text gives, as "where: message".
+std::string error_of(const std::string& text) {
+  try {
+    robot_from_toml(text, "r.toml");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string error = error_of(text);
+  for (const std::string& part : parts)
+    EXPECT_NE(error.find(part), std::string::npos) << part << " in: " << error;
+}
+
+const char* const kFull = R"(
+name = "bench \"B\""
+axes = "RRP"
+gravity = [0.1, 0, -9.8]
+width = 0.02
+rotor_inertia = [0.1, 0.2, 0]
+
+[known]
+l1 = 0.35
+m3 = {value = 2.5, std = 0.01}
+
+[payload]
+"run 7.csv" = 1.5
+
+[friction]
+viscous = [2, 1, 20]
+coulomb = 3.3
+
+[log]
+torque = "measured"
+torque_between_samples = "held"
+[log.columns]
+t = {name = "stamp", unit = "ms"}
+q1 = "J1 position"
+tau2 = {name = "i2", unit = "A", sign = -1, scale = 35.15065, offset = 0.5}
+)";
+
+TEST(RobotFile, AxesAloneAreEnough) {
+  const Robot robot = robot_from_toml("axes = \"RRP\"", "r.toml");
+  EXPECT_EQ(robot.joints(), 3);
+  EXPECT_EQ(robot.name, "RRP");
+  EXPECT_EQ(robot.chain.gravity, Eigen::Vector3d(0, 0, -9.81));
+  EXPECT_EQ(robot.log.torque, TorqueMeaning::commanded);
+  EXPECT_EQ(robot.log.torque_between_samples, TorqueTiming::unknown);
+  EXPECT_TRUE(robot.known.empty());
+  EXPECT_FALSE(robot.identified);
+}
+
+TEST(RobotFile, ReadsEveryKeyOfTheContract) {
+  const Robot robot = robot_from_toml(kFull, "r.toml");
+  EXPECT_EQ(robot.name, "bench \"B\"");
+  EXPECT_EQ(robot.known.at("l1").value, 0.35);
+  EXPECT_EQ(robot.known.at("l1").std, 0.0);
+  EXPECT_EQ(robot.known.at("m3").std, 0.01);
+  EXPECT_EQ(robot.payloads.at("run 7.csv").value, 1.5);
+  EXPECT_EQ(robot.chain.length[0], 0.35);
+  EXPECT_NEAR(robot.chain.links[0].inertia(2, 2), 0.35 * 0.35 / 3, 1e-15);
+  EXPECT_EQ(robot.chain.links[2].mass, 2.5);
+  EXPECT_EQ(robot.chain.friction[2].viscous, 20.0);
+  EXPECT_EQ(robot.chain.friction[1].coulomb, 3.3);
+  EXPECT_EQ(robot.chain.friction[1].width, 0.02);
+  EXPECT_EQ(robot.chain.rotor_inertia[1], 0.2);
+  EXPECT_EQ(robot.log.torque, TorqueMeaning::measured);
+  EXPECT_EQ(robot.log.torque_between_samples, TorqueTiming::held);
+  EXPECT_EQ(robot.log.columns.at("q1").name, "J1 position");
+  EXPECT_EQ(robot.log.columns.at("tau2").scale, 35.15065);
+  EXPECT_EQ(robot.log.columns.at("tau2").sign, -1.0);
+}
+
+TEST(RobotFile, TextRoundTripsExactly) {
+  const Robot robot = robot_from_toml(kFull, "r.toml");
+  const std::string text = robot_file_text(robot);
+  const Robot again = robot_from_toml(text, "again");
+  expect_same_chain(robot.chain, again.chain);
+  EXPECT_EQ(robot_file_text(again), text);
+  EXPECT_EQ(again.name, robot.name);
+  EXPECT_EQ(again.payloads.at("run 7.csv").value, 1.5);
+  EXPECT_EQ(again.log.columns.at("t").unit, "ms");
+}
+
+TEST(RobotFile, IdentifiedRobotRoundTripsExactly) {
+  Robot robot = robot_from_toml(kFull, "r.toml");
+  robot.identified = true;
+  robot.torque_phi = 1.0 / 3.0;
+  robot.chain.length[1] = 0.1 + 0.2;
+  robot.chain.links[1].mass = std::nextafter(1.7, 2.0);
+  robot.chain.links[1].first_moment = {1.0 / 7.0, -1e-17, 3e22};
+  robot.chain.links[1].inertia(0, 1) = robot.chain.links[1].inertia(1, 0) = 1.0 / 9.0;
+  robot.chain.friction[0] = {2.0 / 3.0, 1.1, -0.3, 1e-4};
+  const Robot again = robot_from_toml(robot_file_text(robot), "again");
+  EXPECT_TRUE(again.identified);
+  EXPECT_EQ(again.torque_phi, robot.torque_phi);
+  expect_same_chain(robot.chain, again.chain);
+}
+
+TEST(RobotFile, EveryPresetRoundTrips) {
+  for (const char* axes : {"RRP", "RRPR", "RPRR", "RR", "R", "P"}) {
+    const Robot robot = preset_robot(axes);
+    const Robot again = robot_from_toml(robot_file_text(robot), axes);
+    EXPECT_EQ(again.axes, axes);
+    EXPECT_EQ(again.shapes, robot.shapes);
+    expect_same_chain(robot.chain, again.chain);
+  }
+}
+
+TEST(RobotFile, ChainAxisByAxis) {
+  const Robot robot = robot_from_toml(R"(
+[[joint]]
+kind = "revolute"
+axis = [0, 0, 2]
+[[joint]]
+kind = "revolute"
+axis = [0, 1, 0]
+offset = [0, 0, 0.4]
+friction = {viscous = 0.5}
+[[joint]]
+kind = "prismatic"
+axis = [1, 0, 0]
+[[link]]
+shape = "general"
+mass = 3
+centre = [0, 0, 0.2]
+inertia = [0.3, 0.2, 0.1]
+[[link]]
+mass = 2
+length = 0.5
+[[link]]
+mass = 0.7
+)",
+                                      "r.toml");
+  EXPECT_EQ(robot.axes, "");
+  EXPECT_EQ(robot.chain.geometry[0].axis, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(robot.chain.geometry[1].direction, Eigen::Vector3d::Zero());
+  EXPECT_EQ(robot.chain.geometry[2].direction, Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(robot.chain.links[0].inertia(0, 0), 0.3 + 3 * 0.04, 1e-15);
+  EXPECT_EQ(robot.chain.friction[1].viscous, 0.5);
+  EXPECT_EQ(robot.chain.links[2].mass, 0.7);
+  expect_same_chain(robot.chain, robot_from_toml(robot_file_text(robot), "again").chain);
+}
+
+TEST(RobotFile, MissingAxesAreNamed) {
+  expect_error("name = \"x\"", {"r.toml", "axes = \"RRP\"", "[[joint]]"});
+}
+
+TEST(RobotFile, UnknownAxesListThePresets) {
+  expect_error("\naxes = \"RXP\"", {"r.toml, line 2, key axes", "\"RXP\"", "RRPR", "[[joint]]"});
+}
+
+TEST(RobotFile, UnknownKeySuggestsTheNearest) {
+  expect_error("axes = \"RRP\"\n\ngravty = [0,0,1]",
+               {"r.toml, line 3, key gravty", "did you mean \"gravity\""});
+  expect_error("axes = \"RRP\"\n[log]\ntorqe = \"held\"",
+               {"line 3, key log.torqe", "did you mean \"torque\""});
+}
+
+TEST(RobotFile, WrongTypesSayWhatWasExpected) {
+  expect_error("axes = 3", {"line 1, key axes", "expected a text in quotes, found 3"});
+  expect_error("axes = \"RRP\"\ngravity = [0, 0]", {"key gravity", "3 numbers", "found 2"});
+  expect_error("axes = \"RRP\"\ngravity = 9.81", {"key gravity", "found 9.81"});
+  expect_error("axes = \"RRP\"\n[known]\nl1 = \"long\"", {"line 3, key known.l1", "finite number", "long"});
+  expect_error("axes = \"RRP\"\n[known]\nl1 = nan", {"known.l1", "finite number"});
+}
+
+TEST(RobotFile, WrongValuesSayWhatWasExpected) {
+  expect_error("axes = \"RRP\"\n[known]\nm9 = 1", {"known.m9", "joint from 1 to 3"});
+  expect_error("axes = \"RRP\"\n[known]\nm1 = -1", {"known.m1", "not negative"});
+  expect_error("axes = \"RRP\"\n[log]\ntorque = \"comanded\"", {"log.torque", "did you mean \"commanded\""});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq4 = \"x\"", {"log.columns.q4", "q1..q3"});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {sign = 2}", {"log.columns.q1.sign", "1 or -1"});
+  expect_error("axes = \"RRP\"\n[[link]]\nmass = 1", {"key link", "each of the 3 joints", "found 1"});
+  expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
+}
+
+TEST(RobotFile, BrokenTomlNamesThePlace) {
+  expect_error("axes = \"RRP\"\n[known\n", {"r.toml, line 2", "not valid TOML"});
+}
+
+TEST(RobotFile, MissingFileIsAnInputError) {
+  try {
+    load_robot_file("/nonexistent/robot.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::input);
+  }
+}
+
+}  // namespace
+}  // namespace faultline
