@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/fast_dynamics.hpp"
+
+#include <cmath>
+
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kParallel = 1e-13;
+
+bool has_parallel_axes(const Chain<double>& chain) {
+  const Eigen::Vector3d& normal = chain.geometry[0].axis;
+  for (const JointGeometry& joint : chain.geometry)
+    if (joint.axis.cross(normal).norm() > kParallel) return false;
+  return true;
+}
+
+/// The bodies that turn as one with a revolute joint, seen along the normal, about that joint.
+struct PlanarBody {
+  double mass = 0.0;
+  Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();
+  double inertia = 0.0;
+  Eigen::Vector2d reach = Eigen::Vector2d::Zero();  ///< to the next revolute joint
+};
+
+/// tanh to 1e-16 absolute, about twice as fast as libm's.
+double fast_tanh(double x) { return 1.0 - 2.0 / (std::exp(2.0 * x) + 1.0); }
+
+}  // namespace
+
+FastDynamics::FastDynamics(const Chain<double>& chain) : chain_(chain), joints_(chain.joints()) {
+  for (const auto& f : chain_.friction)
+    has_friction_ = has_friction_ || f.viscous != 0.0 || f.coulomb != 0.0 || f.offset != 0.0;
+  if (chain_.rotor_inertia.empty()) chain_.rotor_inertia.assign(joints_, 0.0);
+  planar_ = joints_ > 0 && has_parallel_axes(chain_);
+  if (planar_) set_up_planar(chain_.geometry[0].axis);
+}
+
+void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {
+  Eigen::Matrix<double, 2, 3> plane;
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  plane << u.transpose(), normal.cross(u).transpose();
+  PerJoint<PlanarBody> bodies{};
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  // of the link's frame on its body
+  for (int i = 0; i < joints_; ++i) {
+    const JointGeometry& joint = chain_.geometry[i];
+    sign_[i] = joint.axis.dot(normal) > 0.0 ? 1.0 : -1.0;
+    Eigen::Vector3d offset = joint.offset;
+    if (i > 0) offset += chain_.length[i - 1] * joint.direction;
+    place += plane * offset;
+    if (joint.kind == AxisKind::revolute) {
+      if (revolute_ > 0) bodies[revolute_ - 1].reach = place;
+      revolute_joint_[revolute_++] = i;
+      place.setZero();
+    } else {
+      prismatic_joint_[prismatic_++] = i;
+    }
+    if (revolute_ == 0) continue;
+    const LinkInertia<double>& link = chain_.links[i];
+    const Eigen::Vector2d moment = plane * link.first_moment;
+    PlanarBody& body = bodies[revolute_ - 1];
+    body.mass += link.mass;
+    body.first_moment += moment + link.mass * place;
+    body.inertia +=
+        normal.dot(link.inertia * normal) + 2.0 * place.dot(moment) + link.mass * place.squaredNorm();
+  }
+  double carried = 0.0;
+  for (int i = joints_ - 1; i >= 0; --i) {
+    carried += chain_.links[i].mass;
+    carried_mass_[i] = carried;
+    weight_[i] = -sign_[i] * normal.dot(chain_.gravity) * carried;
+  }
+  const Eigen::Vector2d g = plane * chain_.gravity;
+  gravity_in_plane_ = g.norm() > 1e-14 * chain_.gravity.norm();
+  double beyond = 0.0;
+  for (int j = revolute_ - 1; j >= 0; --j) {
+    const Eigen::Vector2d s = bodies[j].first_moment + beyond * bodies[j].reach;
+    diagonal_[j] = bodies[j].inertia + beyond * bodies[j].reach.squaredNorm();
+    gravity_[j] = {g.x() * s.y() - g.y() * s.x(), g.x() * s.x() + g.y() * s.y()};
+    for (int i = 0; i < j; ++i) {
+      const Eigen::Vector2d& d = bodies[i].reach;
+      pairs_[i][j] = {d.dot(s), d.y() * s.x() - d.x() * s.y()};
+    }
+    beyond += bodies[j].mass;
+  }
+}
+
+void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, double* inertia,
+                                           double* bias) const {
+  const int n = joints_;
+  for (int i = 0; i < n * n; ++i) inertia[i] = 0.0;
+  PerJoint<PerJoint<double>> a;  // A_ij
+  PerJoint<double> rate, torque, cosine, sine;
+  double w = 0.0, theta = 0.0;
+  for (int i = 0; i < revolute_; ++i) {
+    const int joint = revolute_joint_[i];
+    w += sign_[joint] * dq[joint];
+    rate[i] = w;
+    torque[i] = 0.0;
+    a[i][i] = diagonal_[i];
+    if (gravity_in_plane_) {
+      theta += sign_[joint] * q[joint];
+      torque[i] = gravity_[i].alpha * std::cos(theta) + gravity_[i].beta * std::sin(theta);
+    }
+    if (i == 0) continue;
+    const double angle = sign_[joint] * q[joint];
+    double c = std::cos(angle), s = std::sin(angle);
+    cosine[i] = c;
+    sine[i] = s;
+    for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
+      const Pair& pair = pairs_[k][i];
+      a[k][i] = pair.alpha * c + pair.beta * s;
+      const double slope = pair.beta * c - pair.alpha * s;
+      torque[k] += slope * rate[i] * rate[i];
+      torque[i] -= slope * rate[k] * rate[k];
+      if (k == 0) break;
+      const double c_next = c * cosine[k] - s * sine[k];
+      s = s * cosine[k] + c * sine[k];
+      c = c_next;
+    }
+  }
+  // From absolute link angles to joints: entry (i, j) collects all bodies at or beyond both.
+  PerJoint<double> column{};  // sum over l >= j of A_kl, for each k
+  double collected = 0.0;
+  for (int j = revolute_ - 1; j >= 0; --j) {
+    const int joint = revolute_joint_[j];
+    collected += torque[j];
+    bias[joint] = sign_[joint] * collected;
+    double sum = 0.0;
+    for (int k = revolute_ - 1; k >= 0; --k) {
+      column[k] += k <= j ? a[k][j] : a[j][k];
+      sum += column[k];
+      if (k > j) continue;
+      const int other = revolute_joint_[k];
+      inertia[joint * n + other] = inertia[other * n + joint] = sign_[joint] * sign_[other] * sum;
+    }
+  }
+  for (int i = 0; i < prismatic_; ++i) {
+    const int joint = prismatic_joint_[i];
+    bias[joint] = weight_[joint];
+    for (int k = 0; k <= i; ++k) {
+      const int other = prismatic_joint_[k];
+      inertia[joint * n + other] = inertia[other * n + joint] =
+          sign_[joint] * sign_[other] * carried_mass_[joint];
+    }
+  }
+  for (int i = 0; i < n; ++i) inertia[i * n + i] += chain_.rotor_inertia[i];
+}
+
+void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
+                                    JointMatrix<double>& inertia, JointVector<double>& bias) const {
+  inertia.resize(joints_, joints_);
+  bias.resize(joints_);
+  if (planar_) {
+    planar_inertia_and_bias(q.data(), dq.data(), inertia.data(), bias.data());
+  } else {
+    inertia = inertia_matrix(chain_, q);
+    bias = bias_torque(chain_, q, dq);
+  }
+}
+
+void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& torque) const {
+  torque.resize(joints_);
+  if (!has_friction_) {
+    torque.setZero();
+    return;
+  }
+  for (int i = 0; i < joints_; ++i) {
+    const Friction<double>& f = chain_.friction[i];
+    torque[i] = f.viscous * dq[i] + f.offset;
+    if (f.coulomb != 0.0) torque[i] += f.coulomb * fast_tanh(dq[i] / f.width);
+  }
+}
+
+void FastDynamics::acceleration(const JointVector<double>& q, const JointVector<double>& dq,
+                                const JointVector<double>& tau, JointVector<double>& ddq,
+                                unsigned locked) const {
+  JointMatrix<double> inertia;
+  JointVector<double> bias, drag;
+  inertia_and_bias(q, dq, inertia, bias);
+  friction(dq, drag);
+  ddq.resize(joints_);
+  for (int i = 0; i < joints_; ++i) ddq[i] = tau[i] - bias[i] - drag[i];
+  solve_small(joints_, inertia.data(), ddq.data(), locked);
+}
+
+void solve_small(int n, double* a, double* b, unsigned fixed) {
+  for (int j = 0; j < n; ++j) {
+    if (fixed >> j & 1u) {
+      for (int i = 0; i < n; ++i) a[i * n + j] = a[j * n + i] = 0.0;
+      a[j * n + j] = 1.0;
+      b[j] = 0.0;
+    }
+  }
+  for (int j = 0; j < n; ++j) {  // forward: unit lower factor in the columns, D on the diagonal
+    const double inverse = 1.0 / a[j * n + j];
+    for (int i = j + 1; i < n; ++i) {
+      const double factor = a[j * n + i] * inverse;
+      if (factor == 0.0) continue;
+      for (int k = i; k < n; ++k) a[i * n + k] -= factor * a[j * n + k];
+      b[i] -= factor * b[j];
+    }
+  }
+  for (int j = n - 1; j >= 0; --j) {
+    double sum = b[j];
+    for (int i = j + 1; i < n; ++i) sum -= a[j * n + i] * b[i];
+    b[j] = sum / a[j * n + j];
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+/// The functions of dynamics.hpp for one chain with fixed parameters, some ten times faster when all its axes
+/// are parallel (every SCARA, a planar arm, a single axis) and the same numbers to 1e-12; any other chain falls
+/// back to the general recursion. Parallel axes split the problem: prismatic joints see only masses, revolute
+/// joints a planar arm, whose kinetic energy in absolute link rates w is 1/2 sum A_ij w_i w_j with
+/// A_ij = alpha_ij cos(theta_j - theta_i) + beta_ij sin(theta_j - theta_i). No heap allocation after
+/// construction; safe to share between threads.
+class FastDynamics {
+ public:
+  explicit FastDynamics(const Chain<double>& chain);
+
+  int joints() const { return joints_; }
+  /// True when the fast path is in use.
+  bool planar() const { return planar_; }
+  const Chain<double>& chain() const { return chain_; }
+
+  /// M(q) and h(q, dq) + G(q).
+  void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
+                        JointMatrix<double>& inertia, JointVector<double>& bias) const;
+  /// F(dq).
+  void friction(const JointVector<double>& dq, JointVector<double>& torque) const;
+  /// ddq = M^-1 (tau - h - G - F). Joints whose bit is set in `locked` (bit 0 the first) do not accelerate.
+  void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
+                    const JointVector<double>& tau, JointVector<double>& ddq, unsigned locked = 0) const;
+
+ private:
+  struct Pair {
+    double alpha = 0.0, beta = 0.0;
+  };
+  template <typename T>
+  using PerJoint = std::array<T, kMaxJoints>;
+
+  void set_up_planar(const Eigen::Vector3d& normal);
+  void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
+
+  Chain<double> chain_;
+  int joints_ = 0;
+  bool planar_ = false;
+  bool has_friction_ = false;
+  bool gravity_in_plane_ = false;
+  int revolute_ = 0;
+  int prismatic_ = 0;
+  PerJoint<int> revolute_joint_{};
+  PerJoint<int> prismatic_joint_{};
+  PerJoint<double> sign_{};           ///< of each joint's axis along the common normal
+  PerJoint<double> diagonal_{};       ///< A_ii of each revolute body
+  PerJoint<PerJoint<Pair>> pairs_{};  ///< A_ij, i < j
+  PerJoint<Pair> gravity_{};  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
+  PerJoint<double> carried_mass_{};  ///< of the joint's link and all beyond
+  PerJoint<double> weight_{};        ///< gravity force on a prismatic joint
+};
+
+/// Solves a x = b for a symmetric positive definite n x n matrix (column-major, destroyed) by LDL^T; x over
+/// b. A row whose bit is set in `fixed` is left out, and its x is 0.
+void solve_small(int n, double* a, double* b, unsigned fixed = 0);
+
+}  // namespace faultline
