@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "lib/neural/rbfn.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/neural/kernels.hpp"
+#include "lib/neural/mlp.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Activation of every unit, units x samples.
+MatrixXd activations(const MatrixXd& centres, const MatrixXd& inverse_radii,
+                     const Eigen::Ref<const MatrixXd>& inputs) {
+  MatrixXd out(centres.cols(), inputs.cols());
+  std::vector<double> in(centres.rows() * kLanes), sums(centres.cols() * kLanes);
+  for (Index first = 0; first < inputs.cols(); first += kLanes) {
+    const int samples = static_cast<int>(std::min<Index>(kLanes, inputs.cols() - first));
+    for (int lane = 0; lane < kLanes; ++lane)
+      for (Index i = 0; i < inputs.rows(); ++i)
+        in[i * kLanes + lane] = inputs(i, first + (lane < samples ? lane : 0));
+    squared_distances_lanes(centres, inverse_radii, in.data(), sums.data());
+    for (int lane = 0; lane < samples; ++lane)
+      for (Index u = 0; u < out.rows(); ++u) out(u, first + lane) = 1.0 / (1.0 + sums[u * kLanes + lane]);
+  }
+  return out;
+}
+
+struct Units {
+  MatrixXd centres;
+  MatrixXd spread;  // inputs x units
+};
+
+/// Mean square distance of patterns to a node, counting the patterns of nodes within one grid step.
+VectorXd local_variance(const SelfOrganisingMap& map, const std::vector<int>& nearest, const MatrixXd& inputs,
+                        int node) {
+  VectorXd sum = VectorXd::Zero(inputs.rows());
+  int count = 0;
+  for (Index n = 0; n < inputs.cols(); ++n) {
+    if (map.grid_distance2(node, nearest[n]) > 1.0) continue;
+    sum += (inputs.col(n) - map.nodes.col(node)).cwiseAbs2();
+    ++count;
+  }
+  return sum / std::max(count, 1);
+}
+
+VectorXd global_variance(const SelfOrganisingMap& map, const std::vector<int>& nearest,
+                         const MatrixXd& inputs) {
+  VectorXd sum = VectorXd::Zero(inputs.rows());
+  for (Index n = 0; n < inputs.cols(); ++n) sum += (inputs.col(n) - map.nodes.col(nearest[n])).cwiseAbs2();
+  return sum / static_cast<double>(inputs.cols());
+}
+
+/// Least spread an input may have: a share of its deviation over all patterns, never zero.
+VectorXd spread_floor(const MatrixXd& inputs, double share) {
+  const VectorXd mean = inputs.rowwise().mean();
+  const VectorXd deviation = (inputs.colwise() - mean).array().square().rowwise().mean().sqrt().matrix();
+  return (share * deviation).cwiseMax(1e-9).cwiseMax(1e-9 * mean.cwiseAbs());
+}
+
+Units place_units(const MatrixXd& inputs, const RbfnOptions& options) {
+  const SelfOrganisingMap map = train_som(inputs, options.map);
+  std::vector<int> nearest(inputs.cols());
+  std::vector<char> used(map.count(), 0);
+  for (Index n = 0; n < inputs.cols(); ++n) used[nearest[n] = nearest_node(map, inputs.col(n))] = 1;
+  std::vector<int> kept;
+  for (int node = 0; node < map.count(); ++node)
+    if (used[node]) kept.push_back(node);
+  const VectorXd least = spread_floor(inputs, options.least_radius);
+  const VectorXd global = global_variance(map, nearest, inputs);
+  Units units{map.nodes(Eigen::all, kept), MatrixXd(inputs.rows(), kept.size())};
+  for (std::size_t u = 0; u < kept.size(); ++u) {
+    const VectorXd variance =
+        options.radius == RadiusKind::global ? global : local_variance(map, nearest, inputs, kept[u]);
+    units.spread.col(u) = variance.cwiseSqrt().cwiseMax(least);
+  }
+  return units;
+}
+
+/// Ridge regression of the targets on the units for every penalty at once, by the eigenvalues of the units'
+/// Gram matrix; the bias is not penalised.
+class RidgeFit {
+ public:
+  RidgeFit(const MatrixXd& units, const MatrixXd& targets)
+      : unit_mean_(units.rowwise().mean()), target_mean_(targets.rowwise().mean()), patterns_(units.cols()) {
+    const MatrixXd centred = units.colwise() - unit_mean_, wanted = targets.colwise() - target_mean_;
+    MatrixXd gram = MatrixXd::Zero(units.rows(), units.rows());
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(centred);
+    solver_.compute(gram);
+    power_ = solver_.eigenvalues().cwiseMax(0.0);
+    projected_ = solver_.eigenvectors().transpose() * (centred * wanted.transpose());
+    total_ = wanted.squaredNorm();
+    outputs_ = static_cast<double>(targets.rows());
+  }
+
+  double penalty(double share) const { return std::max(share * power_.mean(), 1e-300); }
+
+  double effective_weights(double penalty) const {
+    return 1.0 + (power_.array() / (power_.array() + penalty)).sum();
+  }
+
+  /// Golub, Heath and Wahba's estimate of the mean squared error on new patterns.
+  double generalised_error(double penalty) const {
+    const auto shrink = (power_.array() + 2.0 * penalty) / (power_.array() + penalty).square();
+    const double rest = std::max(total_ - (projected_.rowwise().squaredNorm().array() * shrink).sum(), 0.0);
+    const double n = static_cast<double>(patterns_), free = n - effective_weights(penalty);
+    if (free <= 0.5) return std::numeric_limits<double>::infinity();
+    return rest * n / (free * free) / outputs_;
+  }
+
+  void weights(double penalty, Rbfn& rbfn) const {
+    const MatrixXd scaled = (projected_.array().colwise() / (power_.array() + penalty)).matrix();
+    rbfn.weights = (solver_.eigenvectors() * scaled).transpose();
+    rbfn.bias = target_mean_ - rbfn.weights * unit_mean_;
+  }
+
+ private:
+  VectorXd unit_mean_, target_mean_;
+  Index patterns_;
+  Eigen::SelfAdjointEigenSolver<MatrixXd> solver_;
+  VectorXd power_;
+  MatrixXd projected_;
+  double total_ = 0.0, outputs_ = 1.0;
+};
+
+}  // namespace
+
+MatrixXd forward(const Rbfn& rbfn, const Eigen::Ref<const MatrixXd>& inputs) {
+  const Mlp readout{{{rbfn.weights, rbfn.bias}}, OutputKind::linear};
+  return forward(readout, activations(rbfn.centres, rbfn.inverse_radii, inputs));
+}
+
+double mean_squared_error(const Rbfn& rbfn, const Patterns& patterns) {
+  return (forward(rbfn, patterns.inputs) - patterns.targets).squaredNorm() /
+         static_cast<double>(std::max<Index>(patterns.targets.size(), 1));
+}
+
+TrainedRbfn train_rbfn(const Patterns& patterns, const RbfnOptions& options) {
+  check_patterns(patterns, -1, -1, "training patterns of the RBFN");
+  if (options.widths.empty() || options.ridges.empty())
+    throw Error(ErrorCode::usage, "RBFN", "widths and ridges need at least one value each");
+  const Units units = place_units(patterns.inputs, options);
+  TrainedRbfn best;
+  best.rbfn.centres = units.centres;
+  best.summary.units = static_cast<int>(units.centres.cols());
+  best.summary.generalised_error = std::numeric_limits<double>::infinity();
+  for (double width : options.widths) {
+    const MatrixXd inverse_radii =
+        (units.spread * (width * std::sqrt(static_cast<double>(patterns.inputs.rows())))).cwiseInverse();
+    const RidgeFit fit(activations(units.centres, inverse_radii, patterns.inputs), patterns.targets);
+    for (double ridge : options.ridges) {
+      const double penalty = fit.penalty(ridge), error = fit.generalised_error(penalty);
+      if (!(error < best.summary.generalised_error) && best.rbfn.weights.size() > 0) continue;
+      best.summary.width = width;
+      best.summary.ridge = ridge;
+      best.summary.generalised_error = error;
+      best.summary.effective_weights = fit.effective_weights(penalty);
+      best.rbfn.inverse_radii = inverse_radii;
+      fit.weights(penalty, best.rbfn);
+    }
+  }
+  best.summary.training_mse = mean_squared_error(best.rbfn, patterns);
+  return best;
+}
+
+}  // namespace faultline

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "lib/neural/kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace faultline {
+namespace {
+
+double tanh_by_kernel(double x) {
+  std::vector<double> block(kLanes, 0.3);
+  block[5] = x;
+  tanh_in_place(block.data(), kLanes);
+  return block[5];
+}
+
+TEST(NeuralKernels, TanhAgreesWithTheLibraryEverywhere) {
+  double worst = 0.0;
+  for (int i = -60000; i <= 60000; ++i) {
+    const double x = i * 3.7e-4, expected = std::tanh(x);
+    if (x != 0.0) worst = std::max(worst, std::fabs(tanh_by_kernel(x) - expected) / std::fabs(expected));
+  }
+  for (double x = 1e-300; x < 1.0; x *= 1.7)
+    worst = std::max(worst, std::fabs(tanh_by_kernel(x) - std::tanh(x)) / std::tanh(x));
+  EXPECT_LT(worst, 1e-14);
+}
+
+TEST(NeuralKernels, TanhKeepsSignsLimitsAndNaN) {
+  EXPECT_EQ(tanh_by_kernel(0.0), 0.0);
+  EXPECT_TRUE(std::signbit(tanh_by_kernel(-0.0)));
+  EXPECT_EQ(tanh_by_kernel(1e300), 1.0);
+  EXPECT_EQ(tanh_by_kernel(-std::numeric_limits<double>::infinity()), -1.0);
+  EXPECT_TRUE(std::isnan(tanh_by_kernel(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(NeuralKernels, AffineLanesIsAMatrixProduct) {
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(7, 5), in = Eigen::MatrixXd::Random(5, kLanes);
+  const Eigen::VectorXd bias = Eigen::VectorXd::Random(7);
+  std::vector<double> lanes(5 * kLanes), out(7 * kLanes);
+  for (int i = 0; i < 5; ++i)
+    for (int lane = 0; lane < kLanes; ++lane) lanes[i * kLanes + lane] = in(i, lane);
+  affine_lanes(weights, bias, lanes.data(), out.data());
+  const Eigen::MatrixXd expected = (weights * in).colwise() + bias;
+  for (int o = 0; o < 7; ++o)
+    for (int lane = 0; lane < kLanes; ++lane) EXPECT_NEAR(out[o * kLanes + lane], expected(o, lane), 1e-14);
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "lib/neural/training.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lib/core/error.hpp"
+#include "lib/core/random.hpp"
+#include "lib/neural/normal_equations.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Two smooth functions of two inputs.
+Patterns surface(int count, std::uint64_t seed, double noise = 0.0) {
+  Random random(seed);
+  Patterns patterns{MatrixXd(2, count), MatrixXd(2, count)};
+  for (int n = 0; n < count; ++n) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    patterns.inputs.col(n) << x, y;
+    patterns.targets.col(n) << std::sin(2 * x) * y + noise * random.normal(),
+        std::exp(-x * x - y) + noise * random.normal();
+  }
+  return patterns;
+}
+
+/// Three classes in the plane: inside a circle, and left or right of it.
+Patterns classes(int count, std::uint64_t seed) {
+  Random random(seed);
+  Patterns patterns{MatrixXd(2, count), MatrixXd::Zero(3, count)};
+  for (int n = 0; n < count; ++n) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    patterns.inputs.col(n) << x, y;
+    patterns.targets(x * x + y * y < 0.4 ? 0 : x < 0 ? 1 : 2, n) = 1.0;
+  }
+  return patterns;
+}
+
+double share_right(const Mlp& mlp, const Patterns& patterns) {
+  const MatrixXd outputs = forward(mlp, patterns.inputs);
+  int right = 0;
+  for (int n = 0; n < patterns.count(); ++n) {
+    int said = 0, true_class = 0;
+    outputs.col(n).maxCoeff(&said);
+    patterns.targets.col(n).maxCoeff(&true_class);
+    right += said == true_class;
+  }
+  return static_cast<double>(right) / patterns.count();
+}
+
+TEST(NormalEquations, FastPathEqualsDenseJacobians) {
+  const Mlp mlp = make_mlp({4, 5, 3}, OutputKind::linear, 9);
+  const MatrixXd inputs = MatrixXd::Random(4, 700);
+  const MatrixXd fast = gauss_newton_matrix(mlp, inputs), dense = dense_gauss_newton_matrix(mlp, inputs);
+  EXPECT_LT((fast - dense).triangularView<Eigen::Lower>().toDenseMatrix().norm(), 1e-12 * dense.norm());
+}
+
+TEST(NormalEquations, AreTheHessianWhereTheFitIsPerfect) {
+  for (OutputKind output : {OutputKind::linear, OutputKind::logistic, OutputKind::softmax}) {
+    Mlp mlp = make_mlp({2, 3, 3}, output, 4);
+    const MatrixXd inputs = MatrixXd::Random(2, 8), targets = forward(mlp, inputs);
+    const MatrixXd normal = dense_gauss_newton_matrix(mlp, inputs);
+    const Eigen::VectorXd at = parameters_of(mlp);
+    for (int p = 0; p < mlp.parameters(); ++p) {
+      Eigen::VectorXd there = at;
+      there[p] += 1e-6;
+      set_parameters(mlp, there);
+      const Eigen::VectorXd column = loss_gradient(mlp, inputs, targets).gradient / 1e-6;
+      for (int row = p; row < mlp.parameters(); ++row)
+        EXPECT_NEAR(normal(row, p), column[row], 2e-6) << to_string(output);
+    }
+  }
+}
+
+TEST(LevenbergMarquardt, FitsASmoothSurfaceClosely) {
+  const auto trained = train_levenberg_marquardt(make_mlp({2, 12, 2}), surface(400, 1), surface(200, 2),
+                                                 {.stop = {.max_iterations = 80}});
+  EXPECT_LT(mean_squared_error(trained.mlp, surface(500, 3)), 1e-5) << trained.summary.text();
+  EXPECT_LT(trained.summary.training_mse, 0.01 * trained.summary.initial_mse);
+}
+
+TEST(LevenbergMarquardt, TrainsDeepNetworksAndClassifiers) {
+  const auto deep = train_levenberg_marquardt(make_mlp({2, 6, 5, 2}), surface(300, 1), {}, {});
+  EXPECT_LT(deep.summary.training_mse, 1e-5) << deep.summary.text();
+  const auto classifier =
+      train_levenberg_marquardt(make_mlp({2, 8, 3}, OutputKind::softmax), classes(400, 1), classes(200, 2),
+                                {.stop = {.max_iterations = 60}, .weight_decay = 1e-4});
+  EXPECT_GT(share_right(classifier.mlp, classes(500, 3)), 0.95) << classifier.summary.text();
+}
+
+TEST(BackPropagation, FitsTheSurfaceAndIsRepeatable) {
+  const BackPropagationOptions options{.stop = {.max_iterations = 200}};
+  const auto one = train_back_propagation(make_mlp({2, 12, 2}), surface(400, 1), {}, options);
+  const auto two = train_back_propagation(make_mlp({2, 12, 2}), surface(400, 1), {}, options);
+  EXPECT_LT(mean_squared_error(one.mlp, surface(500, 3)), 2e-3) << one.summary.text();
+  EXPECT_TRUE(parameters_of(one.mlp) == parameters_of(two.mlp));
+}
+
+TEST(QuasiNewton, ClassifiesAndFallsEveryIteration) {
+  const auto trained =
+      train_quasi_newton(make_mlp({2, 10, 3}, OutputKind::softmax), classes(800, 1), classes(300, 2));
+  EXPECT_GT(share_right(trained.mlp, classes(500, 3)), 0.95) << trained.summary.text();
+  for (std::size_t i = 1; i < trained.summary.loss.size(); ++i)
+    EXPECT_LE(trained.summary.loss[i], trained.summary.loss[i - 1]);
+}
+
+TEST(Training, StopsForTheReasonItNames) {
+  const Patterns clean = surface(200, 1);
+  const auto target =
+      train_levenberg_marquardt(make_mlp({2, 8, 2}), clean, {}, {.stop = {.target_mse = 1e-3}});
+  EXPECT_EQ(target.summary.stop, TrainingStop::target_reached);
+  EXPECT_LE(target.summary.training_mse, 1e-3);
+  const auto limit =
+      train_levenberg_marquardt(make_mlp({2, 8, 2}), clean, {}, {.stop = {.max_iterations = 2}});
+  EXPECT_EQ(limit.summary.stop, TrainingStop::iteration_limit);
+  EXPECT_EQ(limit.summary.iterations, 2);
+  EXPECT_TRUE(std::isnan(limit.summary.validation_mse));
+  EXPECT_EQ(TrainingSummary{}.stop, TrainingStop::not_run);
+}
+
+TEST(Training, ValidationKeepsTheBestWeights) {  // 25 noisy patterns cannot hold 12 hidden units
+  const Patterns few = surface(25, 1, 0.3), validation = surface(300, 2);
+  const auto free_run =
+      train_levenberg_marquardt(make_mlp({2, 12, 2}), few, {}, {.stop = {.max_iterations = 60}});
+  const auto watched = train_levenberg_marquardt(make_mlp({2, 12, 2}), few, validation,
+                                                 {.stop = {.max_iterations = 60, .patience = 8}});
+  EXPECT_EQ(watched.summary.stop, TrainingStop::validation_rose) << watched.summary.text();
+  EXPECT_LT(watched.summary.best_iteration, watched.summary.iterations);
+  EXPECT_DOUBLE_EQ(watched.summary.validation_mse, mean_squared_error(watched.mlp, validation));
+  EXPECT_LT(watched.summary.validation_mse, 0.5 * mean_squared_error(free_run.mlp, validation));
+}
+
+TEST(Training, RefusesBadPatterns) {
+  Patterns bad = surface(20, 1);
+  bad.inputs(0, 7) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(train_quasi_newton(make_mlp({2, 4, 2}), bad, {}), Error);
+  EXPECT_THROW(train_quasi_newton(make_mlp({3, 4, 2}), surface(20, 1), {}), Error);
+  EXPECT_THROW(train_quasi_newton(make_mlp({2, 4, 2}), {}, {}), Error);
+}
+
+TEST(Patterns, SplitKeepsEveryPatternOnce) {
+  const Patterns all = surface(101, 1);
+  const PatternSplit split = split_patterns(all, 0.25, 3);
+  EXPECT_EQ(split.validation.count(), 25);
+  EXPECT_EQ(split.training.count(), 76);
+  EXPECT_NEAR(split.training.inputs.sum() + split.validation.inputs.sum(), all.inputs.sum(), 1e-12);
+}
+
+}  // namespace
+}  // namespace faultline
