@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,17 @@ namespace faultline {
 struct CaseOpinion {
   FaultLabel label;
   double confidence = 0.0;  ///< 0 to 1
+
+  bool operator==(const CaseOpinion&) const = default;
 };
 
 /// What is known of an episode before it is decided: the query of case-based reasoning.
 struct Episode {
-  std::vector<double> features;  ///< scaled numbers with the meaning of CaseBase::feature_names()
+  std::vector<double> features;  ///< with the meaning of CaseBase::feature_names(); NaN = not measured
   CaseOpinion mlp;
   CaseOpinion rbfn;
+  /// Log likelihood of the best fault hypothesis over the healthy one; NaN when it was not computed.
+  double evidence = std::numeric_limits<double>::quiet_NaN();
 };
 
 enum class CaseOutcome {
@@ -27,12 +32,16 @@ enum class CaseOutcome {
   confirmed,    ///< a person or the truth of a simulation says it was
   rejected,     ///< a person says it was not; `label` then holds what it was, if known
 };
+const char* to_string(CaseOutcome outcome);
+/// Throws Error(usage) that lists the names when `name` is none of them.
+CaseOutcome case_outcome_from(const std::string& name);
 
 /// An episode with its decision and what came of it.
 struct Case {
-  std::int64_t id = 0;  ///< given by the case base
+  std::int64_t id = 0;  ///< given by the case base, from 1
   Episode episode;
-  FaultLabel label;  ///< the decision, or the truth once confirmed
+  FaultLabel decision;  ///< what was decided when the episode was seen
+  FaultLabel label;     ///< what it was as far as is known: the decision until a person says otherwise
   CaseOutcome outcome = CaseOutcome::unconfirmed;
   std::string what_was_done;  ///< by the technician
   std::string origin;         ///< "simulated", a log's name, an import

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/cases/metric.hpp"
+
+namespace faultline {
+
+/// The cases of one robot in memory, and how they are compared. Ids are unique and ascending, every case has
+/// one number a feature (finite or NaN), and texts are UTF-8: the base refuses or mends what is not.
+class CaseBase {
+ public:
+  CaseBase() = default;
+  /// All features start with scale 1 and weight 1 until learn() is called. Throws Error(input) when a name is
+  /// empty or given twice.
+  explicit CaseBase(const std::vector<std::string>& feature_names);
+  /// A base as a file held it; checks all that the class promises. Throws Error(input).
+  CaseBase(Metric metric, std::vector<Case> cases);
+
+  std::vector<std::string> feature_names() const;
+  const Metric& metric() const { return metric_; }
+  const std::vector<Case>& cases() const { return cases_; }
+  /// Throws Error(usage) when there is no such case.
+  const Case& at(std::int64_t id) const;
+
+  /// Retain: adds an episode and gives its id. `c.id` is ignored. Throws Error(input) when the features are
+  /// not those of the base or are infinite.
+  std::int64_t retain(Case c);
+  /// Revise: the decision was right, or was `label`. An empty `what_was_done` keeps the old one.
+  void confirm(std::int64_t id, std::optional<FaultLabel> label = {}, const std::string& what_was_done = "");
+  /// Revise: the decision was wrong; `was` is what it was, if known.
+  void reject(std::int64_t id, std::optional<FaultLabel> was = {}, const std::string& what_was_done = "");
+  /// Scales and weights from the cases whose fault is known (learn_metric).
+  void learn();
+
+  /// Of the metric and all cases, the same on every machine, whatever file or export they came from.
+  std::string sha256() const;
+
+ private:
+  Case& find(std::int64_t id);
+  void check(const Case& c) const;
+
+  Metric metric_;
+  std::vector<Case> cases_;
+};
+
+}  // namespace faultline

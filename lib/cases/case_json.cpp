@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "lib/cases/case_json.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "faultline/cases/1";
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+double number_from(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json label_json(const FaultLabel& label) { return {{"kind", to_string(label.kind)}, {"joint", label.joint}}; }
+
+FaultLabel label_from(const Json& json) {
+  return {fault_kind_from(json.at("kind").get<std::string>()), json.at("joint").get<int>()};
+}
+
+Json opinion_json(const CaseOpinion& opinion) {
+  Json json = label_json(opinion.label);
+  json["confidence"] = number(opinion.confidence);
+  return json;
+}
+
+CaseOpinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
+
+Json feature_values(const CaseBase& base, const Case& c) {
+  Json values = Json::object();
+  for (std::size_t i = 0; i < c.episode.features.size(); ++i)
+    values[base.metric().features[i].name] = number(c.episode.features[i]);
+  return values;
+}
+
+std::vector<double> features_from(const Json& json, const std::vector<Feature>& features) {
+  if (json.size() != features.size())
+    throw Error(
+        ErrorCode::input, "features",
+        std::to_string(json.size()) + " values, " + std::to_string(features.size()) + " were expected");
+  std::vector<double> values;
+  for (const Feature& f : features) values.push_back(number_from(json.at(f.name)));
+  return values;
+}
+
+Case case_from(const Json& json, const std::vector<Feature>& features) {
+  Case c;
+  c.id = json.at("id").get<std::int64_t>();
+  c.label = label_from(json.at("label"));
+  c.decision = label_from(json.at("decision"));
+  c.outcome = case_outcome_from(json.at("outcome").get<std::string>());
+  c.what_was_done = json.at("what_was_done").get<std::string>();
+  c.origin = json.at("origin").get<std::string>();
+  c.episode.mlp = opinion_from(json.at("opinions").at("mlp"));
+  c.episode.rbfn = opinion_from(json.at("opinions").at("rbfn"));
+  c.episode.evidence = number_from(json.at("evidence"));
+  c.episode.features = features_from(json.at("features"), features);
+  return c;
+}
+
+Metric metric_from(const Json& json) {
+  Metric metric;
+  metric.near_similarity = json.at("near_similarity").get<double>();
+  for (const Json& f : json.at("features"))
+    metric.features.push_back(
+        {f.at("name").get<std::string>(), f.at("scale").get<double>(), f.at("weight").get<double>()});
+  return metric;
+}
+
+void check_schema(const Json& json) {
+  const std::string schema = json.is_object() ? json.value("schema", "") : "";
+  if (schema != kSchema)
+    throw Error(ErrorCode::input, "schema",
+                "is \"" + schema + "\", \"" + kSchema + "\" was expected; is this an export of a case base?");
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
+  return {{"id", c.id},
+          {"label", label_json(c.label)},
+          {"decision", label_json(c.decision)},
+          {"outcome", to_string(c.outcome)},
+          {"what_was_done", c.what_was_done},
+          {"origin", c.origin},
+          {"opinions", {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}}},
+          {"evidence", number(c.episode.evidence)},
+          {"features", feature_values(base, c)}};
+}
+
+std::string to_cases_json(const CaseBase& base) {
+  Json json = {{"schema", kSchema}, {"near_similarity", number(base.metric().near_similarity)}};
+  json["features"] = Json::array();
+  for (const Feature& f : base.metric().features)
+    json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});
+  json["cases"] = Json::array();
+  for (const Case& c : base.cases()) json["cases"].push_back(to_json(base, c));
+  return json.dump(1) + "\n";
+}
+
+CaseBase from_cases_json(const std::string& text, const std::string& where) try {
+  const Json json = Json::parse(text);
+  check_schema(json);
+  Metric metric = metric_from(json);
+  std::vector<Case> cases;
+  for (const Json& c : json.at("cases")) cases.push_back(case_from(c, metric.features));
+  return CaseBase(std::move(metric), std::move(cases));
+} catch (const nlohmann::json::exception& error) {
+  throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
+} catch (const Error& error) {
+  throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
+}
+
+}  // namespace faultline

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace faultline {
+
+enum class SqliteMode { read_only, change, create };
+
+/// An open SQLite file; every failure throws Error(input), or Error(output) where writing failed, with the
+/// file's name and SQLite's reason in words.
+class SqliteFile {
+ public:
+  SqliteFile(std::string path, SqliteMode mode);
+  ~SqliteFile();
+  SqliteFile(const SqliteFile&) = delete;
+  SqliteFile& operator=(const SqliteFile&) = delete;
+
+  void run(const char* sql);
+  std::int64_t number(const char* sql);
+  std::string text(const char* sql);
+
+ private:
+  friend class SqliteStatement;
+  [[noreturn]] void fail(int code) const;
+
+  std::string path_;
+  sqlite3* db_ = nullptr;
+};
+
+/// A prepared statement; parameters and columns count from 0 and go left to right.
+class SqliteStatement {
+ public:
+  SqliteStatement(SqliteFile& file, const char* sql);
+  ~SqliteStatement();
+  SqliteStatement(const SqliteStatement&) = delete;
+  SqliteStatement& operator=(const SqliteStatement&) = delete;
+
+  SqliteStatement& bind(std::int64_t value);
+  SqliteStatement& bind(double value);  ///< NaN becomes NULL
+  SqliteStatement& bind(const std::string& text);
+  SqliteStatement& bind_blob(std::string_view bytes);
+  /// True when there is a row; after the last one the statement is ready to be bound again.
+  bool step();
+  std::int64_t integer(int column) const;
+  double real(int column) const;  ///< NULL becomes NaN
+  std::string text(int column) const;
+  std::string blob(int column) const;
+
+ private:
+  void check(int code) const;
+
+  SqliteFile& file_;
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+};
+
+}  // namespace faultline

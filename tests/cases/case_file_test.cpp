@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "lib/cases/case_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "lib/cases/case_json.hpp"
+#include "lib/cases/sqlite.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "tests/cases/example_base.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+std::string refusal(const std::string& path) {
+  try {
+    read_case_base(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::input);
+    EXPECT_EQ(error.where(), path);
+    return error.message();
+  }
+  return "it was read";
+}
+
+CaseBase awkward_base() {
+  CaseBase base = example_base(3);
+  Case c = base.at(1);
+  c.episode.features = {std::numeric_limits<double>::quiet_NaN(), -0.0,
+                        std::numeric_limits<double>::denorm_min()};
+  c.episode.evidence = std::numeric_limits<double>::quiet_NaN();
+  c.what_was_done = std::string("quote ' \" and \n line, caf\xc3\xa9") + std::string("\0 after NUL", 11);
+  c.outcome = CaseOutcome::rejected;
+  base.retain(c);
+  return base;
+}
+
+class CaseFile : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string path_ = folder_.file("robot.cases.db");
+};
+
+TEST_F(CaseFile, RoundTripKeepsTheContent) {
+  const CaseBase base = awkward_base();
+  write_case_base(path_, base);
+  const CaseBase read = read_case_base(path_);
+  EXPECT_EQ(read.sha256(), base.sha256());
+  EXPECT_EQ(read.cases().back().what_was_done, base.cases().back().what_was_done);
+  EXPECT_EQ(read.feature_names(), base.feature_names());
+}
+
+TEST_F(CaseFile, ExportAndImportLoseNothing) {
+  const CaseBase base = awkward_base();
+  const std::string text = to_cases_json(base);
+  const CaseBase read = from_cases_json(text, "export.json");
+  EXPECT_EQ(read.sha256(), base.sha256());
+  EXPECT_EQ(to_cases_json(read), text);
+}
+
+TEST_F(CaseFile, AnEmptyBaseIsABase) {
+  write_case_base(path_, CaseBase({"a"}));
+  EXPECT_TRUE(read_case_base(path_).cases().empty());
+}
+
+TEST_F(CaseFile, IsOneFile) {
+  write_case_base(path_, example_base());
+  change_case_base(path_, [](CaseBase& base) { base.confirm(1); });
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_.path())) ++files;
+  EXPECT_EQ(files, 1);
+}
+
+TEST_F(CaseFile, ReadingChangesNothing) {
+  write_case_base(path_, example_base());
+  ::chmod(path_.c_str(), 0444);
+  const std::string before = read_file(path_);
+  const auto time = std::filesystem::last_write_time(path_);
+  read_case_base(path_);
+  EXPECT_EQ(read_file(path_), before);
+  EXPECT_EQ(std::filesystem::last_write_time(path_), time);
+}
+
+TEST_F(CaseFile, SameBaseSameBytes) {
+  write_case_base(path_, example_base());
+  write_case_base(folder_.file("again.db"), example_base());
+  EXPECT_EQ(read_file(path_), read_file(folder_.file("again.db")));
+}
+
+TEST_F(CaseFile, ChangesAreKept) {
+  write_case_base(path_, example_base());
+  change_case_base(path_, [](CaseBase& base) { base.confirm(2, kBias, "changed the encoder"); });
+  EXPECT_EQ(read_case_base(path_).at(2).label, kBias);
+  EXPECT_EQ(read_case_base(path_).at(2).what_was_done, "changed the encoder");
+}
+
+TEST_F(CaseFile, AChangeThatFailsChangesNothing) {
+  write_case_base(path_, example_base());
+  const std::string before = read_file(path_);
+  const auto half = [](CaseBase& base) {
+    base.confirm(1, kBias);
+    base.confirm(100000);
+  };
+  EXPECT_THROW(change_case_base(path_, half), Error);
+  EXPECT_EQ(read_file(path_), before);
+}
+
+TEST_F(CaseFile, MissingFile) { EXPECT_NE(refusal(path_).find("no such case base"), std::string::npos); }
+
+TEST_F(CaseFile, Directory) {
+  EXPECT_NE(refusal(folder_.path().string()).find("directory"), std::string::npos);
+}
+
+TEST_F(CaseFile, EmptyFile) {
+  write_file(path_, "");
+  EXPECT_NE(refusal(path_).find("is empty"), std::string::npos);
+}
+
+TEST_F(CaseFile, TextFile) {
+  write_file(path_, std::string(5000, 'x'));
+  EXPECT_NE(refusal(path_).find("no SQLite file"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, TruncatedAnywhere) {
+  write_case_base(path_, example_base(200));
+  const std::string whole = read_file(path_);
+  ASSERT_GT(whole.size(), 20000u);
+  for (std::size_t size = 50; size < whole.size(); size += 3777) {
+    write_file(path_, whole.substr(0, size));
+    EXPECT_NE(refusal(path_), "it was read") << size;
+  }
+}
+
+TEST_F(CaseFile, OverwrittenInside) {
+  write_case_base(path_, example_base(200));
+  std::string bytes = read_file(path_);
+  for (std::size_t i = 4096; i < bytes.size(); i += 7) bytes[i] = '\x5a';
+  write_file(path_, bytes);
+  EXPECT_NE(refusal(path_).find("damaged"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, NewerSchema) {
+  write_case_base(path_, example_base());
+  SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 2");
+  EXPECT_NE(refusal(path_).find("newer faultline"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, SqliteFileOfAnotherProgram) {
+  SqliteFile(path_, SqliteMode::create).run("CREATE TABLE t(x)");
+  EXPECT_NE(refusal(path_).find("another program"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, LostRows) {
+  write_case_base(path_, example_base());
+  SqliteFile(path_, SqliteMode::change).run("DELETE FROM fault_case WHERE id = 5");
+  EXPECT_NE(refusal(path_).find("incomplete"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, ForeignWords) {
+  write_case_base(path_, example_base());
+  SqliteFile(path_, SqliteMode::change).run("UPDATE fault_case SET kind = 'rust' WHERE id = 5");
+  EXPECT_NE(refusal(path_).find("rust"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(CaseFile, AFolderThatIsMissingLeavesNothing) {
+  try {
+    write_case_base(folder_.file("no/such/robot.cases.db"), example_base());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::output);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(CaseFile, ImportsThatAreNone) {
+  EXPECT_THROW(from_cases_json("", "x"), Error);
+  EXPECT_THROW(from_cases_json("{\"schema\": \"other/1\"}", "x"), Error);
+  EXPECT_THROW(from_cases_json("{\"schema\": \"faultline/cases/1\"}", "x"), Error);
+  std::string text = to_cases_json(example_base(1));
+  text.replace(text.find("\"outcome\": \"confirmed\""), 22, "\"outcome\": \"maybe\"");
+  EXPECT_THROW(from_cases_json(text, "x"), Error);
+}
+
+}  // namespace
+}  // namespace faultline
