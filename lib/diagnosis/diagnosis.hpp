@@ -55,9 +55,10 @@ struct FaultFinding {
   int id = 0;  ///< from 1, in the order of onset
   FaultLabel label;
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< estimated start of the fault
-  double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
-  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last sample that shows it
-  double confidence = 0.0;                                    ///< 0 to 1
+  double alarm_s =
+      std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
+  double end_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that shows it
+  double confidence = 0.0;                                  ///< 0 to 1
   Opinion mlp;
   Opinion rbfn;
   DecidedBy decided_by = DecidedBy::evidence;
@@ -104,7 +105,8 @@ struct Diagnosis {
   std::string verdict_reason;
   std::vector<ResidualSummary> residuals;  ///< a joint each
   std::vector<FaultFinding> faults;        ///< by onset
-  std::vector<std::string> cannot_see;     ///< what this log and model cannot show (torque meaning, missing channels)
+  std::vector<std::string>
+      cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };
 
 }  // namespace faultline

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "lib/core/utf8.hpp"
+#include "lib/diagnosis/fault_words.hpp"
+
+namespace faultline {
+namespace {
+
+/// XML 1.0 text: the five marks escaped, control characters that XML cannot hold replaced.
+std::string xml(const std::string& text) {
+  std::string escaped;
+  for (const char c : valid_utf8(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&apos;";
+        break;
+      case '\n':
+        escaped += "&#10;";
+        break;
+      case '\t':
+        escaped += "&#9;";
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    }
+  }
+  return escaped;
+}
+
+std::string seconds(double time_s) {
+  return std::isfinite(time_s) ? fmt::format("{:.3f} s", time_s) : "unknown time";
+}
+
+std::string failure(const FaultFinding& fault) {
+  return fmt::format(
+      "      <failure type=\"{}\" message=\"{}\">onset {}, alarm {}, end {}, confidence {:.2f}. "
+      "{}</failure>\n",
+      to_string(fault.label.kind), xml(plain_words(fault.label)), seconds(fault.onset_s),
+      seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence, xml(fault.next_check));
+}
+
+struct TestCase {
+  std::string name;
+  std::string body;  ///< empty = passed
+};
+
+std::vector<TestCase> test_cases(const Diagnosis& diagnosis) {
+  std::vector<TestCase> cases = {{"robot", ""}};
+  for (int joint = 1; joint <= diagnosis.log.joints; ++joint)
+    cases.push_back({fmt::format("joint {}", joint), ""});
+  for (const FaultFinding& fault : diagnosis.faults) {
+    const bool has_case = fault.label.joint > 0 && fault.label.joint < std::ssize(cases);
+    cases[has_case ? fault.label.joint : 0].body += failure(fault);
+  }
+  if (diagnosis.faults.empty() && diagnosis.verdict != Verdict::healthy)
+    cases[0].body += fmt::format("      <skipped message=\"{}\"/>\n", xml(diagnosis.verdict_reason));
+  return cases;
+}
+
+}  // namespace
+
+std::string render_junit(const Diagnosis& diagnosis) {
+  const std::vector<TestCase> cases = test_cases(diagnosis);
+  const auto having = [&](const char* element) {
+    return std::count_if(cases.begin(), cases.end(),
+                         [&](const TestCase& c) { return c.body.find(element) != std::string::npos; });
+  };
+  const std::string name = xml(diagnosis.log.path);
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" "
+      "failures=\"{}\" skipped=\"{}\">\n",
+      name, cases.size(), having("<failure"), having("<skipped"));
+  for (const TestCase& c : cases)
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", name, c.name,
+                        c.body.empty() ? "/>\n" : ">\n" + c.body + "    </testcase>\n");
+  return text + "  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/diagnosis/fault_words.hpp"
+#include "lib/report/layout.hpp"
+
+namespace faultline {
+namespace {
+
+const char* in_words(DecidedBy decided_by) {
+  switch (decided_by) {
+    case DecidedBy::agreement:
+      return "both networks agree";
+    case DecidedBy::cases:
+      return "the networks disagree; similar cases decided";
+    case DecidedBy::evidence:
+      return "the physical evidence decided";
+    case DecidedBy::criterion:
+      return "the networks' fault criterion decided";
+    case DecidedBy::abstained:
+      return "not named: the evidence is too thin";
+  }
+  return "";
+}
+
+std::string sentence(const std::string& text) {
+  std::string s = printable(text);
+  if (!s.empty() && s[0] >= 'a' && s[0] <= 'z') s[0] = static_cast<char>(s[0] - 'a' + 'A');
+  return !s.empty() && s.back() != '.' ? s + "." : s;
+}
+
+std::string span_text(const LogFacts& log) {
+  return fmt::format("{} to {}, {} rows", time_text(log.start_s, log.sample_period_s),
+                     time_text(log.end_s, log.sample_period_s), log.rows_read);
+}
+
+std::string period_text(const LogFacts& log) {
+  if (!std::isfinite(log.sample_period_s)) return "";
+  return fmt::format(", a sample every {} s", value_text(log.sample_period_s));
+}
+
+std::string header(const Diagnosis& d, const TimelineOptions& options) {
+  std::string text = painted(fmt::format("Log    {}\n", printable(d.log.path)), Paint::bold, options.color);
+  text += fmt::format("       {}: {}{}\n", printable(d.log.format), span_text(d.log), period_text(d.log));
+  return text +
+         fmt::format("Model  {}, faultline {}\n", printable(d.model.name), printable(d.program_version));
+}
+
+Paint paint_of(Verdict verdict) {
+  if (verdict == Verdict::healthy) return Paint::green;
+  return verdict == Verdict::faulty ? Paint::red : Paint::yellow;
+}
+
+class FaultBlock {
+ public:
+  FaultBlock(const FaultFinding& fault, const LogFacts& log, const TimelineOptions& options)
+      : fault_(fault), log_(log), options_(options) {}
+
+  std::string text() const {
+    return title() + times() + opinions() + alternatives() + precedents() + evidence() + next_check();
+  }
+
+ private:
+  std::string title() const {
+    return painted(fmt::format("Fault {}: {}", fault_.id, plain_words(fault_.label)), Paint::bold,
+                   options_.color) +
+           "\n";
+  }
+
+  std::string times() const {
+    const double period = log_.sample_period_s;
+    return fmt::format("  onset {}   alarm {}   end {}\n", time_text(fault_.onset_s, period),
+                       time_text(fault_.alarm_s, period), time_text(fault_.end_s, period));
+  }
+
+  std::string opinions() const {
+    return fmt::format("  confidence {:.0f} %: {}\n", 100.0 * fault_.confidence,
+                       in_words(fault_.decided_by)) +
+           opinion("MLP", fault_.mlp) + opinion("RBFN", fault_.rbfn);
+  }
+
+  static std::string opinion(const char* network, const Opinion& opinion) {
+    return fmt::format("    {:<5}{:.2f}  {}\n", network, opinion.confidence, plain_words(opinion.label));
+  }
+
+  std::string item(const std::string& text) const {
+    std::string lines = wrapped(printable(text), "      ", options_.width);
+    if (lines.size() > 4) lines.replace(4, 1, "-");
+    return lines;
+  }
+
+  std::string alternatives() const {
+    std::string text;
+    for (const Alternative& a : fault_.could_also_be) text += item(plain_words(a.label) + ": " + a.why);
+    return text.empty() ? "" : "  It could also be\n" + text;
+  }
+
+  std::string precedents() const {
+    std::string text;
+    for (const Precedent& p : fault_.precedents) {
+      const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
+      text +=
+          item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
+               done);
+    }
+    return text.empty() ? "" : "  Similar cases\n" + text;
+  }
+
+  std::string evidence() const {
+    std::string text;
+    for (const EvidenceItem& e : fault_.evidence) text += item(evidence_line(e));
+    return text.empty() ? "" : "  Evidence\n" + text;
+  }
+
+  static std::string evidence_line(const EvidenceItem& e) {
+    if (std::isnan(e.value)) return e.name == "decision" || e.text.empty() ? e.text : e.name + ": " + e.text;
+    const std::string value = value_text(e.value) + (e.unit.empty() ? "" : " " + e.unit);
+    return (e.text.empty() ? e.name : e.text) + ": " + value;
+  }
+
+  std::string next_check() const {
+    if (fault_.next_check.empty()) return "";
+    return "  Check next\n" + wrapped(printable(fault_.next_check), "    ", options_.width);
+  }
+
+  const FaultFinding& fault_;
+  const LogFacts& log_;
+  const TimelineOptions& options_;
+};
+
+std::string residuals(const Diagnosis& d) {
+  if (d.residuals.empty()) return "";
+  std::string text = "Residuals against the regenerated fault-free motion (1 = as in the healthy logs)\n";
+  text += "  joint  velocity rms  largest  at            position rms\n";
+  for (const ResidualSummary& r : d.residuals)
+    text += fmt::format("  {:<7}{:<14}{:<9}{:<14}{}\n", r.joint, value_text(r.velocity_rms),
+                        value_text(r.velocity_peak), time_text(r.peak_s, d.log.sample_period_s),
+                        value_text(r.position_rms));
+  return text + "\n";
+}
+
+std::string issue_line(const Issue& issue) {
+  std::string where = issue.channel.empty() ? "" : " in " + issue.channel;
+  if (issue.first_row > 0) where += fmt::format(", first in row {}", issue.first_row);
+  const std::string dropped =
+      issue.rows_dropped > 0 ? fmt::format(", {} rows left out", issue.rows_dropped) : "";
+  return fmt::format("{} ({}, {} times{}{}): {}", to_string(issue.severity), issue.code, issue.count, where,
+                     dropped, issue.message);
+}
+
+std::string bullets(const char* title, const std::vector<std::string>& lines, int width) {
+  if (lines.empty()) return "";
+  std::string text = std::string(title) + "\n";
+  for (const std::string& line : lines) text += wrapped(printable(line), "    ", width).replace(2, 1, "-");
+  return text + "\n";
+}
+
+std::string log_issues(const Diagnosis& d, int width) {
+  std::vector<std::string> lines;
+  for (const Issue& issue : d.log.issues.all()) lines.push_back(issue_line(issue));
+  return bullets("What was wrong with the log", lines, width);
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Diagnosis& d) {
+  if (d.verdict == Verdict::healthy)
+    return "No fault found." + (d.verdict_reason.empty() ? "" : " " + sentence(d.verdict_reason));
+  if (d.verdict == Verdict::inconclusive) return "No verdict: " + sentence(d.verdict_reason);
+  if (d.verdict == Verdict::not_run || d.faults.empty()) return "The log was not diagnosed.";
+  const FaultFinding& first = d.faults.front();
+  const std::string since = time_text(first.onset_s, d.log.sample_period_s);
+  if (d.faults.size() == 1) return fmt::format("1 fault: {}, from {}.", plain_words(first.label), since);
+  return fmt::format("{} faults; the first: {}, from {}.", d.faults.size(), plain_words(first.label), since);
+}
+
+std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
+  std::string text = header(d, options) + "\n";
+  text += painted(verdict_sentence(d), paint_of(d.verdict), options.color) + "\n\n";
+  const bool judged = d.verdict == Verdict::healthy || !d.faults.empty();
+  const std::string timeline = judged ? render_timeline(d, options) : "";
+  if (!timeline.empty()) text += timeline + "\n";
+  for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
+  text += residuals(d) + log_issues(d, options.width);
+  text += bullets("What this log and model cannot show", d.cannot_see, options.width);
+  if (text.ends_with("\n\n")) text.pop_back();
+  return text;
+}
+
+}  // namespace faultline

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/diagnosis/decision.hpp"
+#include "lib/diagnosis/fault_words.hpp"
+
+namespace faultline {
+
+inline Diagnosis healthy_diagnosis() {
+  Diagnosis d;
+  d.log.path = "bench/healthy_4.csv";
+  d.log.sha256 = std::string(64, 'a');
+  d.log.format = "csv";
+  d.log.rows_read = 10000;
+  d.log.rows_used = 10000;
+  d.log.start_s = 0.0;
+  d.log.end_s = 9.999;
+  d.log.sample_period_s = 0.001;
+  d.log.joints = 3;
+  d.model = {"bench", std::string(64, 'b'), std::string(64, 'c')};
+  d.program_version = "0.1.0";
+  d.verdict = Verdict::healthy;
+  for (int joint = 1; joint <= 3; ++joint)
+    d.residuals.push_back({.joint = joint,
+                           .velocity_rms = 0.97 + 0.01 * joint,
+                           .velocity_peak = 3.5 + joint,
+                           .peak_s = 1.25 * joint,
+                           .position_rms = 1.0});
+  return d;
+}
+
+inline FaultFinding locked_joint() {
+  FaultFinding f;
+  f.label = {FaultKind::locked, 2};
+  f.onset_s = 4.21;
+  f.alarm_s = 4.217;
+  f.end_s = 9.999;
+  f.confidence = 0.965;
+  f.mlp = {f.label, 0.98};
+  f.rbfn = {f.label, 0.95};
+  f.decided_by = DecidedBy::agreement;
+  f.precedents = {{12, f.label, 0.83, "changed the brake relay"}, {31, f.label, 0.71, ""}};
+  add_alternative(f, {FaultKind::stuck_encoder, 2});
+  f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
+                {"residual_peak", 41.5, "healthy rms", "largest velocity residual of joint 2"}};
+  f.next_check = next_check_for(f.label);
+  return f;
+}
+
+/// A log with one locked joint, an imperfection and a limit.
+inline Diagnosis faulty_diagnosis() {
+  Diagnosis d = healthy_diagnosis();
+  d.log.path = "bench/locked_2.csv";
+  d.log.rows_used = 9998;
+  d.log.issues.add({.code = "time_backward",
+                    .channel = "t",
+                    .severity = Severity::warning,
+                    .message = "time runs back from 0.016 s to 0.015 s; the rows were left out",
+                    .first_row = 17,
+                    .first_time_s = 0.015,
+                    .count = 2,
+                    .rows_dropped = 2});
+  d.faults = {locked_joint()};
+  d.residuals[1].velocity_rms = 12.5;
+  d.residuals[1].velocity_peak = 41.5;
+  d.cannot_see = {"the torque is the commanded one, so a fault inside the drive shows only in the motion"};
+  order_faults(d);
+  return d;
+}
+
+/// Two faults, one of no joint and undecided by the networks, with texts that try to break each format.
+inline Diagnosis hostile_diagnosis() {
+  Diagnosis d = faulty_diagnosis();
+  d.log.path = "a,\"b\"\n<c>&'\x1b[31m\xff.csv";
+  FaultFinding f;
+  f.label = {FaultKind::unknown, 0};
+  f.onset_s = 2.0;
+  f.alarm_s = 2.5;
+  f.mlp = {{FaultKind::collision, 1}, 0.55};
+  f.rbfn = {{FaultKind::payload_change, 0}, 0.4};
+  f.decided_by = DecidedBy::cases;
+  f.precedents = {{7, {FaultKind::collision, 1}, 0.41, "]]> \"done\"\x07\nnext line"}};
+  f.could_also_be = {{{FaultKind::collision, 1}, "the MLP says so"}};
+  f.next_check = next_check_for(f.label);
+  d.faults.push_back(f);
+  order_faults(d);
+  return d;
+}
+
+inline Diagnosis inconclusive_diagnosis() {
+  Diagnosis d = healthy_diagnosis();
+  d.log.path = "bench/short.csv";
+  d.log.rows_read = d.log.rows_used = 3;
+  d.log.end_s = 0.002;
+  d.verdict = Verdict::inconclusive;
+  d.verdict_reason = "3 rows are too few to judge; at least 20 are needed";
+  d.residuals.clear();
+  return d;
+}
+
+}  // namespace faultline

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "lib/report/csv.hpp"
+#include "lib/report/json.hpp"
+#include "lib/report/junit.hpp"
+#include "lib/report/layout.hpp"
+#include "lib/report/text.hpp"
+#include "tests/report/example_diagnosis.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Diagnosis empty_diagnosis() { return {}; }
+
+const std::vector<Diagnosis (*)()> kExamples = {healthy_diagnosis, faulty_diagnosis, hostile_diagnosis,
+                                                inconclusive_diagnosis, empty_diagnosis};
+
+TEST(JsonReport, ParsesAndHasEveryKeyOfTheContract) {
+  for (const auto example : kExamples) {
+    const Json json = Json::parse(render_json(example()));
+    EXPECT_EQ(json.at("schema"), "faultline/diagnosis/1");
+    for (const char* key :
+         {"path", "sha256", "format", "rows", "start_s", "end_s", "sample_period_s", "issues"})
+      EXPECT_TRUE(json.at("log").contains(key)) << key;
+    for (const char* key : {"name", "sha256", "cases_sha256"})
+      EXPECT_TRUE(json.at("model").contains(key)) << key;
+    EXPECT_TRUE(json.at("program").contains("version"));
+    for (const Json& fault : json.at("faults"))
+      for (const char* key : {"id", "kind", "joint", "onset_s", "alarm_s", "end_s", "confidence", "opinions",
+                              "decided_by", "precedents", "could_also_be", "evidence", "next_check"})
+        EXPECT_TRUE(fault.contains(key)) << key;
+  }
+}
+
+TEST(JsonReport, FaultsAreNumberedByOnset) {
+  const Json faults = Json::parse(render_json(hostile_diagnosis())).at("faults");
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].at("id"), 1);
+  EXPECT_EQ(faults[0].at("kind"), "unknown");
+  EXPECT_LT(faults[0].at("onset_s").get<double>(), faults[1].at("onset_s").get<double>());
+}
+
+TEST(JsonReport, MissingNumbersAreNullAndValuesAreExact) {
+  Diagnosis d = faulty_diagnosis();
+  d.faults[0].onset_s = 0.1 + 0.2;
+  d.faults[0].end_s = std::numeric_limits<double>::quiet_NaN();
+  d.faults[0].confidence = std::numeric_limits<double>::infinity();
+  const Json fault = Json::parse(render_json(d)).at("faults")[0];
+  EXPECT_EQ(fault.at("onset_s").get<double>(), 0.1 + 0.2);
+  EXPECT_TRUE(fault.at("end_s").is_null());
+  EXPECT_TRUE(fault.at("confidence").is_null());
+  EXPECT_EQ(render_json(d).find("nan"), std::string::npos);
+}
+
+TEST(JsonReport, SameDiagnosisSameBytes) {
+  EXPECT_EQ(render_json(hostile_diagnosis()), render_json(hostile_diagnosis()));
+}
+
+/// Cells of RFC 4180 text, by record.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> records(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '"' && i + 1 < text.size() && text[i + 1] == '"')
+      records.back().back() += text[i++];
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (text[i] == ',' && !quoted)
+      records.back().emplace_back();
+    else if (text[i] == '\n' && !quoted)
+      records.push_back({""});
+    else
+      records.back().back() += text[i];
+  }
+  records.pop_back();
+  return records;
+}
+
+TEST(CsvReport, EveryRecordHasTheColumnsOfTheHeader) {
+  for (const auto example : kExamples) {
+    const auto records = parse_csv(render_csv(example()));
+    ASSERT_GE(records.size(), 1u);
+    EXPECT_EQ(records[0].size(), 18u);
+    for (const auto& record : records) EXPECT_EQ(record.size(), records[0].size());
+  }
+}
+
+TEST(CsvReport, OneRowAFaultAndOneForAHealthyLog) {
+  EXPECT_EQ(parse_csv(render_csv(hostile_diagnosis())).size(), 3u);
+  EXPECT_EQ(parse_csv(render_csv(inconclusive_diagnosis())).size(), 1u);
+  const auto healthy = parse_csv(render_csv(healthy_diagnosis()));
+  ASSERT_EQ(healthy.size(), 2u);
+  EXPECT_EQ(healthy[1][1], "none");
+}
+
+TEST(CsvReport, HostileNamesComeBack) {
+  const Diagnosis d = hostile_diagnosis();
+  const std::string path = parse_csv(render_csv(d))[1][0];
+  EXPECT_EQ(path.substr(0, 6), d.log.path.substr(0, 6));
+  EXPECT_NE(path.find('\n'), std::string::npos);
+}
+
+TEST(JunitReport, EscapesAndCountsFailures) {
+  const std::string xml = render_junit(hostile_diagnosis());
+  EXPECT_NE(xml.find("failures=\"2\""), std::string::npos);
+  EXPECT_EQ(xml.find('\x1b'), std::string::npos);
+  EXPECT_EQ(xml.find("<c>"), std::string::npos);
+  EXPECT_NE(render_junit(inconclusive_diagnosis()).find("skipped=\"1\""), std::string::npos);
+  EXPECT_NE(render_junit(healthy_diagnosis()).find("tests=\"4\" failures=\"0\" skipped=\"0\""),
+            std::string::npos);
+}
+
+TEST(JunitReport, OpenedElementsAreClosed) {
+  for (const auto example : kExamples) {
+    const std::string xml = render_junit(example());
+    const auto count = [&](const std::string& pattern) {
+      const std::regex regex(pattern);
+      return std::distance(std::sregex_iterator(xml.begin(), xml.end(), regex), std::sregex_iterator());
+    };
+    EXPECT_EQ(count("<testcase[^>]*[^/]>"), count("</testcase>"));
+    EXPECT_EQ(count("<failure"), count("</failure>"));
+  }
+}
+
+TEST(TextReport, HoldsNoControlCharacterButLineBreaks) {
+  const std::string text = render_text(hostile_diagnosis());
+  for (const char c : text) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20);
+}
+
+TEST(TextReport, AsciiMeansAscii) {
+  const std::string text = render_text(faulty_diagnosis(), {.unicode = false});
+  EXPECT_TRUE(
+      std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
+}
+
+TEST(TextReport, ColorAddsNothingButColor) {
+  const std::string colored = render_text(faulty_diagnosis(), {.color = true});
+  const std::string plain = std::regex_replace(colored, std::regex("\x1b\\[[0-9;]*m"), "");
+  EXPECT_EQ(plain, render_text(faulty_diagnosis()));
+  EXPECT_NE(colored, plain);
+}
+
+TEST(Timeline, MarksStandWhereTheTimesAre) {
+  Diagnosis d = faulty_diagnosis();
+  d.log.start_s = 0.0;
+  d.log.end_s = 100.0;
+  d.faults[0].onset_s = 50.0;
+  d.faults[0].alarm_s = 75.0;
+  d.faults[0].end_s = 100.0;
+  std::istringstream lines(render_timeline(d, {.width = 112, .unicode = false}));
+  std::string joint1, joint2;
+  std::getline(lines, joint1);
+  std::getline(lines, joint2);
+  ASSERT_EQ(joint2.size(), 110u);
+  EXPECT_EQ(joint2.substr(0, 10), "  joint 2 ");
+  EXPECT_EQ(joint2[10 + 50], '1');
+  EXPECT_EQ(joint2[10 + 75], '!');
+  EXPECT_EQ(joint2[10 + 49], '-');
+  EXPECT_EQ(joint2[10 + 60], '+');
+  EXPECT_EQ(joint2[10 + 99], '#');
+  EXPECT_EQ(joint1.find_first_of("1!+#", 10), std::string::npos);
+}
+
+TEST(Timeline, TimesOutsideTheLogStayInside) {
+  Diagnosis d = faulty_diagnosis();
+  d.faults[0].onset_s = -1e300;
+  d.faults[0].alarm_s = 1e300;
+  EXPECT_FALSE(render_timeline(d).empty());
+  d.log.end_s = d.log.start_s;
+  EXPECT_TRUE(render_timeline(d).empty());
+}
+
+TEST(Layout, WrapsAtWordsAndCountsCharactersNotBytes) {
+  EXPECT_EQ(wrapped("one two three", "  ", 9), "  one two\n  three\n");
+  EXPECT_EQ(wrapped("\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9", "", 5), "\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9\n");
+  EXPECT_EQ(wrapped("", "  ", 9), "");
+}
+
+TEST(Layout, PrintableDropsEscapes) {
+  EXPECT_EQ(printable("a\x1b[2J\tb\x7f\xc2\x9b\xc3\xa9"), "a?[2J b??\xc3\xa9");
+}
+
+TEST(Layout, TimesShowSingleSamples) {
+  EXPECT_EQ(time_text(1.23456, 0.073), "1.235 s");
+  EXPECT_EQ(time_text(1.23456, 0.0001), "1.2346 s");
+  EXPECT_EQ(time_text(std::nan(""), 0.1), "unknown");
+}
+
+}  // namespace
+}  // namespace faultline
