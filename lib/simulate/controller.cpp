@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/controller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+Chain<double> nominal_chain(const Robot& robot, const ControllerSpec& spec) {
+  Chain<double> chain = spec.nominal ? *spec.nominal : robot.chain;
+  if (chain.joints() != robot.joints())
+    throw Error(ErrorCode::usage, "controller.nominal",
+                fmt::format("expected a model with {} joints, found {}", robot.joints(), chain.joints()));
+  if (spec.mass_error.empty()) return chain;
+  if (static_cast<int>(spec.mass_error.size()) != robot.joints())
+    throw Error(ErrorCode::usage, "controller.mass_error",
+                fmt::format("expected {} numbers, found {}", robot.joints(), spec.mass_error.size()));
+  for (int i = 0; i < chain.joints(); ++i) {
+    const double factor = 1.0 + spec.mass_error[i];
+    if (!(factor > 0.0))
+      throw Error(ErrorCode::usage, "controller.mass_error",
+                  "expected errors above -1 (a share of the mass)");
+    chain.links[i].mass *= factor;
+    chain.links[i].first_moment *= factor;
+    chain.links[i].inertia *= factor;
+  }
+  return chain;
+}
+
+}  // namespace
+
+Controller::Controller(const Robot& robot, const ControllerSpec& spec, double control_period_s)
+    : spec_(spec), nominal_(nominal_chain(robot, spec)) {
+  if (spec.bandwidth_rad_s < 0.0 || spec.damping < 0.0)
+    throw Error(ErrorCode::usage, "controller", "expected a bandwidth and a damping that are not negative");
+  const double w = spec.bandwidth_rad_s > 0.0 ? spec.bandwidth_rad_s : std::min(15.0, 0.4 / control_period_s);
+  kp_ = w * w;
+  kd_ = 2.0 * spec.damping * w;
+  JointMatrix<double> inertia;
+  JointVector<double> bias;
+  const JointVector<double> zero = JointVector<double>::Zero(robot.joints());
+  nominal_.inertia_and_bias(zero, zero, inertia, bias);
+  inertia_ = inertia.diagonal();
+}
+
+void Controller::torque(const Reference& reference, const JointVector<double>& q,
+                        const JointVector<double>& dq, JointVector<double>& tau) const {
+  const int n = nominal_.joints();
+  const bool full = spec_.kind == ControllerKind::computed_torque;
+  JointMatrix<double> inertia;
+  JointVector<double> pull(n), rates(n);
+  for (int i = 0; i < n; ++i) {
+    pull[i] = kp_ * (reference.q[i] - q[i]) + kd_ * (reference.dq[i] - dq[i]);
+    if (full) pull[i] += reference.ddq[i];
+    rates[i] = full ? dq[i] : 0.0;
+  }
+  nominal_.inertia_and_bias(q, rates, inertia, tau);
+  for (int i = 0; i < n; ++i) {
+    if (!full) tau[i] += inertia_[i] * pull[i];
+    for (int k = 0; full && k < n; ++k) tau[i] += inertia(i, k) * pull[k];
+  }
+  if (!full || !spec_.friction_compensation) return;
+  nominal_.friction(reference.dq, rates);
+  for (int i = 0; i < n; ++i) tau[i] += rates[i];
+}
+
+}  // namespace faultline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lib/robot/fast_dynamics.hpp"
+#include "lib/robot/robot.hpp"
+#include "lib/simulate/motion.hpp"
+
+namespace faultline {
+
+enum class ControllerKind {
+  computed_torque,  ///< tau = M (ddq_ref + kd e' + kp e) + h + G [+ F(dq_ref)] of the nominal model
+  pd_gravity,       ///< tau = kp e + kd e' + G of the nominal model
+};
+
+struct ControllerSpec {
+  ControllerKind kind = ControllerKind::computed_torque;
+  /// Natural frequency of the closed loop, rad/s; 0: 15, or 0.4 / control period when that is less.
+  double bandwidth_rad_s = 0.0;
+  double damping = 1.0;  ///< of the closed loop, 1 is critical
+  bool friction_compensation = true;
+  /// The controller's model is the robot with link i's mass and inertia times 1 + mass_error[i]; empty:
+  /// exact.
+  std::vector<double> mass_error{};
+  /// The controller's model; empty: the robot simulated. `mass_error` comes on top.
+  std::optional<Chain<double>> nominal{};
+};
+
+/// Turns a reference and a reading into the commanded torque. No state, no heap allocation per call.
+class Controller {
+ public:
+  /// Throws Error(usage) when `spec` does not fit the robot.
+  Controller(const Robot& robot, const ControllerSpec& spec, double control_period_s);
+
+  void torque(const Reference& reference, const JointVector<double>& q, const JointVector<double>& dq,
+              JointVector<double>& tau) const;
+
+ private:
+  ControllerSpec spec_;
+  FastDynamics nominal_;
+  double kp_ = 0.0;              ///< 1/s^2
+  double kd_ = 0.0;              ///< 1/s
+  JointVector<double> inertia_;  ///< diagonal of M in the middle, which scales the gains of PD
+};
+
+}  // namespace faultline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "lib/core/fault_kind.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// A fault that happens during a simulated run.
+struct FaultEvent {
+  FaultKind kind = FaultKind::none;
+  int joint = 0;         ///< from 1; for payload_change the joint nearest the tip, whatever is given
+  double onset_s = 0.0;  ///< the first moment it acts, at any time between samples
+  double end_s = std::numeric_limits<double>::infinity();  ///< the first moment it no longer acts
+  /// torque_loss: share lost, 0 to 1. sensor_bias: rad or m. sensor_drift: rad/s or m/s. friction_increase:
+  /// added Coulomb friction, N m or N. payload_change: kg added at the tip, may be negative. collision:
+  /// external torque or force on the joint, N m or N. Others: not used.
+  double size = 0.0;
+  double viscous = 0.0;  ///< friction_increase: added viscous friction, N m s/rad or N s/m
+};
+
+/// Throws Error(usage) that says what is wrong when `fault` cannot happen to `robot`.
+void check_fault(const Robot& robot, const FaultEvent& fault);
+
+/// Unit of `FaultEvent::size` for this fault, "" when it has none.
+std::string size_unit(const Robot& robot, const FaultEvent& fault);
+
+}  // namespace faultline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/sensors.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/simulate/simulate.hpp"
+
+namespace faultline {
+namespace {
+
+std::vector<double> for_joints(int joints, const std::vector<double>& given, const char* key) {
+  if (given.empty()) return std::vector<double>(joints, 0.0);
+  if (static_cast<int>(given.size()) != joints)
+    throw Error(ErrorCode::usage, key, fmt::format("expected {} numbers, found {}", joints, given.size()));
+  for (const double value : given)
+    if (!(value >= 0.0))
+      throw Error(ErrorCode::usage, key, fmt::format("expected no negative number, found {}", value));
+  return given;
+}
+
+}  // namespace
+
+Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<FaultEvent>& faults, Random random)
+    : q_noise_(for_joints(joints, noise.q, "noise.q")),
+      dq_noise_(for_joints(joints, noise.dq, "noise.dq")),
+      resolution_(for_joints(joints, noise.q_resolution, "noise.q_resolution")),
+      random_(random) {
+  for (const FaultEvent& fault : faults)
+    if (fault.kind == FaultKind::sensor_bias || fault.kind == FaultKind::sensor_drift ||
+        fault.kind == FaultKind::stuck_encoder)
+      faults_.push_back(fault);
+  q = dq = JointVector<double>::Zero(joints);
+}
+
+void Sensors::read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq) {
+  for (int i = 0; i < q.size(); ++i) {
+    double position = true_q[i], speed = true_dq[i];
+    bool stuck = false;
+    for (const FaultEvent& fault : faults_) {
+      if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
+      if (fault.kind == FaultKind::sensor_bias)
+        position += fault.size;
+      else if (fault.kind == FaultKind::sensor_drift)
+        position += fault.size * (t - fault.onset_s);
+      else
+        stuck = true;
+    }
+    if (q_noise_[i] > 0.0) position += q_noise_[i] * random_.normal();
+    if (dq_noise_[i] > 0.0) speed += dq_noise_[i] * random_.normal();
+    if (resolution_[i] > 0.0) position = resolution_[i] * std::round(position / resolution_[i]);
+    if (stuck && started_) continue;
+    q[i] = position;
+    dq[i] = speed;
+  }
+  started_ = true;
+}
+
+}  // namespace faultline

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+Robot industrial() {
+  Robot robot = preset_robot("RRP");
+  set_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  robot.chain.friction = {{2.0, 3.0, 0.0, 0.02}, {1.0, 2.0, 0.0, 0.02}, {20.0, 8.0, 0.0, 0.01}};
+  return robot;
+}
+
+SimulationSpec short_run(double duration_s = 3.0) {
+  SimulationSpec spec;
+  spec.duration_s = duration_s;
+  spec.motion.dwell_max_s = 0.3;
+  spec.record_reference = true;
+  return spec;
+}
+
+SimulationSpec with_fault(FaultKind kind, int joint, double onset_s, double size = 0.0,
+                          double duration_s = 3.0) {
+  SimulationSpec spec = short_run(duration_s);
+  spec.faults = {{kind, joint, onset_s, std::numeric_limits<double>::infinity(), size, 0.0}};
+  return spec;
+}
+
+JointVector<double> row_of(const JointSignals& signals, int row) {
+  JointVector<double> values(static_cast<int>(signals.size()));
+  for (int i = 0; i < values.size(); ++i) values[i] = signals[i][row];
+  return values;
+}
+
+/// Torque that the motion between two rows asks for on the healthy robot, by central differences of dq.
+JointVector<double> torque_needed(const Chain<double>& chain, const Log& log, int row) {
+  const double dt = log.time[row + 1] - log.time[row - 1];
+  const JointVector<double> ddq = (row_of(log.dq, row + 1) - row_of(log.dq, row - 1)) / dt;
+  return inverse_dynamics(chain, row_of(log.q, row), row_of(log.dq, row), ddq);
+}
+
+TEST(Simulate, HealthyRunFollowsItsReferenceAndTheDynamics) {
+  const Robot robot = industrial();
+  const SimulatedRun run = simulate(robot, short_run());
+  EXPECT_EQ(run.end, EndReason::complete);
+  EXPECT_TRUE(run.truth.empty());
+  ASSERT_EQ(run.log.rows(), 3001);
+  double travelled = 0.0;
+  for (int k = 1; k < run.log.rows() - 1; k += 37) {
+    EXPECT_LT((row_of(run.log.q, k) - row_of(run.log.q_ref, k)).norm(), 2e-3);
+    travelled += std::abs(run.log.dq[0][k]);
+    const JointVector<double> applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
+    EXPECT_LT((torque_needed(robot.chain, run.log, k) - applied).cwiseAbs().maxCoeff(), 0.15) << "row " << k;
+  }
+  EXPECT_GT(travelled, 10.0);
+}
+
+TEST(Simulate, SameSeedSameBytesOtherSeedOtherRun) {
+  SimulationSpec spec = short_run(0.5);
+  spec.noise.q = {1e-4, 1e-4, 2e-5};
+  spec.noise.dq = {5e-3, 5e-3, 1e-3};
+  const Robot robot = industrial();
+  const Log a = simulate(robot, spec, 4).log, b = simulate(robot, spec, 4).log,
+            c = simulate(robot, spec, 5).log;
+  EXPECT_EQ(a.q, b.q);
+  EXPECT_EQ(a.tau, b.tau);
+  EXPECT_NE(a.q, c.q);
+}
+
+TEST(Simulate, AFaultChangesNothingBeforeItsOnset) {
+  const Robot robot = industrial();
+  SimulationSpec spec = short_run();
+  spec.noise.q = {1e-4, 1e-4, 2e-5};
+  const Log healthy = simulate(robot, spec, 2).log;
+  spec.faults = {{FaultKind::torque_loss, 1, 1.2345, 9.0, 0.5, 0.0}};
+  const Log faulty = simulate(robot, spec, 2).log;
+  for (int k = 0; k <= 1234; ++k) ASSERT_EQ(healthy.q[0][k], faulty.q[0][k]) << k;
+  EXPECT_NE(healthy.q[0][1300], faulty.q[0][1300]);
+}
+
+TEST(Simulate, NoiseHasTheStatedSize) {
+  SimulationSpec spec = short_run(5.0);
+  spec.motion.points = {{0.1, 0.2, -0.1}};
+  spec.noise.q = {1e-3, 2e-3, 5e-4};
+  spec.noise.dq = {1e-2, 2e-2, 5e-3};
+  spec.controller.bandwidth_rad_s = 0.01;  // so slack that the noise does not come back as motion
+  const SimulatedRun run = simulate(industrial(), spec);
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0.0;
+    for (const double v : run.log.dq[i]) sum += v * v;
+    EXPECT_NEAR(std::sqrt(sum / run.log.rows()), spec.noise.dq[i], 0.05 * spec.noise.dq[i]);
+  }
+}
+
+TEST(Simulate, EncoderStepsAreMultiples) {
+  SimulationSpec spec = short_run(1.0);
+  spec.noise.q_resolution = {0.01, 0.01, 0.001};
+  const SimulatedRun run = simulate(industrial(), spec);
+  for (const double v : run.log.q[0]) EXPECT_NEAR(v / 0.01, std::round(v / 0.01), 1e-9);
+}
+
+TEST(Simulate, FreeSwingingJointGetsNoTorque) {
+  const Robot robot = industrial();
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::free_swinging, 2, 1.0));
+  for (int k = 1010; k < 1500; k += 70) {
+    const auto needed = torque_needed(robot.chain, run.log, k);
+    EXPECT_NEAR(needed[1], 0.0, 0.05);
+    EXPECT_GT(std::abs(run.log.tau[1][k]), 0.2);  // commanded all the same
+  }
+  ASSERT_EQ(run.truth.size(), 1u);
+  EXPECT_EQ(run.truth[0].onset_s, 1.0);
+  EXPECT_EQ(run.truth[0].end_s, 3.0);
+}
+
+TEST(Simulate, TorqueLossTakesItsShare) {
+  const Robot robot = industrial();
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::torque_loss, 3, 1.0, 0.4));
+  for (int k = 1050; k < 2900; k += 185) {
+    const double applied = 0.5 * (run.log.tau[2][k] + run.log.tau[2][k - 1]);
+    EXPECT_NEAR(torque_needed(robot.chain, run.log, k)[2], 0.6 * applied, 0.1);
+  }
+}
+
+TEST(Simulate, LockedJointStopsAtOnceAndMomentumPasses) {
+  const Robot robot = industrial();
+  SimulationSpec spec = short_run();
+  spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
+  spec.faults = {{FaultKind::locked, 2, 0.8004, 2.0, 0.0, 0.0}};
+  const SimulatedRun run = simulate(robot, spec);
+  const auto before = row_of(run.log.dq, 800), after = row_of(run.log.dq, 801);
+  ASSERT_GT(std::abs(before[1]), 0.5);
+  for (int k = 801; k <= 2000; ++k) ASSERT_EQ(run.log.dq[1][k], 0.0);
+  EXPECT_EQ(run.log.q[1][801], run.log.q[1][2000]);
+  const auto q = row_of(run.log.q, 801);
+  EXPECT_NEAR((inertia_matrix(robot.chain, q) * before)[0], (inertia_matrix(robot.chain, q) * after)[0],
+              0.05);
+  EXPECT_GT(std::abs(run.log.dq[1][2100]), 0.0);  // released again
+}
+
+TEST(Simulate, SensorFaultsGoThroughTheFeedback) {
+  const Robot robot = industrial();
+  SimulationSpec spec = with_fault(FaultKind::sensor_bias, 1, 1.0, 0.02);
+  spec.motion.points = {{0.0, 0.0, 0.0}};
+  const SimulatedRun run = simulate(robot, spec);
+  EXPECT_NEAR(run.log.q[0][999], 0.0, 1e-6);
+  EXPECT_NEAR(run.log.q[0][1000], 0.02, 1e-6);
+  EXPECT_LT(run.log.tau[0][1000], -1.0);       // the controller corrects what it sees
+  EXPECT_NEAR(run.log.q[0][2900], 0.0, 5e-3);  // and the true joint ends 0.02 off
+}
+
+TEST(Simulate, StuckEncoderRepeatsItsReading) {
+  SimulationSpec spec = with_fault(FaultKind::stuck_encoder, 1, 1.0);
+  spec.noise.q = {1e-4, 1e-4, 2e-5};
+  spec.noise.dq = {5e-3, 5e-3, 1e-3};
+  spec.overspeed = {8.0, 8.0, 3.0};
+  const SimulatedRun run = simulate(industrial(), spec);
+  ASSERT_GT(run.log.rows(), 1010);
+  for (int k = 1000; k < run.log.rows(); ++k) {
+    ASSERT_EQ(run.log.q[0][k], run.log.q[0][999]);
+    ASSERT_EQ(run.log.dq[0][k], run.log.dq[0][999]);
+  }
+  EXPECT_NE(run.log.q[0][999], run.log.q[0][998]);
+}
+
+TEST(Simulate, DriftGrowsWithTime) {
+  SimulationSpec spec = with_fault(FaultKind::sensor_drift, 2, 1.0, 0.05);
+  spec.motion.points = {{0.0, 0.0, 0.0}};
+  spec.controller.bandwidth_rad_s = 1e-3;  // nobody follows the drift
+  const SimulatedRun run = simulate(industrial(), spec);
+  EXPECT_NEAR(run.log.q[1][2000] - run.log.q[1][1000], 0.05, 1e-4);
+}
+
+TEST(Simulate, FrictionIncreaseAddsToTheTorque) {
+  const Robot robot = industrial();
+  SimulationSpec spec = with_fault(FaultKind::friction_increase, 1, 0.8, 4.0);
+  spec.faults[0].viscous = 1.5;
+  spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
+  const SimulatedRun run = simulate(robot, spec);
+  for (int k = 900; k < 1200; k += 50) {
+    const double dq = run.log.dq[0][k];
+    ASSERT_GT(dq, 0.1);
+    const double applied = 0.5 * (run.log.tau[0][k] + run.log.tau[0][k - 1]);
+    EXPECT_NEAR(applied - torque_needed(robot.chain, run.log, k)[0], 4.0 + 1.5 * dq, 0.2);
+  }
+}
+
+TEST(Simulate, PayloadAddsMassAtTheTip) {
+  const Robot robot = industrial();
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::payload_change, 3, 1.0, 1.0));
+  Robot loaded = industrial();
+  set_masses_and_lengths(loaded, {8.0, 5.0, 3.5}, {0.35, 0.3, 0.0});
+  for (int k = 1100; k < 2900; k += 180) {
+    const JointVector<double> applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
+    EXPECT_LT((torque_needed(loaded.chain, run.log, k) - applied).cwiseAbs().maxCoeff(), 0.2);
+  }
+}
+
+TEST(Simulate, CollisionIsAPulseOfExternalTorque) {
+  const Robot robot = industrial();
+  SimulationSpec spec = with_fault(FaultKind::collision, 1, 1.0, 30.0);
+  spec.faults[0].end_s = 1.05;
+  const SimulatedRun run = simulate(robot, spec);
+  const auto missing = [&](int k) {
+    const double applied = 0.5 * (run.log.tau[0][k] + run.log.tau[0][k - 1]);
+    return torque_needed(robot.chain, run.log, k)[0] - applied;
+  };
+  EXPECT_NEAR(missing(1025), 30.0, 1.0);
+  EXPECT_NEAR(missing(990), 0.0, 0.2);
+  EXPECT_NEAR(missing(1060), 0.0, 0.5);
+  EXPECT_EQ(run.truth.at(0).end_s, 1.05);
+}
+
+TEST(Simulate, TorqueLimitHolds) {
+  SimulationSpec spec = short_run();
+  spec.motion.profile = MotionProfile::step;
+  spec.torque_limit = {5.0, 5.0, 40.0};
+  const SimulatedRun run = simulate(industrial(), spec);
+  double most = 0.0;
+  for (const double v : run.log.tau[0]) most = std::max(most, std::abs(v));
+  EXPECT_EQ(most, 5.0);
+}
+
+TEST(Simulate, AFreedVerticalJointRestsOnItsStop) {
+  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3, 0.5);
+  spec.stops.low = {-3.0, -3.0, -0.4};
+  spec.stops.high = {3.0, 3.0, 0.1};
+  const SimulatedRun run = simulate(industrial(), spec);
+  EXPECT_EQ(run.end, EndReason::complete);
+  EXPECT_NEAR(run.log.q[2].back(), -0.4, 0.01);
+  EXPECT_NEAR(run.log.dq[2].back(), 0.0, 1e-3);
+}
+
+TEST(Simulate, OverspeedEndsTheLog) {
+  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3, 0.5);
+  spec.overspeed = {20.0, 20.0, 0.5};
+  const SimulatedRun run = simulate(industrial(), spec);
+  EXPECT_EQ(run.end, EndReason::overspeed_trip);
+  EXPECT_LT(run.log.time.back(), 1.5);
+  EXPECT_EQ(run.truth.at(0).end_s, run.log.time.back());
+}
+
+TEST(Simulate, HeldTorqueAndFastControlLoggedSlowly) {
+  const Robot robot = preset_robot("RRP");
+  SimulationSpec spec = short_run(4.0);
+  spec.sample_period_s = spec.control_period_s = 0.073;
+  const SimulatedRun held = simulate(robot, spec);
+  // Held: integrating the logged torque over a sample from the logged state gives the next logged state.
+  Plant plant(robot, {}, {}, 1e-3);
+  for (int k = 0; k + 1 < held.log.rows(); ++k) {
+    plant.q = row_of(held.log.q, k);
+    plant.dq = row_of(held.log.dq, k);
+    plant.advance(0.0, 0.073, row_of(held.log.tau, k));
+    EXPECT_LT((plant.q - row_of(held.log.q, k + 1)).norm(), 1e-9);
+  }
+  spec.control_period_s = 0.001;
+  const SimulatedRun fast = simulate(robot, spec);
+  EXPECT_EQ(fast.log.rows(), held.log.rows());
+  EXPECT_NE(fast.log.q, held.log.q);
+}
+
+TEST(Simulate, PdWithGravityHoldsAgainstIt) {
+  SimulationSpec spec = short_run();
+  spec.controller.kind = ControllerKind::pd_gravity;
+  spec.controller.bandwidth_rad_s = 8.0;
+  spec.motion.points = {{0.5, -0.5, -0.1}};
+  const SimulatedRun run = simulate(preset_robot("RRP"), spec);
+  EXPECT_NEAR(run.log.q[2].back(), -0.1, 1e-6);
+  EXPECT_NEAR(run.log.tau[2].back(), 9.81, 1e-6);
+}
+
+TEST(Simulate, WorksOnOtherChains) {
+  for (const char* axes : {"RRPR", "RPRR", "RR", "R", "P"}) {
+    Robot robot = preset_robot(axes);
+    for (auto& friction : robot.chain.friction) friction = {0.1, 0.05, 0.0, 0.02};
+    if (std::string(axes) == "RR") robot.chain.gravity = {0.0, -9.81, 0.0};
+    const SimulatedRun run = simulate(robot, short_run(2.0));
+    EXPECT_EQ(run.end, EndReason::complete) << axes;
+    EXPECT_LT((row_of(run.log.q, 2000) - row_of(run.log.q_ref, 2000)).norm(), 1e-2) << axes;
+  }
+}
+
+void expect_refused(const SimulationSpec& spec, const char* key) {
+  try {
+    simulate(industrial(), spec);
+    FAIL() << key;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+  }
+}
+
+TEST(Simulate, RefusesSpecsThatDoNotFit) {
+  SimulationSpec spec = short_run();
+  spec.control_period_s = 0.0007;
+  expect_refused(spec, "control_period_s");
+  spec = short_run();
+  spec.duration_s = -1.0;
+  expect_refused(spec, "duration_s");
+  spec = short_run();
+  spec.noise.q = {1.0};
+  expect_refused(spec, "noise.q");
+  spec = short_run();
+  spec.torque_limit = {1.0, 1.0};
+  expect_refused(spec, "limits.torque");
+  expect_refused(with_fault(FaultKind::locked, 4, 1.0), "fault.joint");
+  expect_refused(with_fault(FaultKind::torque_loss, 1, 1.0, 1.5), "fault.size");
+  expect_refused(with_fault(FaultKind::collision, 1, 1.0, 5.0), "fault.end_s");
+  expect_refused(with_fault(FaultKind::payload_change, 3, 1.0, -9.0), "fault.size");
+}
+
+}  // namespace
+}  // namespace faultline
