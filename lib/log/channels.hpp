@@ -9,9 +9,9 @@ namespace faultline {
 /// Where a canonical channel ("t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1") comes from and how its raw value
 /// becomes SI: value = sign * scale * (raw * unit factor) + offset.
 struct ColumnSpec {
-  std::string name;   ///< column in the file; empty = find by the usual names
-  std::string unit;   ///< such as "deg", "mm", "ms", "ns"; empty = SI
-  double sign = 1.0;  ///< +1 or -1
+  std::string name{};  ///< column in the file; empty = find by the usual names
+  std::string unit{};  ///< such as "deg", "mm", "ms", "ns"; empty = SI
+  double sign = 1.0;   ///< +1 or -1
   double scale = 1.0;
   double offset = 0.0;  ///< in SI, added last
 };

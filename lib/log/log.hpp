@@ -17,8 +17,8 @@ struct ExtraChannel {
   std::vector<double> values;
 };
 
-/// A stretch of a joint log in SI units (rad or m, rad/s or m/s, N m or N), columns of equal length. A missing
-/// value is NaN. Segments of one log follow each other without overlap.
+/// A stretch of a joint log in SI units (rad or m, rad/s or m/s, N m or N), columns of equal length. A
+/// missing value is NaN. Segments of one log follow each other without overlap.
 struct Log {
   std::int64_t first_row = 0;  ///< rows of the log before this segment
   std::vector<double> time;    ///< s

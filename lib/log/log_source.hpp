@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "lib/core/issue.hpp"
@@ -12,9 +13,9 @@ namespace faultline {
 /// What is known of a log besides its rows. `sha256`, `rows_read` and the last time are complete only after
 /// the last segment was taken.
 struct LogIdentity {
-  std::string path;    ///< as the user gave it
-  std::string format;  ///< such as "csv"
-  std::string sha256;  ///< of the file's bytes; empty for a log that is no file
+  std::string path;            ///< as the user gave it
+  std::string format;          ///< such as "csv"
+  std::string sha256;          ///< of the file's bytes; empty for a log that is no file
   std::int64_t rows_read = 0;  ///< = rows handed out + issues().rows_dropped()
 };
 
@@ -30,6 +31,8 @@ class LogSource {
   virtual void rewind() = 0;
   virtual const LogIdentity& identity() const = 0;
   virtual const Issues& issues() const = 0;
+  /// Share of the log handed out so far, 0 to 1, for progress; NaN when unknown.
+  virtual double share_read() const { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
 /// The whole rest of a log as one segment; for logs known to be small.

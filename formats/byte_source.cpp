@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "formats/byte_source.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kHeadBytes = 1 << 16;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::input, path, what);
+}
+
+std::string reason() { return std::strerror(errno); }
+
+}  // namespace
+
+ByteSource::ByteSource(std::string path) : path_(std::move(path)) {
+  file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file_ < 0 && errno == ENOENT) fail(path_, "no such file; check the path");
+  if (file_ < 0) fail(path_, "cannot be opened for reading (" + reason() + ")");
+  struct stat facts {};
+  if (::fstat(file_, &facts) == 0) size_ = facts.st_size;
+  if (S_ISDIR(facts.st_mode)) {
+    ::close(file_);
+    fail(path_, "is a directory, a log file was expected");
+  }
+  head_.resize(kHeadBytes);
+  std::size_t got = 0;
+  for (std::size_t more;
+       got < head_.size() && (more = read_some(head_.data() + got, head_.size() - got)) > 0;)
+    got += more;
+  head_.resize(got);
+}
+
+ByteSource::~ByteSource() {
+  if (file_ >= 0) ::close(file_);
+}
+
+std::size_t ByteSource::read_some(char* to, std::size_t size) {
+  while (true) {
+    const ssize_t got = ::read(file_, to, size);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR) fail(path_, "cannot be read to its end (" + reason() + ")");
+  }
+}
+
+std::size_t ByteSource::read(char* to, std::size_t size) {
+  std::size_t got = std::min(size, head_.size() - head_given_);
+  if (got > 0) {
+    std::memcpy(to, head_.data() + head_given_, got);
+    head_given_ += got;
+  } else {
+    got = read_some(to, size);
+  }
+  position_ += static_cast<std::int64_t>(got);
+  if (sha256_.empty()) {
+    hash_.update({to, got});
+    if (got == 0 && size > 0) sha256_ = hash_.hex();
+  }
+  return got;
+}
+
+void ByteSource::rewind() {
+  if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
+    fail(path_, "cannot be read a second time (" + reason() + "); give a file, not a pipe");
+  head_given_ = 0;
+  position_ = 0;
+  if (sha256_.empty()) hash_ = Sha256();
+}
+
+double ByteSource::share_read() const {
+  return size_ > 0 ? std::min(1.0, static_cast<double>(position_) / static_cast<double>(size_)) : 0.0;
+}
+
+}  // namespace faultline

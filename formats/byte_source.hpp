@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lib/core/hash.hpp"
+
+namespace faultline {
+
+/// The bytes of a file from front to back, hashed as they pass. Every failure throws Error(input).
+class ByteSource {
+ public:
+  explicit ByteSource(std::string path);
+  ~ByteSource();
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  const std::string& path() const { return path_; }
+  /// The first bytes of the file, up to 64 KiB, whatever was read before.
+  std::string_view head() const { return head_; }
+  /// Copies up to `size` of the next bytes to `to`; 0 at the end of the file.
+  std::size_t read(char* to, std::size_t size);
+  void rewind();
+  /// Of all bytes once the end was reached, empty before.
+  const std::string& sha256() const { return sha256_; }
+  double share_read() const;
+
+ private:
+  std::size_t read_some(char* to, std::size_t size);
+
+  std::string path_;
+  int file_ = -1;
+  std::int64_t size_ = 0;
+  std::int64_t position_ = 0;
+  std::string head_;
+  std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()
+  Sha256 hash_;
+  std::string sha256_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace faultline {
+
+/// A cell of a text table as it was read.
+enum class CellKind { number, missing, text };
+struct Cell {
+  CellKind kind = CellKind::missing;
+  double value = 0.0;  ///< NaN unless a number
+};
+
+/// Reads one cell: blanks and quotes around it do not matter; empty, "nan", "null", "NA", "-" are missing;
+/// "true" and "false" are 1 and 0.
+Cell read_cell(std::string_view text, char decimal);
+
+/// Cuts a line at its separators into `fields`, without quotes and blanks around each. A separator between
+/// double quotes does not cut. The separator ' ' means any run of blanks.
+void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
+
+std::string_view without_blanks(std::string_view text);
+bool is_comment_or_blank(std::string_view line);
+
+}  // namespace faultline

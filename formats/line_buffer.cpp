@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "formats/line_buffer.hpp"
+
+#include <cstring>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kBlock = 1 << 18;
+constexpr std::size_t kLongestLine = 1 << 24;
+
+}  // namespace
+
+bool LineBuffer::fill() {
+  while (begin_ == lines_end_) {
+    if (at_end_) return false;
+    if (begin_ > 0) {
+      std::memmove(text_.data(), text_.data() + begin_, end_ - begin_);
+      end_ -= begin_;
+      begin_ = lines_end_ = 0;
+    }
+    if (end_ > kLongestLine)
+      throw Error(ErrorCode::input, bytes_.path(),
+                  "has a line of more than 16 MiB; a log in text has short lines");
+    if (text_.size() < end_ + kBlock + 1) text_.resize(end_ + kBlock + 1);
+    const std::size_t got = bytes_.read(text_.data() + end_, kBlock);
+    if (got == 0) {
+      at_end_ = true;
+      last_line_was_open_ = end_ > 0;
+      if (end_ > 0) text_[end_++] = '\n';
+      lines_end_ = end_;
+      continue;
+    }
+    const void* newline = ::memrchr(text_.data() + end_, '\n', got);
+    end_ += got;
+    if (newline) lines_end_ = static_cast<std::size_t>(static_cast<const char*>(newline) - text_.data()) + 1;
+  }
+  return true;
+}
+
+void LineBuffer::clear() {
+  begin_ = lines_end_ = end_ = 0;
+  at_end_ = last_line_was_open_ = false;
+}
+
+}  // namespace faultline

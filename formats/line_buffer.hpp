@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "formats/byte_source.hpp"
+
+namespace faultline {
+
+/// Whole lines of a text file in a window of bounded size. A file whose last line has no newline gets one.
+class LineBuffer {
+ public:
+  explicit LineBuffer(ByteSource& bytes) : bytes_(bytes) {}
+
+  /// Whole lines from `position()` on, each ended by '\n'; empty when more must be filled in.
+  const char* position() const { return text_.data() + begin_; }
+  const char* end_of_lines() const { return text_.data() + lines_end_; }
+  void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text_.data()); }
+  /// Reads on until a whole line is there; false at the end of the file. Pointers into the buffer end here.
+  /// Throws Error(input) for a line longer than 16 MiB.
+  bool fill();
+  /// True when the line that ends the present lines is the last of the file and had no newline.
+  bool last_line_was_open() const { return last_line_was_open_; }
+  void clear();
+
+ private:
+  ByteSource& bytes_;
+  std::vector<char> text_;
+  std::size_t begin_ = 0;
+  std::size_t lines_end_ = 0;
+  std::size_t end_ = 0;
+  bool at_end_ = false;
+  bool last_line_was_open_ = false;
+};
+
+}  // namespace faultline

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/channel_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <initializer_list>
+#include <string_view>
+
+namespace faultline {
+namespace {
+
+constexpr std::array kQuantities{Quantity::time, Quantity::q,     Quantity::dq,
+                                 Quantity::tau,  Quantity::q_ref, Quantity::dq_ref};
+
+const char* prefix_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return "t";
+    case Quantity::q:
+      return "q";
+    case Quantity::dq:
+      return "dq";
+    case Quantity::tau:
+      return "tau";
+    case Quantity::q_ref:
+      return "q_ref";
+    case Quantity::dq_ref:
+      return "dq_ref";
+  }
+  return "";
+}
+
+enum class Kind { other, upper, lower, digit };
+
+Kind kind_of(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  if (std::isdigit(byte)) return Kind::digit;
+  if (std::isupper(byte)) return Kind::upper;
+  return std::isalpha(byte) ? Kind::lower : Kind::other;
+}
+
+/// Lower-case words and numbers of a name; "actualPos_12" gives actual, pos, 12.
+std::vector<std::string> tokens_of(const std::string& name) {
+  std::vector<std::string> tokens;
+  Kind before = Kind::other;
+  for (const char c : name) {
+    const Kind kind = kind_of(c);
+    const bool goes_on = kind == before || (before == Kind::upper && kind == Kind::lower);
+    if (kind != Kind::other && !goes_on) tokens.emplace_back();
+    if (kind != Kind::other) tokens.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    before = kind;
+  }
+  return tokens;
+}
+
+bool among(const std::string& word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_reference(const std::string& word) {
+  return among(word, {"ref", "reference", "des", "desired", "set", "setpoint", "target", "cmd", "command",
+                      "commanded", "goal", "qg"});
+}
+
+/// Words of columns that are near a joint signal but are none.
+bool is_something_else(const std::string& word) {
+  return among(
+      word,
+      {"error",     "err",    "acc",  "accel",       "acceleration", "accelerations", "qdd",     "ddq",
+       "tcp",       "pose",   "tool", "max",         "min",          "limit",         "limited", "fric",
+       "friction",  "pert",   "ext",  "external",    "gravity",      "noise",         "std",     "threshold",
+       "output",    "multi",  "temp", "temperature", "voltage",      "sec",           "nanosec", "stamp",
+       "cartesian", "wrench", "ft",   "ee",          "jerk",         "removed",       "pid"});
+}
+
+std::optional<Quantity> quantity_of(const std::string& word) {
+  if (among(word, {"q", "qm", "qg", "pos", "position", "positions", "angle", "angles", "theta"}))
+    return Quantity::q;
+  if (among(word,
+            {"dq", "qd", "qdot", "vel", "velocity", "velocities", "speed", "speeds", "omega", "dtheta"}))
+    return Quantity::dq;
+  if (among(word, {"tau", "torque", "torques", "trq", "effort", "efforts", "moment", "force", "forces"}))
+    return Quantity::tau;
+  return std::nullopt;
+}
+
+int fitness_of(const std::vector<std::string>& words, Quantity quantity) {
+  int fitness = 30;
+  for (const std::string& word : words) {
+    if (among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm"}))
+      fitness += quantity == Quantity::tau ? -10 : 5;
+    if (among(word, {"con", "ctrl", "control"})) fitness -= 5;
+    if (is_reference(word) && quantity == Quantity::tau) fitness -= 6;
+    if (among(word, {"filt", "filtered", "lp"})) fitness -= 15;
+    if (among(word, {"raw"})) fitness -= 2;
+  }
+  return fitness;
+}
+
+/// The last part of a path-like name without decoration: "/a/header/Time" gives "time".
+std::string leaf_of(const std::string& name) {
+  const auto slash = name.find_last_of("/.");
+  std::string leaf;
+  for (const std::string& token : tokens_of(slash == std::string::npos ? name : name.substr(slash + 1))) {
+    if (!leaf.empty()) leaf += '_';
+    leaf += token;
+  }
+  return leaf;
+}
+
+int time_fitness(const std::string& name) {
+  const std::string leaf = leaf_of(name);
+  if (name == "t") return 100;
+  if (among(leaf, {"t", "time"}) && name.find('/') == std::string::npos) return 90;
+  if (among(leaf, {"timestamp", "time_stamp", "rosbag_timestamp", "stamp", "t_s"})) return 80;
+  if (among(leaf, {"elapsed", "elapsed_time", "time_elapsed", "program_time", "log_time", "controller_time"}))
+    return 70;
+  return 0;
+}
+
+}  // namespace
+
+std::string to_string(Channel channel) {
+  const std::string prefix = prefix_of(channel.quantity);
+  return channel.quantity == Quantity::time ? prefix : prefix + std::to_string(channel.joint);
+}
+
+std::optional<Channel> canonical_channel(const std::string& name) {
+  const auto digits = name.find_last_not_of("0123456789");
+  if (name == "t") return Channel{};
+  if (digits == std::string::npos || digits + 1 == name.size() || name.size() - digits > 4)
+    return std::nullopt;
+  const std::string prefix = name.substr(0, digits + 1);
+  const int joint = std::stoi(name.substr(digits + 1));
+  if (joint < 1 || name[digits + 1] == '0') return std::nullopt;
+  for (const Quantity quantity : kQuantities)
+    if (quantity != Quantity::time && prefix == prefix_of(quantity)) return Channel{quantity, joint};
+  return std::nullopt;
+}
+
+const char* meaning_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return "time";
+    case Quantity::q:
+      return "position";
+    case Quantity::dq:
+      return "velocity";
+    case Quantity::tau:
+      return "torque";
+    case Quantity::q_ref:
+      return "commanded position";
+    case Quantity::dq_ref:
+      return "commanded velocity";
+  }
+  return "";
+}
+
+NameReading read_name(const std::string& name) {
+  NameReading reading;
+  const auto words = tokens_of(name);
+  int number_at = -1;
+  bool reference = false, other = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (std::isdigit(static_cast<unsigned char>(words[i][0]))) number_at = static_cast<int>(i);
+    if (const auto quantity = quantity_of(words[i])) reading.quantity = quantity;
+    reference = reference || is_reference(words[i]);
+    other = other || is_something_else(words[i]);
+  }
+  for (std::size_t i = 0; i < words.size(); ++i)
+    reading.stem += (i ? " " : "") + (static_cast<int>(i) == number_at ? std::string("#") : words[i]);
+  if (number_at >= 0 && words[number_at].size() <= 3) reading.number = std::stoi(words[number_at]);
+  if (other) reading.quantity.reset();
+  if (!reading.quantity) return reading;
+  reading.fitness = canonical_channel(name) ? 100 : fitness_of(words, *reading.quantity);
+  if (reference && reading.quantity == Quantity::q) reading.quantity = Quantity::q_ref;
+  if (reference && reading.quantity == Quantity::dq) reading.quantity = Quantity::dq_ref;
+  return reading;
+}
+
+int find_time_column(const std::vector<std::string>& names) {
+  int best = -1, best_fitness = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const int fitness = time_fitness(names[i]);
+    if (fitness > best_fitness) best = static_cast<int>(i), best_fitness = fitness;
+  }
+  return best;
+}
+
+}  // namespace faultline

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faultline {
+
+enum class Quantity { time, q, dq, tau, q_ref, dq_ref };
+
+/// A canonical channel: a quantity of a joint, which counts from 1; 0 for the time.
+struct Channel {
+  Quantity quantity = Quantity::time;
+  int joint = 0;
+
+  auto operator<=>(const Channel&) const = default;
+};
+
+/// "t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1".
+std::string to_string(Channel channel);
+/// What a canonical name means; nullopt for any other name.
+std::optional<Channel> canonical_channel(const std::string& name);
+/// "position", "velocity" and so on, for messages.
+const char* meaning_of(Quantity quantity);
+
+/// What a name such as "actual_q_0" or "/joint_states/position[2]" seems to mean.
+struct NameReading {
+  std::string stem;  ///< the name with '#' for its number: names that differ by the number only share it
+  std::optional<int> number;
+  std::optional<Quantity> quantity;  ///< nullopt when it says none, or is an error, limit, acceleration ...
+  int fitness = 0;                   ///< how well it fits, to choose among several columns of one quantity
+};
+NameReading read_name(const std::string& name);
+
+/// Index of the column that looks like the time, -1 for none.
+int find_time_column(const std::vector<std::string>& names);
+
+}  // namespace faultline

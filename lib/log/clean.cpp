@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/clean.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lib/log/channel_names.hpp"
+
+namespace faultline {
+namespace {
+
+/// A step this many times the one before may be a damaged time stamp.
+constexpr double kLeap = 20.0;
+
+bool is_plausible(double value) { return std::abs(value) <= kImplausible; }
+
+/// Why row i cannot stay, or null.
+const char* time_fault(const std::vector<double>& time, std::size_t i, const CleanState& state) {
+  const double t = time[i];
+  if (std::isnan(t)) return "time_missing";
+  if (!is_plausible(t)) return "time_implausible";
+  if (t == state.last_time) return "time_repeated";
+  if (t < state.last_time) return "time_backward";
+  return nullptr;
+}
+
+bool leaps(double t, const CleanState& state) {
+  return state.last_step > 0.0 && t - state.last_time > kLeap * state.last_step;
+}
+
+bool next_is_between(const std::vector<double>& time, std::size_t i, const CleanState& state) {
+  return i + 1 < time.size() && time[i + 1] > state.last_time && time[i + 1] < time[i];
+}
+
+void report(Issues& issues, const char* code, std::int64_t row, double t, const CleanState& state) {
+  std::string what = fmt::format("row {}: ", row);
+  const std::string code_name = code;
+  if (code_name == "time_missing") what += "has no time";
+  if (code_name == "time_implausible") what += fmt::format("time {} s cannot be", t);
+  if (code_name == "time_repeated") what += fmt::format("repeats the time {} s", t);
+  if (code_name == "time_backward")
+    what += fmt::format("time {} s is before {} s of an earlier row", t, state.last_time);
+  if (code_name == "time_leap") what += fmt::format("time {} s is ahead of the row after it", t);
+  issues.add({code, "t", Severity::warning, what + "; the row was left out", row, t, 1, 1});
+}
+
+/// Rows to keep, by index; `held` tells that the last row waits for the next segment.
+std::vector<int> judge(const std::vector<double>& time, std::int64_t first_row, bool at_end,
+                       CleanState& state, Issues& issues, bool& held) {
+  std::vector<int> kept;
+  kept.reserve(time.size());
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const char* fault = time_fault(time, i, state);
+    if (!fault && leaps(time[i], state)) {
+      held = i + 1 == time.size() && !at_end;
+      if (held) return kept;
+      if (next_is_between(time, i, state)) fault = "time_leap";
+    }
+    if (fault) {
+      report(issues, fault, first_row + static_cast<std::int64_t>(i) + 1, time[i], state);
+      continue;
+    }
+    if (state.last_time > -1e300) state.last_step = time[i] - state.last_time;
+    state.last_time = time[i];
+    kept.push_back(static_cast<int>(i));
+  }
+  return kept;
+}
+
+template <typename Visit>
+void visit_channels(Log& log, Visit visit) {
+  auto each = [&](JointSignals& signals, Quantity quantity) {
+    for (std::size_t j = 0; j < signals.size(); ++j)
+      visit(signals[j], Channel{quantity, static_cast<int>(j) + 1});
+  };
+  each(log.q, Quantity::q);
+  each(log.dq, Quantity::dq);
+  each(log.tau, Quantity::tau);
+  each(log.q_ref, Quantity::q_ref);
+  each(log.dq_ref, Quantity::dq_ref);
+}
+
+void blank_implausible(std::vector<double>& values, Channel channel, const std::vector<double>& time,
+                       std::int64_t first_row, Issues& issues) {
+  bool fine = true;
+  for (const double value : values) fine &= !(std::abs(value) > kImplausible);
+  if (fine) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(std::abs(values[i]) > kImplausible)) continue;
+    const std::int64_t row = first_row + static_cast<std::int64_t>(i) + 1;
+    issues.add(
+        {"value_implausible", to_string(channel), Severity::warning,
+         fmt::format("row {}: {} = {} cannot be; taken as missing", row, to_string(channel), values[i]), row,
+         time[i]});
+    values[i] = std::nan("");
+  }
+}
+
+void keep_rows(std::vector<double>& values, const std::vector<int>& kept) {
+  if (values.empty()) return;
+  for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
+  values.resize(kept.size());
+}
+
+void keep_rows(Log& log, const std::vector<int>& kept) {
+  visit_channels(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
+  for (ExtraChannel& extra : log.extra) keep_rows(extra.values, kept);
+  keep_rows(log.time, kept);
+}
+
+/// The usual case: every time is finite and after the one before, and none leaps.
+bool all_in_order(const std::vector<double>& time, CleanState& state) {
+  CleanState after = state;
+  for (const double t : time) {
+    if (!(t > after.last_time) || !(t <= kImplausible) || !(t >= -kImplausible) || leaps(t, after))
+      return false;
+    if (after.last_time > -1e300) after.last_step = t - after.last_time;
+    after.last_time = t;
+  }
+  state = after;
+  return true;
+}
+
+}  // namespace
+
+Log clean(Log& segment, std::int64_t first_row, bool at_end, CleanState& state, Issues& issues) {
+  bool held = false;
+  std::vector<int> kept;
+  const bool in_order = all_in_order(segment.time, state);
+  if (!in_order) kept = judge(segment.time, first_row, at_end, state, issues, held);
+  Log waiting;
+  const int rows = segment.rows();
+  if (held) {
+    waiting = slice(segment, rows - 1, rows);
+    resize_like(segment, segment, rows - 1);
+  }
+  visit_channels(segment, [&](std::vector<double>& values, Channel channel) {
+    blank_implausible(values, channel, segment.time, first_row, issues);
+  });
+  if (!in_order && static_cast<int>(kept.size()) < segment.rows()) keep_rows(segment, kept);
+  return waiting;
+}
+
+}  // namespace faultline

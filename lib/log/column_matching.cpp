@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/column_matching.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "lib/core/error.hpp"
+#include "lib/log/units.hpp"
+
+namespace faultline {
+namespace {
+
+/// Columns whose names differ by a number only, one for each joint.
+struct Family {
+  Quantity quantity = Quantity::q;
+  int fitness = 0;
+  std::map<int, int> column_of;  ///< by the number in the name; 1 when it has none
+  bool numbered = false;
+
+  int first() const { return column_of.begin()->first == 0 ? 0 : 1; }
+  int joints() const {
+    int joints = 0;
+    while (column_of.count(first() + joints)) ++joints;
+    return joints;
+  }
+};
+
+class Matcher {
+ public:
+  Matcher(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path)
+      : columns_(columns), map_(map), path_(path) {
+    for (const RawColumn& column : columns) names_.push_back(column.name);
+  }
+
+  Matching run() {
+    match_mapped();
+    match_time();
+    find_families();
+    match_quantity(Quantity::q);
+    require_positions();
+    for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref})
+      match_quantity(quantity);
+    finish();
+    return std::move(matching_);
+  }
+
+ private:
+  [[noreturn]] void fail_missing(const std::string& channel, const char* meaning) const {
+    std::string found;
+    for (std::size_t i = 0; i < names_.size() && i < 20; ++i) found += (i ? ", \"" : "\"") + names_[i] + "\"";
+    if (names_.size() > 20) found += " and " + std::to_string(names_.size() - 20) + " more";
+    throw Error(
+        ErrorCode::input, path_,
+        "no column for the " + std::string(meaning) + " (" + channel + ") was found; the columns are " +
+            found + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}" +
+            (channel == "t" ? "; without any, t = {name = \"@row\", scale = SAMPLE_PERIOD_IN_S}" : ""));
+  }
+
+  int column_named(const std::string& name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+  }
+
+  const ColumnSpec* spec_of(Channel channel) const {
+    const auto found = map_.find(to_string(channel));
+    return found == map_.end() ? nullptr : &found->second;
+  }
+
+  double unit_factor(const std::string& unit, const std::string& channel) const {
+    if (const auto factor = si_factor(unit)) return *factor;
+    throw Error(ErrorCode::usage, "[log.columns] " + channel,
+                "the unit \"" + unit +
+                    "\" is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
+  }
+
+  void add(Channel channel, int column) {
+    if (taken_.count(channel)) return;
+    const ColumnSpec spec = spec_of(channel) ? *spec_of(channel) : ColumnSpec{};
+    const std::string name = to_string(channel);
+    if (spec.sign != 1.0 && spec.sign != -1.0)
+      throw Error(ErrorCode::usage, "[log.columns] " + name,
+                  "sign must be 1 or -1; a factor belongs into scale");
+    const std::string& header_unit = column >= 0 ? columns_[column].unit : "";
+    double factor = 1.0;
+    if (!spec.unit.empty()) {
+      factor = unit_factor(spec.unit, name);
+    } else if (const auto known = si_factor(header_unit)) {
+      factor = *known;
+    } else {
+      note("unit_unknown", name, Severity::warning,
+           "column \"" + names_[column] + "\" has the unit \"" + header_unit +
+               "\", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " +
+               name);
+    }
+    matching_.channels.push_back({channel, column, -1, spec.sign * spec.scale * factor, spec.offset});
+    taken_.insert(channel);
+    used_.insert(column);
+  }
+
+  void note(const std::string& code, const std::string& channel, Severity severity,
+            const std::string& message) {
+    matching_.issues.add({code, channel, severity, message});
+  }
+
+  void match_mapped() {
+    for (const auto& [name, spec] : map_) {
+      const auto channel = canonical_channel(name);
+      if (!channel)
+        throw Error(ErrorCode::usage, "[log.columns] " + name,
+                    "is no channel; the channels are t, q1.., dq1.., tau1.., q_ref1.., dq_ref1..");
+      if (spec.name.empty()) continue;
+      const int column = spec.name == kRowNumberName ? kRowNumber : column_named(spec.name);
+      if (column == -1)
+        fail_missing(
+            name, ("\"" + spec.name + "\" of the robot file, the " + meaning_of(channel->quantity)).c_str());
+      add(*channel, column);
+    }
+  }
+
+  void match_time() {
+    if (taken_.count(Channel{})) return;
+    const int column = find_time_column(names_);
+    if (column >= 0) return add(Channel{}, column);
+    if (!match_time_pair()) fail_missing("t", meaning_of(Quantity::time));
+  }
+
+  /// Seconds and nanoseconds in two columns, as ROS writes a stamp.
+  bool match_time_pair() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      for (const auto& [whole, part] : {std::pair{"sec", "nanosec"}, {"secs", "nsecs"}}) {
+        const std::string& name = names_[i];
+        const std::string prefix =
+            name.substr(0, name.size() - std::min(name.size(), std::string(whole).size()));
+        const int nanoseconds = column_named(prefix + part);
+        if (prefix + whole != name || nanoseconds < 0) continue;
+        if (prefix.find("time_from_start") != std::string::npos) continue;
+        add(Channel{}, static_cast<int>(i));
+        matching_.channels.back().nanoseconds_column = nanoseconds;
+        used_.insert(nanoseconds);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void find_families() {
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (used_.count(static_cast<int>(i)) && !canonical_channel(names_[i])) continue;
+      const NameReading reading = read_name(names_[i]);
+      if (!reading.quantity) continue;
+      const auto [at, fresh] = index.emplace(reading.stem, families_.size());
+      if (fresh) families_.push_back({*reading.quantity, reading.fitness, {}, reading.number.has_value()});
+      Family& family = families_[at->second];
+      family.fitness = std::max(family.fitness, reading.fitness);
+      family.column_of.emplace(reading.number.value_or(1), static_cast<int>(i));
+    }
+  }
+
+  /// Canonical names first, then numbered ones, then the better fit, then more joints, then file order.
+  const Family* best_family(Quantity quantity) const {
+    const Family* best = nullptr;
+    auto rank = [](const Family& family) {
+      return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.joints());
+    };
+    for (const Family& family : families_)
+      if (family.quantity == quantity && family.joints() > 0 && (!best || rank(family) > rank(*best)))
+        best = &family;
+    return best;
+  }
+
+  /// A quantity that the robot file names for one joint is named there for all.
+  bool named_in_map(Quantity quantity) const {
+    return std::any_of(map_.begin(), map_.end(), [&](const auto& entry) {
+      const auto channel = canonical_channel(entry.first);
+      return channel && channel->quantity == quantity && !entry.second.name.empty();
+    });
+  }
+
+  void match_quantity(Quantity quantity) {
+    const Family* family = named_in_map(quantity) ? nullptr : best_family(quantity);
+    if (family) {
+      const int joints =
+          quantity == Quantity::q ? family->joints() : std::min(family->joints(), matching_.joints);
+      for (int j = 0; j < joints; ++j) add({quantity, j + 1}, family->column_of.at(family->first() + j));
+      if (joints > 0) note_rivals(quantity, *family);
+    }
+    if (quantity == Quantity::q)
+      while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
+  }
+
+  void note_rivals(Quantity quantity, const Family& chosen) {
+    if (chosen.fitness >= 100) return;
+    std::string rivals;
+    for (const Family& family : families_) {
+      if (family.quantity != quantity || &family == &chosen) continue;
+      rivals += (rivals.empty() ? "\"" : ", \"") + names_[family.column_of.begin()->second] + "\"";
+    }
+    if (rivals.empty()) return;
+    const std::string channel = to_string({quantity, 1});
+    note("channel_ambiguous", channel, Severity::note,
+         "\"" + names_[chosen.column_of.begin()->second] + "\" was taken as " + channel + "; " + rivals +
+             " could be meant as well. To choose, name it in the robot file: [log.columns] " + channel);
+  }
+
+  void require_positions() const {
+    if (matching_.joints == 0) fail_missing("q1", "position of joint 1");
+  }
+
+  void finish() {
+    auto& channels = matching_.channels;
+    const int joints = matching_.joints;
+    std::erase_if(channels, [joints](const ChannelSource& source) { return source.channel.joint > joints; });
+    std::sort(channels.begin(), channels.end(),
+              [](const ChannelSource& a, const ChannelSource& b) { return a.channel < b.channel; });
+    for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref})
+      note_gaps(quantity);
+    std::set<int> used;
+    for (const ChannelSource& source : channels) used.insert({source.column, source.nanoseconds_column});
+    for (int i = 0; i < static_cast<int>(columns_.size()); ++i)
+      if (!used.count(i)) matching_.extra.push_back(i);
+  }
+
+  /// A quantity that some joints have and others lack.
+  void note_gaps(Quantity quantity) {
+    auto has = [&](int joint) { return taken_.count({quantity, joint}) > 0; };
+    int present = 0;
+    for (int j = 1; j <= matching_.joints; ++j) present += has(j);
+    if (present == 0) return;
+    for (int j = 1; j <= matching_.joints; ++j)
+      if (!has(j))
+        note("channel_missing", to_string({quantity, j}), Severity::warning,
+             "no column for the " + std::string(meaning_of(quantity)) + " of joint " + std::to_string(j) +
+                 ", though other joints have one; it is taken as missing");
+  }
+
+  const std::vector<RawColumn>& columns_;
+  const ColumnMap& map_;
+  const std::string& path_;
+  std::vector<std::string> names_;
+  std::vector<Family> families_;
+  std::set<Channel> taken_;
+  std::set<int> used_;
+  Matching matching_;
+};
+
+}  // namespace
+
+Matching match_columns(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path) {
+  return Matcher(columns, map, path).run();
+}
+
+std::string why_no_match(const std::vector<RawColumn>& columns, const ColumnMap& map,
+                         const std::string& path) {
+  try {
+    match_columns(columns, map, path);
+    return "";
+  } catch (const Error& error) {
+    return error.message();
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/mapped_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+JointSignals& signals_of(Log& log, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::dq:
+      return log.dq;
+    case Quantity::tau:
+      return log.tau;
+    case Quantity::q_ref:
+      return log.q_ref;
+    case Quantity::dq_ref:
+      return log.dq_ref;
+    default:
+      return log.q;
+  }
+}
+
+void prepend(std::vector<double>& values, const std::vector<double>& first) {
+  values.insert(values.begin(), first.begin(), first.end());
+}
+
+void prepend(JointSignals& signals, const JointSignals& first) {
+  for (std::size_t j = 0; j < first.size(); ++j) prepend(signals[j], first[j]);
+}
+
+}  // namespace
+
+MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
+    : reader_(std::move(reader)), options_(options) {
+  options_.segment_rows = std::max(options_.segment_rows, 1);
+  matching_ = match_columns(reader_->columns(), reader_->canonical() ? ColumnMap{} : options_.columns,
+                            reader_->identity().path);
+  if (!options_.keep_extra) matching_.extra.clear();
+  uses_.assign(reader_->columns().size(), 0);
+  for (const ChannelSource& source : matching_.channels) {
+    if (source.column >= 0) ++uses_[source.column];
+    if (source.nanoseconds_column >= 0) ++uses_[source.nanoseconds_column];
+  }
+  for (const int column : matching_.extra) ++uses_[column];
+  std::vector<bool> wanted;
+  for (const int uses : uses_) wanted.push_back(uses > 0);
+  reader_->want(wanted);
+  gather_issues();
+}
+
+void MappedSource::rewind() {
+  reader_->rewind();
+  clean_state_ = {};
+  waiting_ = {};
+  rows_kept_ = 0;
+  at_end_ = false;
+  cleaning_issues_ = {};
+  gather_issues();
+}
+
+bool MappedSource::next(Log& segment) {
+  while (!at_end_) {
+    if (!fill(segment)) break;
+    const int rows = segment.rows();
+    waiting_ = clean(segment, segment_first_row_, at_end_, clean_state_, cleaning_issues_);
+    waiting_file_row_ = segment_first_row_ + rows - 1;
+    segment.first_row = rows_kept_;
+    rows_kept_ += segment.rows();
+    if (segment.rows() > 0) {
+      gather_issues();
+      return true;
+    }
+  }
+  gather_issues();
+  refuse_no_rows();
+  return false;
+}
+
+void MappedSource::refuse_no_rows() const {
+  if (rows_kept_ > 0) return;
+  const LogIdentity& log = reader_->identity();
+  if (log.rows_read == 0)
+    throw Error(ErrorCode::input, log.path, "has a header but no data row; a log has at least one");
+  throw Error(
+      ErrorCode::input, log.path,
+      fmt::format("none of its {} rows has a usable time (seconds as a number, increasing); first: {}",
+                  log.rows_read, issues_.empty() ? "" : issues_.all().front().message));
+}
+
+/// The next block, with the waiting row in front; after the last block that row alone.
+bool MappedSource::fill(Log& segment) {
+  const bool more = reader_->next(block_, options_.segment_rows);
+  at_end_ = !more;
+  if (!more) {
+    if (waiting_.rows() == 0) return false;
+    std::swap(segment, waiting_);
+    segment_first_row_ = waiting_file_row_;
+    return true;
+  }
+  take_block(segment);
+  segment_first_row_ = block_.first_row;
+  if (waiting_.rows() > 0) put_waiting_row_first(segment);
+  return true;
+}
+
+void MappedSource::put_waiting_row_first(Log& segment) {
+  prepend(segment.time, waiting_.time);
+  prepend(segment.q, waiting_.q);
+  prepend(segment.dq, waiting_.dq);
+  prepend(segment.tau, waiting_.tau);
+  prepend(segment.q_ref, waiting_.q_ref);
+  prepend(segment.dq_ref, waiting_.dq_ref);
+  for (std::size_t i = 0; i < waiting_.extra.size(); ++i)
+    prepend(segment.extra[i].values, waiting_.extra[i].values);
+  segment_first_row_ -= 1;
+}
+
+std::vector<double>& MappedSource::channel_of(Log& log, Channel channel) const {
+  return channel.quantity == Quantity::time ? log.time : signals_of(log, channel.quantity)[channel.joint - 1];
+}
+
+void MappedSource::take_block(Log& segment) {
+  for (const Quantity quantity :
+       {Quantity::q, Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref}) {
+    const bool present =
+        std::any_of(matching_.channels.begin(), matching_.channels.end(),
+                    [&](const ChannelSource& source) { return source.channel.quantity == quantity; });
+    signals_of(segment, quantity).resize(present ? matching_.joints : 0);
+  }
+  for (const ChannelSource& source : matching_.channels) take(source, channel_of(segment, source.channel));
+  for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref}) {
+    auto& signals = signals_of(segment, quantity);
+    for (int j = 0; j < static_cast<int>(signals.size()); ++j) {
+      const bool found =
+          std::any_of(matching_.channels.begin(), matching_.channels.end(), [&](const auto& source) {
+            return source.channel == Channel{quantity, j + 1};
+          });
+      if (!found) signals[j].assign(block_.rows, std::nan(""));
+    }
+  }
+  segment.extra.resize(matching_.extra.size());
+  for (std::size_t i = 0; i < matching_.extra.size(); ++i) {
+    const RawColumn& column = reader_->columns()[matching_.extra[i]];
+    segment.extra[i].name = column.name;
+    segment.extra[i].unit = column.unit;
+    segment.extra[i].values.swap(block_.columns[matching_.extra[i]]);
+  }
+}
+
+void MappedSource::take(const ChannelSource& source, std::vector<double>& values) {
+  if (source.column == kRowNumber) {
+    values.resize(block_.rows);
+    for (int i = 0; i < block_.rows; ++i)
+      values[i] = source.gain * static_cast<double>(block_.first_row + i) + source.offset;
+    return;
+  }
+  auto& raw = block_.columns[source.column];
+  if (uses_[source.column] == 1)
+    values.swap(raw);
+  else
+    values = raw;
+  if (source.unchanged()) return;
+  for (double& value : values) value = source.gain * value + source.offset;
+  if (source.nanoseconds_column < 0) return;
+  const auto& nanoseconds = block_.columns[source.nanoseconds_column];
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += 1e-9 * nanoseconds[i];
+}
+
+/// All issues so far in the order of their first rows, whatever the size of the segments; the reader's under
+/// the names of the channels their columns became.
+void MappedSource::gather_issues() {
+  std::vector<Issue> all = matching_.issues.all();
+  for (Issue issue : reader_->issues().all()) {
+    for (const ChannelSource& source : matching_.channels)
+      if (source.column >= 0 && issue.channel == reader_->columns()[source.column].name)
+        issue.channel = to_string(source.channel);
+    for (const int extra : matching_.extra)
+      if (issue.channel == reader_->columns()[extra].name) issue.severity = Severity::note;
+    all.push_back(issue);
+  }
+  for (const Issue& issue : cleaning_issues_.all()) all.push_back(issue);
+  std::stable_sort(all.begin(), all.end(), [](const Issue& a, const Issue& b) {
+    return std::tie(a.first_row, a.code, a.channel) < std::tie(b.first_row, b.code, b.channel);
+  });
+  issues_ = {};
+  for (Issue& issue : all) issues_.add(std::move(issue));
+}
+
+}  // namespace faultline

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace faultline {
+
+/// The factor from `unit` to SI (rad, m, s, N m, N, A and their rates): "deg" gives pi/180, "" and "-"
+/// give 1. Capitals matter only for prefixes ("mm"); nullopt for a unit that is not known.
+std::optional<double> si_factor(std::string_view unit);
+
+/// Separates a unit written behind a name, as in "q1 [deg]", "q1 (deg)" or "time_ms"; unit is empty when
+/// there is none. After an underscore only units count that hardly mean anything else there.
+struct NameAndUnit {
+  std::string name;
+  std::string unit;
+};
+NameAndUnit split_unit(std::string_view text);
+
+}  // namespace faultline
