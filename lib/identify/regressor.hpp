@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+/// Numbers that describe one link: mass, first moment (x y z), inertia about the frame (xx yy zz xy xz yz).
+inline constexpr int kLinkParameters = 10;
+
+using LinkVector = Eigen::Matrix<double, kLinkParameters, 1>;
+
+LinkVector to_vector(const LinkInertia<double>& link);
+LinkInertia<double> link_from(const LinkVector& vector);
+
+/// Motion of every link that one joint's unit rate causes, in the link's own frame: angular and linear
+/// velocity of the frame's origin.
+struct Twist {
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+};
+
+/// Kinematics of a chain at one configuration: twist[link][joint] for joint <= link, and gravity as each link
+/// feels it.
+struct LinkFrames {
+  std::array<std::array<Twist, kMaxJoints>, kMaxJoints> twist;
+  std::array<Eigen::Vector3d, kMaxJoints> gravity;
+  int joints = 0;
+};
+
+LinkFrames link_frames(const Chain<double>& chain, const JointVector<double>& q);
+
+/// Rows of a quantity linear in the links' inertia: n x (10 n), link after link.
+using LinkRegressor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints,
+                                    kMaxJoints * kLinkParameters>;
+
+/// Momentum p = M(q) dq.
+void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
+/// The part of dp/dt that is neither motor nor friction: dT/dq - G(q), where T is the kinetic energy.
+void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
+/// Inverse dynamics M ddq + h + G. The accelerations come from the recursion of Newton and Euler.
+void torque_regressor(const Chain<double>& chain, const LinkFrames& frames, const JointVector<double>& q,
+                      const JointVector<double>& dq, const JointVector<double>& ddq, LinkRegressor& out);
+
+}  // namespace faultline

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/regressor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/core/random.hpp"
+#include "lib/robot/dynamics.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+namespace {
+
+JointVector<double> draw(Random& random, int n) {
+  JointVector<double> v(n);
+  for (int i = 0; i < n; ++i) v[i] = random.uniform(-2.0, 2.0);
+  return v;
+}
+
+/// R, P about crossed and oblique axes, R again; every link with a full inertia; gravity not along an axis.
+Chain<double> crossed_chain(Random& random) {
+  Robot robot = preset_robot("RRP");
+  Chain<double> chain = robot.chain;
+  chain.geometry[1].axis = Eigen::Vector3d::UnitX();
+  chain.geometry[1].kind = AxisKind::prismatic;
+  chain.geometry[2].kind = AxisKind::revolute;
+  chain.geometry[2].axis = Eigen::Vector3d(0.0, 0.6, 0.8);
+  chain.geometry[2].offset = Eigen::Vector3d(0.1, -0.2, 0.3);
+  chain.gravity = Eigen::Vector3d(1.0, -9.0, 3.0);
+  for (auto& link : chain.links) {
+    LinkVector v;
+    for (int k = 0; k < kLinkParameters; ++k) v[k] = random.uniform(0.1, 1.0);
+    v.segment<3>(4).array() += 3.0;
+    link = link_from(v);
+  }
+  return chain;
+}
+
+Eigen::VectorXd stacked(const Chain<double>& chain) {
+  Eigen::VectorXd all(chain.joints() * kLinkParameters);
+  for (int i = 0; i < chain.joints(); ++i) all.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
+  return all;
+}
+
+TEST(Regressor, TorqueEqualsInverseDynamics) {
+  Random random(5);
+  for (int k = 0; k < 20; ++k) {
+    const Chain<double> chain = crossed_chain(random);
+    const auto q = draw(random, 3), dq = draw(random, 3), ddq = draw(random, 3);
+    LinkRegressor y;
+    torque_regressor(chain, link_frames(chain, q), q, dq, ddq, y);
+    EXPECT_LT((y * stacked(chain) - rigid_body_torque(chain, q, dq, ddq, chain.gravity)).norm(), 1e-11);
+  }
+}
+
+TEST(Regressor, MomentumEqualsInertiaTimesVelocity) {
+  Random random(6);
+  for (int k = 0; k < 20; ++k) {
+    const Chain<double> chain = crossed_chain(random);
+    const auto q = draw(random, 3), dq = draw(random, 3);
+    LinkRegressor y;
+    momentum_regressor(link_frames(chain, q), dq, y);
+    EXPECT_LT((y * stacked(chain) - momentum(chain, q, dq)).norm(), 1e-11);
+  }
+}
+
+TEST(Regressor, ForceIsTheSlopeOfTheLagrangian) {
+  Random random(7);
+  for (int k = 0; k < 20; ++k) {
+    const Chain<double> chain = crossed_chain(random);
+    const auto q = draw(random, 3), dq = draw(random, 3);
+    LinkRegressor y;
+    force_regressor(link_frames(chain, q), dq, y);
+    const JointVector<double> force = y * stacked(chain);
+    for (int i = 0; i < 3; ++i) {
+      JointVector<double> up = q, down = q;
+      up[i] += 1e-5;
+      down[i] -= 1e-5;
+      const double slope = (kinetic_energy(chain, up, dq) - potential_energy(chain, up) -
+                            kinetic_energy(chain, down, dq) + potential_energy(chain, down)) /
+                           2e-5;
+      EXPECT_NEAR(force[i], slope, 1e-6);
+    }
+  }
+}
+
+TEST(Regressor, LinkVectorRoundTrip) {
+  LinkVector v;
+  v << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10;
+  EXPECT_EQ(to_vector(link_from(v)), v);
+}
+
+}  // namespace
+}  // namespace faultline
