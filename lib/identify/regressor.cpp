@@ -70,7 +70,8 @@ LinkFrames link_frames(const Chain<double>& chain, const JointVector<double>& q)
     const Eigen::Matrix3d to_link = pose.rotation.transpose();
     for (int i = 0; i < j; ++i) {
       const Twist& before = frames.twist[j - 1][i];
-      frames.twist[j][i] = {to_link * before.angular, to_link * (before.linear + before.angular.cross(pose.position))};
+      frames.twist[j][i] = {to_link * before.angular,
+                            to_link * (before.linear + before.angular.cross(pose.position))};
     }
     const JointGeometry& joint = chain.geometry[j];
     Twist& own = frames.twist[j][j];
@@ -128,8 +129,8 @@ void torque_regressor(const Chain<double>& chain, const LinkFrames& frames, cons
       const Twist& s = frames.twist[j][i];
       LinkVector row = LinkVector::Zero();
       row[0] = s.linear.dot(acceleration);
-      row.segment<3>(1) = s.linear.cross(alpha) + omega * omega.dot(s.linear) - omega.squaredNorm() * s.linear +
-                          acceleration.cross(s.angular);
+      row.segment<3>(1) = s.linear.cross(alpha) + omega * omega.dot(s.linear) -
+                          omega.squaredNorm() * s.linear + acceleration.cross(s.angular);
       add_inertia_entries(s.angular, alpha, row.data() + 4);
       add_inertia_entries(s.angular.cross(omega), omega, row.data() + 4);
       out.block<1, kLinkParameters>(i, j * kLinkParameters) = row.transpose();

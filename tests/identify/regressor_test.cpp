@@ -37,7 +37,8 @@ Chain<double> crossed_chain(Random& random) {
 
 Eigen::VectorXd stacked(const Chain<double>& chain) {
   Eigen::VectorXd all(chain.joints() * kLinkParameters);
-  for (int i = 0; i < chain.joints(); ++i) all.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
+  for (int i = 0; i < chain.joints(); ++i)
+    all.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
   return all;
 }
 

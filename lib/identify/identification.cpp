@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/identification.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+
+const char* to_string(IdentificationStatus status) {
+  switch (status) {
+    case IdentificationStatus::not_run:
+      return "not_run";
+    case IdentificationStatus::converged:
+      return "converged";
+    case IdentificationStatus::not_converged:
+      return "not_converged";
+    case IdentificationStatus::poorly_excited:
+      return "poorly_excited";
+  }
+  return "not_run";
+}
+
+const char* to_string(IdentifyMethod method) {
+  switch (method) {
+    case IdentifyMethod::automatic:
+      return "automatic";
+    case IdentifyMethod::weak_form:
+      return "weak_form";
+    case IdentifyMethod::output_error:
+      return "output_error";
+  }
+  return "automatic";
+}
+
+Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters) {
+  Robot out = robot;
+  out.chain = chain_from(space, parameters);
+  out.torque_phi = std::clamp(parameters[space.timing()], 0.0, 1.0);
+  out.identified = true;
+  return out;
+}
+
+Robot draw(const Identification& id, Random& random) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(id.covariance);
+  Eigen::VectorXd p = id.estimate;
+  for (Eigen::Index k = 0; k < p.size(); ++k)
+    p += eigen.eigenvectors().col(k) * (std::sqrt(std::max(eigen.eigenvalues()[k], 0.0)) * random.normal());
+  const ParameterSpace& space = id.space;
+  for (int j = 0; j < space.joints(); ++j)
+    for (int k : {space.viscous(j), space.coulomb(j)})
+      if (id.estimate[k] >= 0.0) p[k] = std::max(p[k], 0.0);
+  for (int k = 0; k < space.rigid(); ++k)
+    if (space.base[k].is_mass && id.estimate[k] > 0.0) p[k] = std::max(p[k], 0.1 * id.estimate[k]);
+  return robot_with(id.robot, space, p);
+}
+
+}  // namespace faultline

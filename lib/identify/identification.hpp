@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lib/core/issue.hpp"
+#include "lib/core/random.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+enum class IdentificationStatus {
+  not_run,
+  converged,
+  not_converged,   ///< values are the best found, not an optimum
+  poorly_excited,  ///< converged, but some parameters could not be told from the motion and were kept
+};
+
+const char* to_string(IdentificationStatus status);
+
+/// Which estimator the values come from.
+enum class IdentifyMethod {
+  automatic,     ///< output error, unless model error dominates its residual: then weak form
+  weak_form,     ///< momentum balance over short windows, least squares
+  output_error,  ///< multiple shooting
+};
+
+const char* to_string(IdentifyMethod method);
+
+struct ParameterEstimate {
+  std::string name;
+  double value = 0.0;
+  double std = 0.0;  ///< NaN when not identifiable
+  std::array<double, 2> ci95 = {0.0, 0.0};
+  std::string unit;
+  bool identifiable = false;
+  std::string why_not;  ///< names the missing datum; empty when identifiable
+  std::string meaning;  ///< of a base parameter: what it adds up
+};
+
+struct IdentifiedLog {
+  std::string path;
+  std::string sha256;
+  std::int64_t rows = 0;       ///< read
+  std::int64_t rows_used = 0;  ///< in the windows of the weak form
+  double sample_period_s = 0.0;
+  double payload_kg = 0.0;
+};
+
+/// What healthy logs tell about a robot.
+struct Identification {
+  IdentificationStatus status = IdentificationStatus::not_run;
+  std::string reason;                                 ///< why it stopped, in a sentence
+  IdentifyMethod method = IdentifyMethod::automatic;  ///< the estimator used
+  /// The input robot with what was identified in it: `chain` moves as the logs did (its single masses and
+  /// lengths are real only where physical_parameters say identifiable), `torque_phi`, friction.
+  Robot robot;
+  std::vector<ParameterEstimate> base_parameters;      ///< then fv_j, fc_j, offset_j, phi, width_j
+  std::vector<ParameterEstimate> physical_parameters;  ///< m_j, l_j
+  std::vector<double> q_noise;       ///< std of measured positions, by joint; at least the floor of rounding
+  std::vector<double> dq_noise;      ///< std of measured velocities; empty when no log has them
+  double condition_number = 0.0;     ///< of the base parameters' regressor, columns scaled to length 1
+  std::vector<double> residual_rms;  ///< torque the model does not explain over windows, by joint, N m or N
+  std::vector<double> fit_r2;        ///< share of the windowed torque's variance explained, by joint
+  std::vector<IdentifiedLog> logs;
+  Issues issues;
+
+  ParameterSpace space;
+  Eigen::VectorXd estimate;    ///< all parameters of `space`
+  Eigen::MatrixXd covariance;  ///< of `estimate`; zero rows for parameters that were kept
+};
+
+/// The identified robot with parameters drawn from their joint normal distribution; masses and friction stay
+/// positive.
+Robot draw(const Identification& identification, Random& random);
+
+/// `robot` with the parameters of `space` in its chain and its torque timing.
+Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters);
+
+}  // namespace faultline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "lib/core/progress.hpp"
+#include "lib/identify/identification.hpp"
+#include "lib/log/log_source.hpp"
+
+namespace faultline {
+
+struct IdentifyOptions {
+  IdentifyMethod method = IdentifyMethod::automatic;
+  double window_s = 0.04;       ///< length of a weak-form window; at least one sample
+  double segment_s = 0.25;      ///< length of a shooting segment on logs of 100 Hz and above
+  int min_segment_rows = 8;     ///< rows of a shooting segment on slower logs
+  int max_rows = 40000;         ///< rows that shooting uses, spread over all logs
+  int max_windows = 20000;      ///< windows that the weak form keeps, spread over all logs
+  int max_iterations = 40;      ///< of each least-squares solve
+  bool estimate_offset = true;  ///< friction offset of a joint, kept only where the data ask for it
+  bool estimate_width =
+      true;         ///< friction width, with the robot file's as a prior within a factor of about 3
+  int threads = 0;  ///< 0 = one a core; the result does not depend on it
+
+  /// Throws Error(usage) naming the field, its value and its bound.
+  void check() const;
+};
+
+/// Identifies `robot` from logs of healthy runs (physics.md section 5): a weak-form regression for a start,
+/// then output error by multiple shooting. Facts in robot.known are kept; a log whose file name is in
+/// robot.payloads carries that mass. Reads every log once from its start. Throws Error(input) when no log has
+/// enough usable rows, or a log has other joints than the robot.
+Identification identify(std::span<LogSource* const> logs, const Robot& robot,
+                        const IdentifyOptions& options = {}, const Progress& progress = {});
+
+}  // namespace faultline

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/parameter_space.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "lib/core/random.hpp"
+
+namespace faultline {
+namespace {
+
+/// A way the links' inertial numbers may change.
+struct Candidate {
+  BaseParameter parameter;
+  Eigen::VectorXd direction;  ///< 10 n
+};
+
+constexpr int kProbes = 40;
+constexpr double kIndependent = 1e-7;  ///< share of a column that the columns before it must leave
+
+Candidate candidate(const std::string& name, const std::string& unit, int joints) {
+  return {{name, unit, name, false}, Eigen::VectorXd::Zero(joints * kLinkParameters)};
+}
+
+LinkVector rod_inertia(const Eigen::Vector3d& direction) {
+  LinkInertia<double> link;
+  link.inertia = Eigen::Matrix3d::Identity() - direction * direction.transpose();
+  return to_vector(link);
+}
+
+/// The inertial numbers of link i that its shape leaves free, the ones that carry most first.
+void add_link_candidates(const Robot& robot, int i, std::vector<Candidate>& out) {
+  const int n = robot.joints(), at = i * kLinkParameters;
+  const auto add = [&](const std::string& name, const std::string& unit, const LinkVector& v) {
+    out.push_back(candidate(name + std::to_string(i + 1), unit, n));
+    out.back().direction.segment<kLinkParameters>(at) = v;
+  };
+  const auto unit_vector = [](int k) { return LinkVector(LinkVector::Unit(k)); };
+  if (robot.shapes[i] == LinkShape::rod) {
+    const Eigen::Vector3d along = link_direction(robot, i);
+    LinkVector moment = LinkVector::Zero();
+    moment.segment<3>(1) = along;
+    add("I", "kg m^2", rod_inertia(along));
+    add("mx", "kg m", moment);
+  } else if (robot.shapes[i] == LinkShape::general) {
+    const char* const inertia[] = {"Izz", "Ixx", "Iyy", "Ixy", "Ixz", "Iyz"};
+    const int index[] = {6, 4, 5, 7, 8, 9};
+    for (int k = 0; k < 6; ++k) add(inertia[k], "kg m^2", unit_vector(index[k]));
+    add("mx", "kg m", unit_vector(1));
+    add("my", "kg m", unit_vector(2));
+    add("mz", "kg m", unit_vector(3));
+  }
+  add("m", "kg", unit_vector(0));
+  out.back().parameter.is_mass = true;
+}
+
+bool is_scara(const Robot& robot) { return robot.axes == "RRP" || robot.axes == "RRPR"; }
+
+/// a, b, c, m3 of physics of the SCARA: each direction changes that one number of M and G and no other.
+std::vector<Candidate> scara_candidates(const Robot& robot) {
+  const int n = robot.joints();
+  const double l1 = robot.chain.length[0], l2 = robot.chain.length[1];
+  const Eigen::Vector3d x1 = link_direction(robot, 0), x2 = link_direction(robot, 1);
+  const bool tool = n > 3;
+  const std::string carried = tool ? "(m3 + m4)" : "m3";
+  Candidate a = candidate("a", "kg m^2", n), b = candidate("b", "kg m^2", n), c = candidate("c", "kg m^2", n);
+  Candidate m = candidate("m3", "kg", n);
+  a.parameter.meaning = fmt::format("l1^2 (m1/3 + m2 + {})", carried);
+  b.parameter.meaning = fmt::format("l2^2 (m2/3 + {})", carried);
+  c.parameter.meaning = fmt::format("l1 l2 (m2/2 + {})", carried);
+  m.parameter.meaning = tool ? "m3 + m4" : "m3";
+  m.parameter.is_mass = true;
+  a.direction.segment<kLinkParameters>(0) = rod_inertia(x1);
+  b.direction.segment<kLinkParameters>(kLinkParameters) = rod_inertia(x2);
+  c.direction.segment<3>(kLinkParameters + 1) = x2 / l1;
+  m.direction[2 * kLinkParameters] = 1.0;
+  m.direction -= l1 * l1 * a.direction + l2 * l2 * b.direction + l1 * l2 * c.direction;
+  return {a, b, c, m};
+}
+
+std::vector<Candidate> candidates(const Robot& robot) {
+  std::vector<Candidate> out;
+  if (is_scara(robot) && robot.chain.length[0] > 0.0 && robot.chain.length[1] > 0.0)
+    out = scara_candidates(robot);
+  for (int i = 0; i < robot.joints(); ++i) add_link_candidates(robot, i, out);
+  return out;
+}
+
+JointVector<double> draw(Random& random, int n, double scale) {
+  JointVector<double> v(n);
+  for (int i = 0; i < n; ++i) v[i] = random.uniform(-scale, scale);
+  return v;
+}
+
+/// Torque of every inertial number at random states: (probes n) x (10 n).
+Eigen::MatrixXd probe(const Chain<double>& chain) {
+  const int n = chain.joints();
+  Random random(20260101);
+  Eigen::MatrixXd all(kProbes * n, n * kLinkParameters);
+  LinkRegressor y;
+  for (int k = 0; k < kProbes; ++k) {
+    const auto q = draw(random, n, 2.0), dq = draw(random, n, 2.0), ddq = draw(random, n, 5.0);
+    torque_regressor(chain, link_frames(chain, q), q, dq, ddq, y);
+    all.middleRows(k * n, n) = y;
+  }
+  return all;
+}
+
+/// Coefficients of `column` on the columns kept so far, and the share of it they leave.
+double project(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column, Eigen::VectorXd& coefficients) {
+  coefficients.resize(kept.cols());
+  if (kept.cols() == 0) return 1.0;
+  coefficients = kept.colPivHouseholderQr().solve(column);
+  return (column - kept * coefficients).norm() / column.norm();
+}
+
+void explain(ParameterSpace& space, const Eigen::VectorXd& coefficients, const std::string& name) {
+  for (int k = 0; k < coefficients.size(); ++k) {
+    if (std::abs(coefficients[k]) < 1e-9) continue;
+    const double size = std::abs(coefficients[k]);
+    const std::string factor = std::abs(size - 1.0) < 1e-9 ? "" : fmt::format("{:.4g} ", size);
+    space.base[k].meaning += fmt::format(" {} {}{}", coefficients[k] > 0 ? "+" : "-", factor, name);
+  }
+}
+
+}  // namespace
+
+std::string ParameterSpace::name(int p) const {
+  const int n = joints();
+  if (p < rigid()) return base[p].name;
+  if (p == timing()) return "phi";
+  if (p > timing()) return fmt::format("width{}", p - timing());
+  const int k = (p - rigid()) / n;
+  return fmt::format("{}{}", k == 0 ? "fv_" : k == 1 ? "fc_" : "offset_", (p - rigid()) % n + 1);
+}
+
+std::string ParameterSpace::unit(int p) const {
+  if (p < rigid()) return base[p].unit;
+  if (p == timing()) return "samples";
+  const bool is_width = p > timing();
+  const int joint = is_width ? p - timing() - 1 : (p - rigid()) % joints();
+  const bool revolute = chain.geometry[joint].kind == AxisKind::revolute;
+  if (is_width) return revolute ? "rad/s" : "m/s";
+  if ((p - rigid()) / joints() == 0) return revolute ? "N m s/rad" : "N s/m";
+  return revolute ? "N m" : "N";
+}
+
+ParameterSpace parameter_space(const Robot& robot) {
+  ParameterSpace space;
+  space.chain = robot.chain;
+  const Eigen::MatrixXd all = probe(robot.chain);
+  const auto list = candidates(robot);
+  Eigen::MatrixXd kept(all.rows(), 0), lift(all.cols(), 0);
+  std::vector<const Candidate*> rejected;
+  for (const Candidate& c : list) {
+    const Eigen::VectorXd column = all * c.direction;
+    Eigen::VectorXd coefficients;
+    if (column.norm() < 1e-9 * std::sqrt(static_cast<double>(column.size()))) continue;
+    if (project(kept, column, coefficients) < kIndependent) {
+      rejected.push_back(&c);
+      continue;
+    }
+    kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
+    lift.conservativeResize(Eigen::NoChange, lift.cols() + 1);
+    kept.rightCols<1>() = column;
+    lift.rightCols<1>() = c.direction;
+    space.base.push_back(c.parameter);
+  }
+  space.lift = lift;
+  if (is_scara(robot)) return space;
+  for (const Candidate* c : rejected) {
+    Eigen::VectorXd coefficients;
+    project(kept, all * c->direction, coefficients);
+    explain(space, coefficients, c->parameter.name);
+  }
+  return space;
+}
+
+Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
+  Chain<double> chain = space.chain;
+  const Eigen::VectorXd links = space.lift * p.head(space.rigid());
+  for (int i = 0; i < chain.joints(); ++i) {
+    chain.links[i] = link_from(links.segment<kLinkParameters>(i * kLinkParameters));
+    chain.friction[i] = {p[space.viscous(i)], p[space.coulomb(i)], p[space.offset(i)],
+                         std::exp(p[space.log_width(i)])};
+  }
+  return chain;
+}
+
+Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi) {
+  const int n = space.joints();
+  Eigen::VectorXd links(n * kLinkParameters), p(space.count());
+  for (int i = 0; i < n; ++i) links.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
+  const Eigen::VectorXd torque = probe(chain) * links;
+  p.head(space.rigid()) = (probe(space.chain) * space.lift).colPivHouseholderQr().solve(torque);
+  for (int i = 0; i < n; ++i) {
+    p[space.viscous(i)] = chain.friction[i].viscous;
+    p[space.coulomb(i)] = chain.friction[i].coulomb;
+    p[space.offset(i)] = chain.friction[i].offset;
+    p[space.log_width(i)] = std::log(chain.friction[i].width);
+  }
+  p[space.timing()] = phi;
+  return p;
+}
+
+}  // namespace faultline

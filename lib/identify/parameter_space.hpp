@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "lib/identify/regressor.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// One combination of masses, first moments and inertias that torques can tell from the others.
+struct BaseParameter {
+  std::string
+      name;  ///< a, b, c, m3 of a SCARA; else the inertial number it is gathered in, such as "I1", "mx2"
+  std::string unit;      ///< kg m^2, kg m or kg
+  std::string meaning;   ///< what it adds up, such as "I2 + 0.09 m3" at the lengths of `chain`
+  bool is_mass = false;  ///< the mass that a vertical prismatic axis carries: one that gravity weighs
+};
+
+/// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
+/// joint fv, fc, offset, then phi (torque timing), then ln(friction width) of every joint. Torques are linear
+/// in all but the widths.
+struct ParameterSpace {
+  Chain<double> chain;  ///< geometry, lengths, gravity and rotor inertia; its links and friction do not count
+  std::vector<BaseParameter> base;
+  Eigen::MatrixXd lift;  ///< (10 n) x base: the links' inertial numbers that stand for the base parameters
+
+  int joints() const { return chain.joints(); }
+  int rigid() const { return static_cast<int>(base.size()); }
+  int viscous(int joint) const { return rigid() + joint; }
+  int coulomb(int joint) const { return rigid() + joints() + joint; }
+  int offset(int joint) const { return rigid() + 2 * joints() + joint; }
+  int timing() const { return rigid() + 3 * joints(); }
+  int log_width(int joint) const { return timing() + 1 + joint; }
+  int count() const { return timing() + 1 + joints(); }
+  /// Those in which torques are linear: all before the widths.
+  int linear() const { return timing() + 1; }
+
+  std::string name(int parameter) const;
+  std::string unit(int parameter) const;
+};
+
+/// Base parameters by rank over random states, so that every torque the robot's link shapes allow can be
+/// formed: a, b, c, m3 for SCARA orders, else the inertial numbers themselves, base first
+/// (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
+ParameterSpace parameter_space(const Robot& robot);
+
+/// The chain that moves as the parameters say. Its masses and first moments stand for the base parameters and
+/// need not be those of the real links.
+Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters);
+
+/// The parameters of `robot` in `space`: the base parameters whose torques come nearest to its own, its
+/// friction, `phi`.
+Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi);
+
+}  // namespace faultline

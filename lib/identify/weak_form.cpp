@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/weak_form.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr int kRounds = 8;
+constexpr double kBisquare = 4.685;  ///< 95 % efficient on normal residuals
+constexpr double kBlock_s = 1.0;
+constexpr double kDependent = 3e-3;   ///< share of a scaled column that must be its own
+constexpr double kNotExcited = 1e-9;  ///< of a column's largest entry
+
+/// All windows as one system, row (window, joint).
+struct System {
+  Eigen::MatrixXd a;
+  Eigen::VectorXd y;
+  std::vector<int> block;  ///< of each row: windows of the same second of the same log
+  int joints = 0;
+};
+
+System assemble(const WeakWindows& windows) {
+  const ParameterSpace& space = windows.space();
+  const int n = space.joints(), count = static_cast<int>(windows.all().size());
+  System s;
+  s.joints = n;
+  s.a.setZero(count * n, space.linear());
+  s.y.resize(count * n);
+  double start = 0.0;
+  int block = -1, log = -1;
+  for (int k = 0; k < count; ++k) {
+    const WeakWindow& w = windows.all()[k];
+    if (w.log != log || w.time_s - start >= kBlock_s) {
+      ++block;
+      log = w.log;
+      start = w.time_s;
+    }
+    s.a.block(k * n, 0, n, space.rigid()) = w.base;
+    for (int j = 0; j < n; ++j) {
+      s.a(k * n + j, space.viscous(j)) = w.viscous[j];
+      s.a(k * n + j, space.coulomb(j)) = w.coulomb[j];
+      s.a(k * n + j, space.offset(j)) = 1.0;
+      s.a(k * n + j, space.timing()) = -w.timing[j];
+      s.y[k * n + j] = w.torque[j];
+      s.block.push_back(block);
+    }
+  }
+  return s;
+}
+
+/// 1.4826 times the median absolute value of every n-th entry from `joint`.
+double robust_scale(const Eigen::VectorXd& r, int joint, int n) {
+  std::vector<double> size;
+  for (Eigen::Index k = joint; k < r.size(); k += n) size.push_back(std::abs(r[k]));
+  if (size.empty()) return 1.0;
+  auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  return 1.4826 * *middle;
+}
+
+/// Columns of the weighted system that stand on their own, chosen by pivoted QR of the scaled columns.
+struct Selection {
+  std::vector<int> columns;
+  std::vector<bool> confounded;
+  double condition_number = 0.0;
+};
+
+double condition(const Eigen::MatrixXd& a) {
+  if (a.cols() == 0) return 0.0;
+  const auto s = Eigen::BDCSVD<Eigen::MatrixXd>(a).singularValues();
+  return s[0] / s[s.size() - 1];
+}
+
+Selection select_columns(const Eigen::MatrixXd& a, const std::vector<bool>& wanted, int rigid) {
+  Selection out;
+  out.confounded.assign(a.cols(), true);
+  std::vector<int> listed;
+  for (int c = 0; c < a.cols(); ++c)
+    if (wanted[c] && a.col(c).norm() > kNotExcited * std::sqrt(static_cast<double>(a.rows())))
+      listed.push_back(c);
+  Eigen::MatrixXd scaled(a.rows(), listed.size());
+  for (std::size_t i = 0; i < listed.size(); ++i) scaled.col(i) = a.col(listed[i]).normalized();
+  if (listed.empty()) return out;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const Eigen::MatrixXd r = qr.matrixR().topRows(scaled.cols()).triangularView<Eigen::Upper>();
+  const auto order = qr.colsPermutation().indices();
+  int rank = 0;
+  while (rank < scaled.cols() && std::abs(r(rank, rank)) > kDependent) ++rank;
+  for (int i = 0; i < rank; ++i) {
+    out.columns.push_back(listed[order[i]]);
+    out.confounded[listed[order[i]]] = false;
+  }
+  const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
+                                      .triangularView<Eigen::Upper>()
+                                      .solve(r.topRightCorner(rank, scaled.cols() - rank));
+  for (int i = 0; i < rank; ++i)
+    if (mixture.cols() > 0 && mixture.row(i).cwiseAbs().maxCoeff() > 0.03)
+      out.confounded[listed[order[i]]] = true;
+  std::sort(out.columns.begin(), out.columns.end());
+  Eigen::MatrixXd base(a.rows(), 0);
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    if (listed[i] < rigid && std::binary_search(out.columns.begin(), out.columns.end(), listed[i])) {
+      base.conservativeResize(Eigen::NoChange, base.cols() + 1);
+      base.rightCols<1>() = scaled.col(i);
+    }
+  out.condition_number = condition(base);
+  return out;
+}
+
+Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) {
+  Eigen::MatrixXd out(a.rows(), columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) out.col(i) = a.col(columns[i]);
+  return out;
+}
+
+double bisquare(double r) {
+  const double u = r / kBisquare;
+  return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
+}
+
+/// (A^T W A)^-1 (sum over blocks of g g^T) (A^T W A)^-1, g the weighted gradient of a block.
+Eigen::MatrixXd sandwich(const Eigen::MatrixXd& a, const Eigen::VectorXd& weight, const Eigen::VectorXd& r,
+                         const std::vector<int>& block) {
+  const Eigen::Index m = a.cols();
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
+  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+    if (k > 0 && block[k] != block[k - 1]) {
+      meat += g * g.transpose();
+      g.setZero();
+    }
+    g += weight[k] * r[k] * a.row(k).transpose();
+  }
+  meat += g * g.transpose();
+  const Eigen::MatrixXd bread =
+      (a.transpose() * weight.asDiagonal() * a).ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+  const double blocks = block.empty() ? 1.0 : block.back() + 1.0;
+  return bread * meat * bread * std::max(1.0, blocks / std::max(1.0, blocks - static_cast<double>(m)));
+}
+
+void judge(const System& s, const Eigen::VectorXd& residual, const Eigen::VectorXd& robust, WeakFit& fit) {
+  for (int j = 0; j < s.joints; ++j) {
+    double sum = 0.0, mean = 0.0, spread = 0.0, count = 0.0;
+    for (Eigen::Index k = j; k < s.y.size(); k += s.joints)
+      if (robust[k] > 0.0) mean += s.y[k], ++count;
+    mean /= std::max(count, 1.0);
+    for (Eigen::Index k = j; k < s.y.size(); k += s.joints)
+      if (robust[k] > 0.0) {
+        sum += residual[k] * residual[k];
+        spread += (s.y[k] - mean) * (s.y[k] - mean);
+      }
+    fit.residual_rms.push_back(std::sqrt(sum / std::max(count, 1.0)));
+    fit.r2.push_back(spread > 0.0 ? 1.0 - sum / spread : 0.0);
+  }
+}
+
+}  // namespace
+
+WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
+                      const std::vector<bool>& wanted) {
+  const System s = assemble(windows);
+  const int linear = windows.space().linear();
+  WeakFit fit;
+  fit.windows = static_cast<int>(windows.all().size());
+  fit.parameters = start;
+  Eigen::VectorXd row_weight = Eigen::VectorXd::Ones(s.y.size()), robust = row_weight, residual = s.y;
+  for (int j = 0; j < s.joints; ++j) {
+    const double scale = std::max(robust_scale(s.y, j, s.joints), 1e-9);
+    for (Eigen::Index k = j; k < s.y.size(); k += s.joints) row_weight[k] = 1.0 / (scale * scale);
+  }
+  Selection selection;
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::VectorXd root = (row_weight.array() * robust.array()).sqrt();
+    const Eigen::MatrixXd a = root.asDiagonal() * s.a;
+    if (round < 2) selection = select_columns(a, wanted, windows.space().rigid());
+    Eigen::VectorXd known = start.head(linear);
+    for (int c : selection.columns) known[c] = 0.0;
+    const Eigen::MatrixXd free = pick(a, selection.columns);
+    const Eigen::VectorXd x = free.householderQr().solve(root.asDiagonal() * (s.y - s.a * known));
+    fit.parameters.head(linear) = known;
+    for (std::size_t i = 0; i < selection.columns.size(); ++i) fit.parameters[selection.columns[i]] = x[i];
+    residual = s.y - s.a * fit.parameters.head(linear);
+    for (int j = 0; j < s.joints; ++j) {
+      const double scale = std::max(robust_scale(residual, j, s.joints), 1e-12);
+      for (Eigen::Index k = j; k < s.y.size(); k += s.joints) {
+        row_weight[k] = 1.0 / (scale * scale);
+        robust[k] = bisquare(residual[k] / scale);
+      }
+    }
+  }
+  fit.condition_number = selection.condition_number;
+  fit.confounded = selection.confounded;
+  fit.confounded.resize(windows.space().count(), true);
+  fit.free.assign(windows.space().count(), false);
+  for (int c : selection.columns) fit.free[c] = true;
+  const Eigen::MatrixXd cov =
+      sandwich(pick(s.a, selection.columns), row_weight.cwiseProduct(robust), residual, s.block);
+  fit.covariance.setZero(windows.space().count(), windows.space().count());
+  for (std::size_t i = 0; i < selection.columns.size(); ++i)
+    for (std::size_t k = 0; k < selection.columns.size(); ++k)
+      fit.covariance(selection.columns[i], selection.columns[k]) = cov(i, k);
+  judge(s, residual, robust, fit);
+  return fit;
+}
+
+Eigen::MatrixXd weak_residuals(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
+  const System s = assemble(windows);
+  const Eigen::VectorXd r = s.y - s.a * parameters.head(windows.space().linear());
+  return Eigen::Map<const Eigen::MatrixXd>(r.data(), s.joints, r.size() / s.joints).transpose();
+}
+
+}  // namespace faultline
