@@ -6,6 +6,7 @@
 
 #include "formats/byte_source.hpp"
 #include "formats/csv_reader.hpp"
+#include "formats/native_reader.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/mapped_source.hpp"
 
@@ -22,6 +23,7 @@ struct Format {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> table{
+      {"native", {".flog"}, looks_like_native, open_native},
       {"csv", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv},
   };
   return table;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/log/log.hpp"
+
+namespace faultline {
+
+/// One column of a log to be written. The values belong to the log.
+struct WrittenChannel {
+  std::string name;
+  std::string unit;  ///< empty for canonical channels, which are SI
+  const std::vector<double>* values = nullptr;
+};
+
+/// The columns of a log in the order t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., extra; an extra channel
+/// that bears a canonical name gets "other_" before it.
+std::vector<WrittenChannel> channels_of(const Log& log);
+
+}  // namespace faultline

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "formats/write_log.hpp"
+
+namespace faultline {
+
+/// Comma-separated text: header `t,q1..,dq1..,tau1..`, further channels after them, the shortest digits that
+/// read back as the same double, an empty cell for a missing value.
+std::unique_ptr<LogWriter> create_csv(const std::string& path);
+
+}  // namespace faultline

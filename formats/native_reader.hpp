@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "formats/byte_source.hpp"
+#include "lib/log/raw_reader.hpp"
+
+namespace faultline {
+
+bool looks_like_native(std::string_view head);
+
+/// Opens a native log. Damaged chunks are left out and reported, a cut file is read to its last whole chunk.
+/// Throws Error(input) when the header is damaged or of a newer version.
+std::unique_ptr<RawReader> open_native(std::unique_ptr<ByteSource> bytes);
+
+}  // namespace faultline

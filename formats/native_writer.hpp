@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "formats/write_log.hpp"
+
+namespace faultline {
+
+/// The native binary format (.flog), see docs/formats-native.md: exact doubles, each chunk with its checksum.
+std::unique_ptr<LogWriter> create_native(const std::string& path);
+
+}  // namespace faultline
