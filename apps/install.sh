@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs the Debian 12 packages that faultline needs and that are missing. Asks nothing; works as root or
+# with sudo; does nothing, quickly and without root, when all are there.
+set -euo pipefail
+
+packages=(
+  # to build
+  g++ cmake ninja-build ccache pkg-config
+  # the program
+  libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev
+  libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev
+  # the tests
+  libgtest-dev
+)
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install: these packages are missing: ${missing[*]}" >&2
+    echo "install: run this as root, or install sudo, or ask an administrator to run" >&2
+    echo "install:   apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "install: ${missing[*]}" >&2
+quiet_apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@" >&2; }
+quiet_apt update
+quiet_apt install --no-install-recommends "${missing[@]}"
