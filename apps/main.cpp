@@ -27,7 +27,10 @@ void add_global_options(CLI::App& app, Program& program) {
       "processed or a result not written, 4 internal error.");
 }
 
-void add_commands(CLI::App& app, Program& program) { add_inspect(app, program); }
+void add_commands(CLI::App& app, Program& program) {
+  add_inspect(app, program);
+  add_cases(app, program);
+}
 
 std::string selected_name(const CLI::App& app) {
   const auto selected = app.get_subcommands();

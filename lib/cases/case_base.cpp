@@ -61,8 +61,7 @@ class ContentHash {
   Sha256 hash_;
 };
 
-void add_case(ContentHash& hash, const Case& c) {
-  hash.add_bits(static_cast<std::uint64_t>(c.id));
+void add_content(ContentHash& hash, const Case& c) {
   for (const double x : c.episode.features) hash.add(x);
   hash.add(c.episode.mlp);
   hash.add(c.episode.rbfn);
@@ -72,6 +71,13 @@ void add_case(ContentHash& hash, const Case& c) {
   hash.add(std::string(to_string(c.outcome)));
   hash.add(c.what_was_done);
   hash.add(c.origin);
+}
+
+/// All of a case but its id.
+std::string content_of(const Case& c) {
+  ContentHash hash;
+  add_content(hash, c);
+  return hash.hex();
 }
 
 }  // namespace
@@ -151,6 +157,20 @@ void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std:
   if (!what_was_done.empty()) c.what_was_done = valid_utf8(what_was_done);
 }
 
+std::int64_t CaseBase::merge(const CaseBase& other) {
+  if (feature_names() != other.feature_names())
+    refuse("the cases to be added compare other features; they come from another robot or program version");
+  std::set<std::string> present;
+  for (const Case& c : cases_) present.insert(content_of(c));
+  std::int64_t added = 0;
+  for (const Case& c : other.cases()) {
+    if (!present.insert(content_of(c)).second) continue;
+    retain(c);
+    ++added;
+  }
+  return added;
+}
+
 void CaseBase::learn() {
   std::vector<Case> known;
   std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(known), is_known);
@@ -168,7 +188,10 @@ std::string CaseBase::sha256() const {
   }
   hash.add(metric_.near_similarity);
   hash.add_bits(cases_.size());
-  for (const Case& c : cases_) add_case(hash, c);
+  for (const Case& c : cases_) {
+    hash.add_bits(static_cast<std::uint64_t>(c.id));
+    add_content(hash, c);
+  }
   return hash.hex();
 }
 

@@ -34,6 +34,9 @@ class CaseBase {
   void confirm(std::int64_t id, std::optional<FaultLabel> label = {}, const std::string& what_was_done = "");
   /// Revise: the decision was wrong; `was` is what it was, if known.
   void reject(std::int64_t id, std::optional<FaultLabel> was = {}, const std::string& what_was_done = "");
+  /// Adds the cases of `other` that are not there yet (equal but for the id) under new ids and gives their
+  /// number; scales and weights stay. Throws Error(input) when `other` compares other features.
+  std::int64_t merge(const CaseBase& other);
   /// Scales and weights from the cases whose fault is known (learn_metric).
   void learn();
 

@@ -52,6 +52,15 @@ EvidenceItem remark(const char* name, const std::string& text) {
   return item;
 }
 
+EpisodeFacts facts_of(const Episode& episode, const CaseBase& base) {
+  EpisodeFacts facts;
+  facts.evidence = episode.evidence;
+  const auto& features = base.metric().features;
+  for (std::size_t i = 0; i < std::min(features.size(), episode.features.size()); ++i)
+    facts.features.emplace_back(features[i].name, episode.features[i]);
+  return facts;
+}
+
 double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
 }
@@ -71,8 +80,8 @@ void add_alternative(FaultFinding& finding, const FaultLabel& label, std::string
       {label, why.empty() ? "it explains the log almost as well" : std::move(why)});
 }
 
-void apply_decision(FaultFinding& finding, const Episode& episode, const CaseDecision& decision,
-                    double least_share) {
+void apply_decision(FaultFinding& finding, const Episode& episode, const CaseBase& base,
+                    const CaseDecision& decision, double least_share) {
   finding.label = decision.label;
   finding.confidence = decision.confidence;
   finding.mlp = opinion_from(episode.mlp);
@@ -84,6 +93,7 @@ void apply_decision(FaultFinding& finding, const Episode& episode, const CaseDec
   finding.evidence.push_back(remark("decision", decision.why));
   for (const std::string& warning : decision.warnings) finding.evidence.push_back(remark("warning", warning));
   finding.next_check = next_check_for(finding.label);
+  finding.episode = facts_of(episode, base);
 }
 
 void order_faults(Diagnosis& diagnosis) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/core/fault_kind.hpp"
@@ -51,6 +52,12 @@ struct EvidenceItem {
   std::string text;  ///< one line for a person
 };
 
+/// What the case base compares, so that a finding can be added to it as a case later.
+struct EpisodeFacts {
+  double evidence = std::numeric_limits<double>::quiet_NaN();  ///< log likelihood ratio (Episode::evidence)
+  std::vector<std::pair<std::string, double>> features;  ///< by CaseBase::feature_names(); NaN = not measured
+};
+
 struct FaultFinding {
   int id = 0;  ///< from 1, in the order of onset
   FaultLabel label;
@@ -66,6 +73,7 @@ struct FaultFinding {
   std::vector<Alternative> could_also_be;
   std::vector<EvidenceItem> evidence;
   std::string next_check;  ///< what a technician should look at next
+  EpisodeFacts episode;
 };
 
 struct LogFacts {

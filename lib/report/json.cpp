@@ -92,6 +92,12 @@ Json evidence_json(const EvidenceItem& item) {
           {"text", item.text}};
 }
 
+Json episode_json(const EpisodeFacts& episode) {
+  Json features = Json::object();
+  for (const auto& [name, value] : episode.features) features[name] = number(value);
+  return {{"evidence", number(episode.evidence)}, {"features", features}};
+}
+
 Json fault_json(const FaultFinding& fault) {
   Json json = {{"id", fault.id}};
   put_label(json, fault.label);
@@ -105,6 +111,7 @@ Json fault_json(const FaultFinding& fault) {
   json["could_also_be"] = list(fault.could_also_be, alternative_json);
   json["evidence"] = list(fault.evidence, evidence_json);
   json["next_check"] = fault.next_check;
+  json["episode"] = episode_json(fault.episode);
   return json;
 }
 

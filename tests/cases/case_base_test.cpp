@@ -94,6 +94,14 @@ TEST(CaseBase, ContentHashSeesEveryField) {
   EXPECT_NE(CaseBase(metric, base.cases()).sha256(), base.sha256());
 }
 
+TEST(CaseBase, MergeAddsOnlyWhatIsNew) {
+  CaseBase base = example_base(2), other = example_base(3);
+  EXPECT_EQ(base.merge(other), 3);
+  EXPECT_EQ(base.cases().size(), 9u);
+  EXPECT_EQ(base.merge(other), 0);
+  EXPECT_THROW(base.merge(CaseBase({"a", "b"})), Error);
+}
+
 TEST(CaseBase, LearnLeavesOutCasesOfUnknownFault) {
   CaseBase base = example_base(10), with_rejected = example_base(10);
   Random random(3);

@@ -41,7 +41,7 @@ TEST(Decision, AFindingTakesWhatTheCasesDecided) {
   FaultFinding finding;
   finding.onset_s = 1.5;
   finding.evidence = {{"log_likelihood_ratio", 50.0, "", ""}};
-  apply_decision(finding, episode, decide(episode, base));
+  apply_decision(finding, episode, base, decide(episode, base));
   EXPECT_EQ(finding.label, kBias);
   EXPECT_EQ(finding.onset_s, 1.5);
   EXPECT_EQ(finding.decided_by, DecidedBy::cases);
@@ -52,6 +52,8 @@ TEST(Decision, AFindingTakesWhatTheCasesDecided) {
   EXPECT_EQ(finding.could_also_be[0].label, kFree);
   EXPECT_EQ(finding.evidence[0].name, "log_likelihood_ratio");
   EXPECT_EQ(finding.next_check, next_check_for(kBias));
+  ASSERT_EQ(finding.episode.features.size(), 3u);
+  EXPECT_EQ(finding.episode.features[1], (std::pair<std::string, double>("b", 2.0)));
 }
 
 TEST(Decision, WarningsOfTheCasesBecomeEvidence) {
@@ -59,7 +61,7 @@ TEST(Decision, WarningsOfTheCasesBecomeEvidence) {
   const Episode episode{
       .features = {0.0, 2.0, 0.0}, .mlp = {kLocked, 0.9}, .rbfn = {kLocked, 0.9}, .evidence = 50.0};
   FaultFinding finding;
-  apply_decision(finding, episode, decide(episode, base));
+  apply_decision(finding, episode, base, decide(episode, base));
   EXPECT_EQ(finding.label, kLocked);
   EXPECT_TRUE(std::any_of(finding.evidence.begin(), finding.evidence.end(),
                           [](const EvidenceItem& item) { return item.name == "warning"; }));

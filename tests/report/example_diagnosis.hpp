@@ -44,6 +44,7 @@ inline FaultFinding locked_joint() {
   f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
                 {"residual_peak", 41.5, "healthy rms", "largest velocity residual of joint 2"}};
   f.next_check = next_check_for(f.label);
+  f.episode = {312.4, {{"a", 1.0}, {"b", std::numeric_limits<double>::quiet_NaN()}, {"noise", -0.5}}};
   return f;
 }
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/case_from_json.hpp"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double number_from(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+FaultLabel label_from(const Json& json) {
+  const Json& joint = json.at("joint");
+  return {fault_kind_from(json.at("kind").get<std::string>()), joint.is_null() ? 0 : joint.get<int>()};
+}
+
+CaseOpinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
+
+const Json& fault_with_id(const Json& diagnosis, const std::string& where, int id) {
+  for (const Json& fault : diagnosis.at("faults"))
+    if (fault.at("id") == id) return fault;
+  throw Error(ErrorCode::usage, where,
+              "has no fault " + std::to_string(id) + "; its faults are numbered 1 to " +
+                  std::to_string(diagnosis.at("faults").size()));
+}
+
+std::vector<double> features_from(const Json& json, const std::vector<std::string>& names) {
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    if (!json.contains(name))
+      throw Error(ErrorCode::input, "features",
+                  "\"" + name + "\", which this case base compares, is not among them");
+    values.push_back(number_from(json.at(name)));
+  }
+  return values;
+}
+
+Case parsed(const std::string& text, const std::string& where, int fault_id,
+            const std::vector<std::string>& names) {
+  const Json json = Json::parse(text);
+  if (!json.is_object() || json.value("schema", "") != "faultline/diagnosis/1")
+    throw Error(ErrorCode::input, "schema", "is not \"faultline/diagnosis/1\"");
+  const Json& fault = fault_with_id(json, where, fault_id);
+  Case c;
+  c.decision = c.label = label_from(fault);
+  c.episode.mlp = opinion_from(fault.at("opinions").at("mlp"));
+  c.episode.rbfn = opinion_from(fault.at("opinions").at("rbfn"));
+  c.episode.evidence = number_from(fault.at("episode").at("evidence"));
+  c.episode.features = features_from(fault.at("episode").at("features"), names);
+  c.origin = json.at("log").at("path").get<std::string>();
+  return c;
+}
+
+}  // namespace
+
+Case case_from_json(const std::string& text, const std::string& where, int fault_id,
+                    const std::vector<std::string>& feature_names) try {
+  return parsed(text, where, fault_id, feature_names);
+} catch (const nlohmann::json::exception& error) {
+  throw Error(ErrorCode::input, where,
+              std::string("is no JSON report of `faultline diagnose --json`: ") + error.what());
+} catch (const Error& error) {
+  if (error.where() == where) throw;
+  throw Error(ErrorCode::input, where,
+              "cannot become a case: " + std::string(error.what()) +
+                  "; a JSON report made with the model of this case base is needed");
+}
+
+}  // namespace faultline
