@@ -23,9 +23,9 @@ struct Group {
 const std::vector<Group> kGroups = {
     {"indust 1 kHz", {"t_000", "t_001", "t_002"}, 8.0, 5.0, 2.5, 0.35, 0.3, TorqueTiming::unknown, 0.2},
     {"light 500 Hz", {"t_016", "t_017", "t_018"}, 2.5, 1.5, 0.6, 0.25, 0.2, TorqueTiming::unknown, 0.2},
-    {"bench1 100 Hz", {"t_032", "t_033", "t_034"}, 1.0, 0.8, 0.5, 1.0, 0.8, TorqueTiming::held, 1.0},
+    {"bench1 100 Hz", {"t_032", "t_033", "t_034"}, 1.0, 0.8, 0.5, 1.0, 0.8, TorqueTiming::held, 0.2},
     {"bench0 clean", {"t_060", "t_061", "t_062"}, 1.0, 0.8, 0.5, 1.0, 0.8, TorqueTiming::held, 1.0},
-    {"bench0 noisy", {"t_071", "t_072", "t_073"}, 1.0, 0.8, 0.5, 1.0, 0.8, TorqueTiming::held, 25.0},
+    {"bench0 noisy", {"t_071", "t_072", "t_073"}, 1.0, 0.8, 0.5, 1.0, 0.8, TorqueTiming::held, 1.0},
 };
 
 Identification identify_group(const Group& group, const std::string& folder, TorqueTiming timing) {

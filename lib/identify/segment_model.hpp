@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/identify/excerpt.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/robot/fast_dynamics.hpp"
+
+namespace faultline {
+
+/// Motion of a robot with given parameters from a given state, and how it depends on both.
+struct SegmentMotion {
+  Eigen::MatrixXd state;  ///< 2 joints x rows: q over dq
+  Eigen::MatrixXd
+      sensitivity;  ///< (2 joints rows) x (2 joints + free): of every state to start and parameters
+};
+
+/// Integrates (Runge and Kutta, fourth order) the forward dynamics over an excerpt, torque tau_k + phi
+/// (tau_k+1 - tau_k) over sample k, with the variational equations beside it. One set of parameters, any
+/// number of threads.
+class SegmentModel {
+ public:
+  /// `free` lists the parameters that sensitivities are wanted of; `substeps` a sample, by log period.
+  SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& parameters, const std::vector<int>& free,
+               double longest_step_s);
+
+  void run(const Excerpt& excerpt, const Eigen::VectorXd& start, bool with_sensitivity,
+           SegmentMotion& motion) const;
+
+ private:
+  struct Workspace;
+  void derivative(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
+                  const JointVector<double>& tau_step, bool with_sensitivity, Workspace& w) const;
+  void slopes(Workspace& w) const;
+
+  const ParameterSpace& space_;
+  Eigen::VectorXd parameters_;
+  std::vector<int> free_;
+  double longest_step_s_;
+  FastDynamics dynamics_;
+  std::vector<FastDynamics> directions_;  ///< of each free base parameter: its own torque
+};
+
+/// Longest step at which the integration follows the friction of `chain` around zero velocity, s.
+double stable_step(const Chain<double>& chain, const JointVector<double>& q);
+
+}  // namespace faultline

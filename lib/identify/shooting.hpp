@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "lib/core/progress.hpp"
+#include "lib/identify/excerpt.hpp"
+#include "lib/identify/parameter_space.hpp"
+
+namespace faultline {
+
+struct ShootingOptions {
+  int max_iterations = 40;
+  int max_rounds = 6;  ///< solves with noise and outlier weights measured anew
+  int threads = 1;
+};
+
+/// A Gaussian fact about one parameter.
+struct ParameterPrior {
+  int parameter = 0;
+  double value = 0.0;
+  double std = 0.0;
+};
+
+struct ShootingFit {
+  bool converged = false;
+  std::string reason;
+  Eigen::VectorXd parameters;   ///< all of the space
+  Eigen::MatrixXd covariance;   ///< of all; zero rows for those not free
+  Eigen::VectorXd noise;        ///< std of what is left at q (first) and dq, by joint
+  Eigen::VectorXd correlation;  ///< of neighbouring residuals of q and dq by joint: 0 for noise, towards 1
+                                ///< for model error
+  double widened = 1.0;         ///< largest factor by which an interval grew over that of white noise
+  int iterations = 0;
+  int rounds = 0;
+  int segments = 0;
+};
+
+/// Output error by multiple shooting: parameters and the start of every excerpt that bring the integrated
+/// motion nearest to the measured one, each channel weighted by its own residual (iterated), samples beyond
+/// four standard deviations weighted down. Ceres, sparse Schur complement. `noise` is a first guess of the
+/// channels' standard deviations, `floor` the least they can be (rounding).
+ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>& excerpts,
+                         const Eigen::VectorXd& start, const std::vector<int>& free,
+                         const std::vector<ParameterPrior>& priors, const Eigen::VectorXd& noise,
+                         const Eigen::VectorXd& floor, const ShootingOptions& options,
+                         const Progress& progress);
+
+}  // namespace faultline
