@@ -23,9 +23,9 @@ int open_flags(SqliteMode mode) {
   return SQLITE_OPEN_READONLY;
 }
 
-ErrorCode code_of(int sqlite) {
+ErrorCode code_of(int sqlite, SqliteMode mode) {
   const bool writing = sqlite == SQLITE_FULL || sqlite == SQLITE_READONLY || sqlite == SQLITE_IOERR;
-  return writing ? ErrorCode::output : ErrorCode::input;
+  return writing && mode != SqliteMode::read_only ? ErrorCode::output : ErrorCode::input;
 }
 
 const char* advice_for(int sqlite) {
@@ -46,7 +46,7 @@ const char* advice_for(int sqlite) {
     case SQLITE_CANTOPEN:
       return "cannot be opened; check that it exists, is a file and may be read";
     case SQLITE_IOERR:
-      return "cannot be read or written; nothing was changed. Check the disk";
+      return "cannot be read or written to its end; nothing was changed. Check the disk";
     default:
       return "is not what a case base should be";
   }
@@ -54,7 +54,7 @@ const char* advice_for(int sqlite) {
 
 }  // namespace
 
-SqliteFile::SqliteFile(std::string path, SqliteMode mode) : path_(std::move(path)) {
+SqliteFile::SqliteFile(std::string path, SqliteMode mode) : path_(std::move(path)), mode_(mode) {
   const int code = sqlite3_open_v2(path_.c_str(), &db_, open_flags(mode), nullptr);
   if (code != SQLITE_OK) {
     sqlite3_close(db_);
@@ -69,7 +69,7 @@ SqliteFile::~SqliteFile() { sqlite3_close(db_); }
 void SqliteFile::fail(int code) const {
   const int extended = db_ ? sqlite3_extended_errcode(db_) : code;
   const std::string reason = db_ ? sqlite3_errmsg(db_) : sqlite3_errstr(code);
-  throw Error(code_of(extended & 0xff), path_,
+  throw Error(code_of(extended & 0xff, mode_), path_,
               std::string(advice_for(extended)) + " (SQLite says: " + reason + ")");
 }
 

@@ -30,6 +30,7 @@ class SqliteFile {
   [[noreturn]] void fail(int code) const;
 
   std::string path_;
+  SqliteMode mode_;
   sqlite3* db_ = nullptr;
 };
 

@@ -144,6 +144,25 @@ TEST_F(CaseFile, OverwrittenInside) {
   EXPECT_NE(refusal(path_).find("damaged"), std::string::npos) << refusal(path_);
 }
 
+TEST_F(CaseFile, FlippedBitsAreReadOrRefusedButNeverACrash) {
+  write_case_base(path_, example_base(5));
+  const std::string whole = read_file(path_);
+  Random random(11);
+  int refused = 0;
+  for (int i = 0; i < 150; ++i) {
+    std::string bytes = whole;
+    for (int k = 0; k < 8; ++k) bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
+    write_file(path_, bytes);
+    try {
+      read_case_base(path_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20);
+}
+
 TEST_F(CaseFile, NewerSchema) {
   write_case_base(path_, example_base());
   SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 2");
