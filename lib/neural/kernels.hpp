@@ -10,12 +10,20 @@ namespace faultline {
 /// Samples that go through a network side by side.
 inline constexpr int kLanes = 16;
 
+/// Which vector instructions do the work; every one gives the same bits.
+enum class VectorUnit { baseline, avx2, avx512 };
+/// The widest this processor has, which the functions below use unless told otherwise.
+VectorUnit best_vector_unit();
+
 /// tanh of `count` numbers in place; no libm, relative error below 1e-14; NaN stays NaN. `count` is a
 /// multiple of kLanes.
 void tanh_in_place(double* values, int count);
+void tanh_in_place(double* values, int count, VectorUnit unit);
 
 /// out = weights * in + bias for kLanes samples: `in` is [inputs][kLanes], `out` is [outputs][kLanes].
 void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in, double* out);
+void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in, double* out,
+                  VectorUnit unit);
 
 /// `sums`[u][lane] = sum over i of ((in[i][lane] - centres(i, u)) * inverse_radii(i, u))^2.
 void squared_distances_lanes(const Eigen::MatrixXd& centres, const Eigen::MatrixXd& inverse_radii,

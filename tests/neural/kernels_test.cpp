@@ -48,5 +48,22 @@ TEST(NeuralKernels, AffineLanesIsAMatrixProduct) {
     for (int lane = 0; lane < kLanes; ++lane) EXPECT_NEAR(out[o * kLanes + lane], expected(o, lane), 1e-14);
 }
 
+TEST(NeuralKernels, EveryVectorUnitGivesTheSameBits) {
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(33, 21),
+                        in = 9.0 * Eigen::MatrixXd::Random(kLanes, 21);
+  const Eigen::VectorXd bias = Eigen::VectorXd::Random(33);
+  const auto layer = [&](VectorUnit unit) {
+    std::vector<double> out(33 * kLanes);
+    affine_lanes(weights, bias, in.data(), out.data(), unit);
+    tanh_in_place(out.data(), 33 * kLanes, unit);
+    return out;
+  };
+  const auto base = layer(VectorUnit::baseline);
+  if (best_vector_unit() != VectorUnit::baseline) {
+    EXPECT_EQ(layer(VectorUnit::avx2), base);
+  }
+  EXPECT_EQ(layer(best_vector_unit()), base);
+}
+
 }  // namespace
 }  // namespace faultline

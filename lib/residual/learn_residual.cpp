@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "lib/residual/learn_residual.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lib/core/error.hpp"
+#include "lib/residual/pattern_pool.hpp"
+#include "lib/residual/residuals.hpp"
+#include "lib/residual/twin_patterns.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kLeastPatterns = 50;  // below this there is nothing to learn a robot from
+
+/// What a first look at the logs tells.
+struct Survey {
+  double period_s = 0.0;
+  bool has_velocity = true;
+  std::int64_t rows = 0;
+  VectorXd low, high;  // of q
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void widen(Survey& survey, const Log& segment) {
+  for (int j = 0; j < segment.joints(); ++j)
+    for (double q : segment.q[j]) {
+      if (!std::isfinite(q)) continue;
+      survey.low[j] = std::min(survey.low[j], q);
+      survey.high[j] = std::max(survey.high[j], q);
+    }
+}
+
+Survey survey_logs(std::span<LogSource* const> logs, int joints) {
+  constexpr std::size_t kEnough = 100000;  // periods for a median
+  Survey survey;
+  survey.low = VectorXd::Constant(joints, std::numeric_limits<double>::infinity());
+  survey.high = -survey.low;
+  std::vector<double> periods;
+  Log segment;
+  for (LogSource* log : logs) {
+    log->rewind();
+    while (log->next(segment)) {
+      if (segment.joints() != joints || static_cast<int>(segment.tau.size()) != joints)
+        throw Error(
+            ErrorCode::input, log->identity().path,
+            fmt::format(
+                "has {} positions and {} torques, but the robot has {} joints; is it a log of another "
+                "robot?",
+                segment.joints(), segment.tau.size(), joints));
+      survey.has_velocity = survey.has_velocity && static_cast<int>(segment.dq.size()) == joints;
+      widen(survey, segment);
+      survey.rows += segment.rows();
+      for (int i = 1; i < segment.rows() && periods.size() < kEnough; ++i)
+        periods.push_back(segment.time[i] - segment.time[i - 1]);
+    }
+  }
+  if (periods.empty()) throw Error(ErrorCode::input, "healthy logs", "have no two rows to learn from");
+  survey.period_s = median(std::move(periods));
+  return survey;
+}
+
+TransitionShape shape_for(const Survey& survey, int joints, double torque_phi,
+                          const ResidualOptions& options) {
+  constexpr double kStep = 0.015, kTolerance = 1e-6;
+  TransitionShape shape;
+  shape.joints = joints;
+  const double rows = (options.step_s > 0.0 ? options.step_s : kStep) / survey.period_s;
+  shape.step = std::max(1, static_cast<int>(rows + kTolerance));
+  shape.stride = options.stride > 0 ? std::min(options.stride, shape.step) : std::max(1, shape.step / 3);
+  shape.step_s = shape.step * survey.period_s;
+  shape.torque_phi = torque_phi;
+  shape.derive_velocity = !survey.has_velocity;
+  return shape;
+}
+
+/// Predictions that stay together in training, validation or check: 3 s of them, fewer when the logs are
+/// short.
+std::int64_t block_size(const Survey& survey, const TransitionShape& shape) {
+  const double together_s = 3.0;
+  const auto whole = static_cast<std::int64_t>(together_s / (survey.period_s * shape.stride));
+  return std::max<std::int64_t>(8, std::min(whole, survey.rows / shape.stride / 40));
+}
+
+/// Transitions for training, validation and measuring, from blocks that do not overlap.
+struct Pools {
+  PatternPool training, validation, check;
+};
+
+bool usable(const Transitions& t, int column) {
+  return std::isfinite(t.duration[column]) && t.q.col(column).allFinite() && t.dq.col(column).allFinite() &&
+         t.mean_tau.col(column).allFinite() && t.next_q.col(column).allFinite() &&
+         t.next_dq.col(column).allFinite();
+}
+
+Pools draw(std::span<LogSource* const> logs, const TransitionShape& shape, std::int64_t block,
+           const ResidualOptions& options, const Progress& progress) {
+  Pools pools{{options.max_patterns, options.seed},
+              {std::max(options.max_patterns / 4, 1), options.seed + 1},
+              {std::max(options.max_patterns, 5000), options.seed + 2}};
+  Log segment;
+  std::int64_t offered = 0;
+  for (std::size_t l = 0; l < logs.size(); ++l) {
+    if (progress) progress("drawing patterns", static_cast<double>(l) / static_cast<double>(logs.size()));
+    logs[l]->rewind();
+    TransitionState state;
+    while (logs[l]->next(segment)) {
+      const Transitions transitions = collect_transitions(segment, shape, state);
+      for (int i = 0; i < transitions.count(); ++i, ++offered) {
+        if (!usable(transitions, i)) continue;
+        const auto turn = offered / block % 10;
+        (turn == 5                ? pools.validation
+         : turn == 2 || turn == 8 ? pools.check
+                                  : pools.training)
+            .offer(transitions, i);
+      }
+    }
+  }
+  return pools;
+}
+
+/// What the network is to put out for each transition, in SI units.
+MatrixXd network_targets(const ResidualGenerator& generator, const Transitions& transitions) {
+  const MatrixXd change = measured_change(generator, transitions);
+  if (generator.kind == ResidualKind::mlp && generator.target == PredictedQuantity::state) {
+    MatrixXd state = change;
+    state.topRows(generator.joints()) += transitions.q;
+    state.bottomRows(generator.joints()) += transitions.dq;
+    return state;
+  }
+  return change - base_change(generator, transitions);
+}
+
+Patterns scaled_patterns(const ResidualGenerator& generator, const Transitions& transitions) {
+  return {generator.inputs.apply(network_inputs(generator, transitions)),
+          generator.outputs.apply(network_targets(generator, transitions))};
+}
+
+TrainedMlp train(const Patterns& training, const Patterns& validation, const ResidualOptions& options,
+                 const Progress& progress) {
+  std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
+  sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
+  sizes.push_back(static_cast<int>(training.targets.rows()));
+  Mlp start = make_mlp(sizes, OutputKind::linear, options.seed);
+  if (options.trainer == ResidualTrainer::back_propagation) {
+    BackPropagationOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
+    trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1500;
+    trainer.stop.patience = trainer.stop.max_iterations;
+    return train_back_propagation(std::move(start), training, validation, trainer, progress);
+  }
+  LevenbergMarquardtOptions trainer{.weight_decay = options.weight_decay};
+  trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 60;
+  return train_levenberg_marquardt(std::move(start), training, validation, trainer, progress);
+}
+
+VectorXd rms_of(const MatrixXd& values) { return values.array().square().rowwise().mean().sqrt().matrix(); }
+VectorXd largest_of(const MatrixXd& values) { return values.cwiseAbs().rowwise().maxCoeff(); }
+
+void measure_healthy(ResidualGenerator& generator, const Transitions& check) {
+  const Index n = generator.joints();
+  HealthyResiduals& healthy = generator.healthy;
+  healthy.patterns = check.count();
+  healthy.position_rms = healthy.velocity_rms = healthy.torque_rms =
+      VectorXd::Ones(n);  // so that units stay SI
+  const Residuals r = residuals_of(generator, check);
+  // A residual of exactly zero (a joint that never moved) must not become a division by zero.
+  const auto at_least = [](const VectorXd& rms) -> VectorXd { return rms.cwiseMax(1e-12); };
+  healthy.position_rms = at_least(rms_of(r.position));
+  healthy.velocity_rms = at_least(rms_of(r.velocity));
+  healthy.torque_rms = at_least(rms_of(r.torque));
+  healthy.position_max = largest_of(r.position);
+  healthy.velocity_max = largest_of(r.velocity);
+  healthy.torque_max = largest_of(r.torque);
+}
+
+void measure_errors(LearnedResidual& learned, const Transitions& check) {
+  const Index n = learned.generator.joints();
+  MatrixXd state(2 * n, check.count());
+  state << check.next_q, check.next_dq;
+  const VectorXd factor = range_scaler(state).factor;
+  const MatrixXd change = measured_change(learned.generator, check);
+  const MatrixXd error = change - predicted_change(learned.generator, check);
+  learned.normalised_mse = (factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size());
+  learned.persistence_mse = (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size());
+}
+
+ResidualGenerator untrained(const Robot& robot, const Survey& survey, const TransitionShape& shape,
+                            const ResidualOptions& options) {
+  ResidualGenerator generator;
+  generator.kind = options.kind;
+  generator.target = options.target;
+  generator.shape = shape;
+  generator.uses_mean_torque = options.mean_torque && (shape.step > 1 || shape.torque_phi != 0.0);
+  generator.chain = robot.chain;
+  for (int j = 0; j < robot.joints(); ++j)
+    generator.turns.push_back(robot.chain.geometry[j].kind == AxisKind::revolute &&
+                              survey.high[j] - survey.low[j] > 0.95 * 2.0 * std::numbers::pi);
+  return generator;
+}
+
+void check_amount(const Pools& pools) {
+  const auto found = pools.training.offered() + pools.validation.offered() + pools.check.offered();
+  if (pools.training.offered() < kLeastPatterns || pools.check.offered() == 0)
+    throw Error(
+        ErrorCode::input, "healthy logs",
+        fmt::format(
+            "hold only {} usable steps of the motion; at least {} are needed to learn it: log longer, "
+            "and look for gaps and missing numbers",
+            found, 2 * kLeastPatterns));
+}
+
+}  // namespace
+
+LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const Robot& identified,
+                                         double torque_phi, const ResidualOptions& options,
+                                         const Progress& progress) {
+  const Survey survey = survey_logs(logs, identified.joints());
+  const TransitionShape shape = shape_for(survey, identified.joints(), torque_phi, options);
+  const Pools pools = draw(logs, shape, block_size(survey, shape), options, progress);
+  check_amount(pools);
+  const Transitions check = pools.check.drawn();
+  Transitions training = pools.training.drawn();
+
+  LearnedResidual learned;
+  ResidualGenerator& generator = learned.generator = untrained(identified, survey, shape, options);
+  if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
+    training = joined(training, twin_transitions(training, shape, identified.chain,
+                                                 static_cast<int>(options.twin_share * training.count()),
+                                                 {.seed = options.seed}));
+  learned.training_patterns = training.count();
+  if (options.kind != ResidualKind::physics) {
+    generator.inputs = range_scaler(network_inputs(generator, training));
+    generator.outputs = range_scaler(network_targets(generator, training));
+    Patterns validation;
+    if (pools.validation.offered() > 0) validation = scaled_patterns(generator, pools.validation.drawn());
+    learned.validation_patterns = validation.count();
+    TrainedMlp trained = train(scaled_patterns(generator, training), validation, options, progress);
+    generator.mlp = std::move(trained.mlp);
+    learned.training = std::move(trained.summary);
+  }
+  measure_healthy(generator, check);
+  measure_errors(learned, check);
+  return learned;
+}
+
+}  // namespace faultline

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lib/core/issue.hpp"
+#include "lib/core/progress.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/neural/training.hpp"
+#include "lib/residual/residual_generator.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+enum class ResidualTrainer { levenberg_marquardt, back_propagation };
+
+struct ResidualOptions {
+  ResidualKind kind = ResidualKind::mlp;
+  PredictedQuantity target = PredictedQuantity::change;
+  ResidualTrainer trainer = ResidualTrainer::levenberg_marquardt;
+  std::vector<int> hidden = {49};  ///< units of each hidden layer
+  /// Time to foretell over, s; rounded down to whole rows, at least one. 0 = 15 ms: at 1 kHz the velocity
+  /// changes by more than its noise, at 100 Hz and below it is one row.
+  double step_s = 0.0;
+  /// Rows between predictions; 0 = a third of the step, so that each row lies in about three predictions.
+  int stride = 0;
+  bool mean_torque = true;  ///< also feed the mean torque over the step where it differs from the first
+  int max_patterns = 2000;  ///< trained on, drawn from the logs at random
+  /// Patterns added for each logged one, made by the identified robot around the logged states: a few logs
+  /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,
+  /// as in the paper.
+  double twin_share = 0.5;
+  int max_iterations = 0;  ///< of the trainer; 0 = 60 (Levenberg-Marquardt) or 1500 epochs (back-propagation)
+  double weight_decay = 1e-9;
+  std::uint64_t seed = 1;
+};
+
+struct LearnedResidual {
+  ResidualGenerator generator;
+  TrainingSummary training;  ///< not run for kind physics
+  int training_patterns = 0;
+  int validation_patterns = 0;
+  /// Mean squared error over q and dq after a step, each in units of half the range seen (physics.md's
+  /// measure), on patterns not trained on: of the generator, and of "nothing changes".
+  double normalised_mse = 0.0;
+  double persistence_mse = 0.0;
+};
+
+/// Learns the fault-free motion of a robot from its healthy logs, streaming them twice (they are rewound
+/// first). Logs are cut into blocks of up to 3 s, so that whole moves stay together; of each ten blocks seven
+/// train, one validates, two measure the healthy residuals. Throws Error(input) when the logs have no such
+/// robot or too few rows.
+LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const Robot& identified,
+                                         double torque_phi, const ResidualOptions& options = {},
+                                         const Progress& progress = {});
+
+}  // namespace faultline

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/neural/mlp.hpp"
+#include "lib/neural/scaler.hpp"
+#include "lib/residual/transitions.hpp"
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+/// What foretells the fault-free motion.
+enum class ResidualKind {
+  mlp,      ///< the paper: a network from (q, dq, tau) now to (q, dq) one step later
+  physics,  ///< the identified robot, integrated over the step
+  hybrid,   ///< physics, and a network on what it leaves over
+};
+const char* to_string(ResidualKind kind);
+
+/// What the network of kind `mlp` puts out.
+enum class PredictedQuantity {
+  change,  ///< of q and dq over the step; exact at short steps
+  state,   ///< q and dq after the step, as in the paper
+};
+
+/// Residuals of the robot when healthy, on patterns that were not trained on; SI units, a joint each.
+struct HealthyResiduals {
+  int patterns = 0;
+  Eigen::VectorXd position_rms, velocity_rms, torque_rms;
+  Eigen::VectorXd position_max, velocity_max, torque_max;  ///< largest magnitudes
+};
+
+/// Foretells (q, dq) one step ahead for a robot that works as it should.
+struct ResidualGenerator {
+  ResidualKind kind = ResidualKind::mlp;
+  PredictedQuantity target = PredictedQuantity::change;
+  TransitionShape shape;
+  bool uses_mean_torque = false;  ///< inputs also hold the mean torque over the step
+  std::vector<char> turns;  ///< 1 for a revolute joint that goes round: seen by sine and cosine, differences
+                            ///< taken modulo a turn
+  Chain<double> chain;      ///< the identified robot
+  Scaler inputs, outputs;   ///< of the network
+  Mlp mlp;                  ///< empty for kind physics
+  HealthyResiduals healthy;
+
+  int joints() const { return shape.joints; }
+};
+
+/// What the network sees of each transition: q (or sine, then cosine), dq, tau and, if used, the mean torque;
+/// inputs x transitions, not scaled.
+Eigen::MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& transitions);
+
+/// Change of q (upper half) and dq (lower half) over each transition that the part before the network
+/// foretells: physics for the kinds that have it, else zero. 2 joints x transitions.
+Eigen::MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions);
+
+/// Foretold change of q and dq, 2 joints x transitions. NaN where an input is missing or the log has a gap.
+Eigen::MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions& transitions);
+/// What was measured, with joints that go round taken modulo a turn.
+Eigen::MatrixXd measured_change(const ResidualGenerator& generator, const Transitions& transitions);
+
+void to_json(nlohmann::json& json, const ResidualGenerator& generator);
+/// The chain is not in the JSON: it belongs to the robot, which the model keeps. Throws Error(input) when
+/// something is missing or does not fit the robot; `where` names the file.
+ResidualGenerator residual_generator_from_json(const nlohmann::json& json, const Chain<double>& chain,
+                                               const std::string& where);
+
+}  // namespace faultline

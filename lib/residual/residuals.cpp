@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "lib/residual/residuals.hpp"
+
+#include "lib/robot/fast_dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+MatrixXd torque_space(const Chain<double>& chain, const Transitions& transitions, const MatrixXd& velocity) {
+  const FastDynamics robot(chain);
+  JointMatrix<double> inertia;
+  JointVector<double> bias;
+  MatrixXd torque(velocity.rows(), velocity.cols());
+  for (Index i = 0; i < velocity.cols(); ++i) {
+    robot.inertia_and_bias(transitions.q.col(i), transitions.dq.col(i), inertia, bias);
+    const JointVector<double> rate = velocity.col(i) / transitions.duration[i];
+    torque.col(i) = inertia * rate;
+  }
+  return torque;
+}
+
+}  // namespace
+
+Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions) {
+  const Index n = generator.joints();
+  const HealthyResiduals& healthy = generator.healthy;
+  const MatrixXd difference =
+      measured_change(generator, transitions) - predicted_change(generator, transitions);
+  Residuals out;
+  out.row = transitions.row;
+  out.time = transitions.time;
+  out.torque = torque_space(generator.chain, transitions, difference.bottomRows(n));
+  out.tau = transitions.mean_tau;
+  out.position = healthy.position_rms.cwiseInverse().asDiagonal() * difference.topRows(n);
+  out.velocity = healthy.velocity_rms.cwiseInverse().asDiagonal() * difference.bottomRows(n);
+  const Eigen::ArrayXd eps2 = 9.0 * healthy.torque_rms.array().square();
+  const auto tau = out.tau.array();
+  out.ratio = (out.torque.array() * tau / (tau.square().colwise() + eps2)).matrix();
+  return out;
+}
+
+Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
+  return residuals_of(generator, collect_transitions(segment, generator.shape, state));
+}
+
+}  // namespace faultline

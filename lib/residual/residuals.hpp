@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lib/log/log.hpp"
+#include "lib/residual/residual_generator.hpp"
+#include "lib/residual/transitions.hpp"
+
+namespace faultline {
+
+/// Measured minus foretold, one column a prediction; joints x predictions. A prediction belongs to its later
+/// row.
+struct Residuals {
+  std::vector<std::int64_t> row;  ///< counted from the first row of the log
+  Eigen::VectorXd time;           ///< s
+  Eigen::MatrixXd position;       ///< in units of the healthy rms, so that about 1 is healthy
+  Eigen::MatrixXd velocity;       ///< likewise
+  Eigen::MatrixXd torque;  ///< M(q) r / dt with r the velocity residual in rad/s or m/s: N m or N. A joint
+                           ///< that swings freely shows minus its torque on its own axis (docs/residual.md)
+  Eigen::MatrixXd tau;     ///< mean torque over the step as logged, N m or N
+  Eigen::MatrixXd ratio;   ///< torque * tau / (tau^2 + eps^2): -1 for a free joint, 0 for a healthy one;
+                           ///< eps is three times the healthy rms of `torque`
+
+  int joints() const { return static_cast<int>(velocity.rows()); }
+  int count() const { return static_cast<int>(row.size()); }
+};
+
+using ResidualState = TransitionState;
+
+/// Residuals of all predictions that end in `segment`. Segments of one log are passed in order with the same
+/// state; where their borders fall changes no byte. Rows with missing numbers, and pairs across a gap, give
+/// NaN. Throws Error(input) when the log is not of this robot.
+Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
+Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions);
+
+}  // namespace faultline

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What the networks and residuals cost and reach: prints one line a measurement. See docs/neural.md.
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "lib/log/memory_source.hpp"
+#include "lib/neural/mlp.hpp"
+#include "lib/neural/rbfn.hpp"
+#include "lib/residual/learn_residual.hpp"
+#include "lib/residual/residuals.hpp"
+#include "tests/support/bench_motion.hpp"
+
+namespace {
+
+using namespace faultline;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void time_forward() {
+  const Mlp mlp = make_mlp({9, 49, 6});
+  const Eigen::MatrixXd inputs = Eigen::MatrixXd::Random(9, 4096);
+  Eigen::MatrixXd outputs(6, 4096);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 100; ++i) forward(mlp, inputs, outputs);
+  fmt::print("forward 9-49-6: {:.0f} ns a row\n", seconds_since(start) / 409600 * 1e9);
+}
+
+void learn(const char* name, const BenchMotion& motion, const ResidualOptions& options) {
+  const Robot robot = bench_robot();
+  MemorySource source(bench_log(robot, motion));
+  LogSource* logs[] = {&source};
+  const auto start = std::chrono::steady_clock::now();
+  const LearnedResidual learned = learn_residual_generator(logs, robot, 0.0, options);
+  fmt::print("{}: normalised mse {:.2e} (nothing changes: {:.2e}), {} patterns, {:.1f} s; {}\n", name,
+             learned.normalised_mse, learned.persistence_mse, learned.training_patterns, seconds_since(start),
+             learned.training.text());
+  ResidualState state;
+  source.rewind();
+  Log segment;
+  const auto begin = std::chrono::steady_clock::now();
+  double sum = 0.0;
+  while (source.next(segment)) sum += compute_residuals(learned.generator, segment, state).velocity.sum();
+  fmt::print("    residuals {:.0f} ns a row (sum {:.1f})\n", seconds_since(begin) / source.log().rows() * 1e9,
+             sum);
+}
+
+void time_judge() {
+  const Eigen::MatrixXd inputs = Eigen::MatrixXd::Random(40, 1500);
+  Patterns patterns{inputs, Eigen::MatrixXd::Zero(18, 1500)};
+  for (int n = 0; n < 1500; ++n) {
+    int label = 0;
+    (inputs.col(n).head(18) + 0.5 * inputs.col(n).segment(20, 18)).maxCoeff(&label);
+    patterns.targets(label, n) = 1.0;
+  }
+  const PatternSplit split = split_patterns(patterns, 0.2);
+  auto start = std::chrono::steady_clock::now();
+  const auto mlp =
+      train_quasi_newton(make_mlp({40, 24, 18}, OutputKind::softmax), split.training, split.validation);
+  fmt::print("judge 40-24-18, 1500 patterns, quasi-Newton: {:.2f} s; {}\n", seconds_since(start),
+             mlp.summary.text());
+  start = std::chrono::steady_clock::now();
+  const auto rbfn = train_rbfn(split.training, {.map = {.rows = 12, .columns = 12}});
+  fmt::print("judge RBFN 144 units: {:.2f} s; training mse {:.3f}, validation mse {:.3f}\n",
+             seconds_since(start), rbfn.summary.training_mse,
+             mean_squared_error(rbfn.rbfn, split.validation));
+}
+
+}  // namespace
+
+int main() {
+  time_forward();
+  time_judge();
+  const BenchMotion held{.duration_s = 360.0};
+  learn("held, LM, state", held, {.target = PredictedQuantity::state});
+  learn("held, LM, change", held, {});
+  learn("held, back-propagation, state", held,
+        {.target = PredictedQuantity::state, .trainer = ResidualTrainer::back_propagation});
+  learn("held sigma .01, LM, change", {.duration_s = 360.0, .noise = 0.01}, {});
+  learn("held, physics", held, {.kind = ResidualKind::physics});
+  learn("1 kHz, LM", {.duration_s = 60.0, .log_period_s = 0.001, .noise = 1e-4}, {});
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "lib/log/log.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// The bench robot of the paper's protocol: RRP, m = (1, 0.8, 0.5) kg, l = (1, 0.8) m, no friction.
+Robot bench_robot();
+
+struct BenchMotion {
+  double duration_s = 60.0;
+  double log_period_s = 0.073;
+  int control_steps = 1;  ///< control steps a log row; the torque is held over each
+  double noise = 0.0;     ///< of q and dq, standard deviation as a share of half the range
+  int free_joint = 0;     ///< swings freely from `fault_s` on; 0 = no fault
+  double fault_s = 0.0;
+  std::uint64_t seed = 1;
+};
+
+/// Random point-to-point quintic moves of 1.2 to 1.8 s with dwells under computed torque, logged with the
+/// torque asked for.
+Log bench_log(const Robot& robot, const BenchMotion& motion);
+
+}  // namespace faultline
