@@ -195,6 +195,20 @@ std::vector<double> TomlTable::numbers(const std::string& key, int count) const 
   return values;
 }
 
+std::vector<std::vector<double>> TomlTable::number_rows(const std::string& key, int count) const {
+  const std::string expected = fmt::format("a list of lists of {} numbers", count);
+  const toml::node& node = required(*data_, key, expected.c_str());
+  std::vector<std::vector<double>> rows;
+  if (!node.is_array()) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));
+  for (const toml::node& row : *node.as_array()) {
+    if (!row.is_array() || row.as_array()->size() != static_cast<std::size_t>(count))
+      fail(key, fmt::format("expected {}, found another row in it", expected));
+    rows.emplace_back();
+    for (const toml::node& item : *row.as_array()) rows.back().push_back(as_number(*data_, key, item));
+  }
+  return rows;
+}
+
 std::vector<double> TomlTable::each(const std::string& key, int count) const {
   if (is_array(key)) return numbers(key, count);
   return std::vector<double>(count, number(key));

@@ -31,6 +31,8 @@ class TomlTable {
   std::string text(const std::string& key, const std::string& fallback) const;
   /// Exactly `count` finite numbers, or any number of them when `count` is -1.
   std::vector<double> numbers(const std::string& key, int count) const;
+  /// A list of lists of `count` numbers each.
+  std::vector<std::vector<double>> number_rows(const std::string& key, int count) const;
   /// A list of `count` numbers, or one number that stands for all of them.
   std::vector<double> each(const std::string& key, int count) const;
   /// One of `choices`.

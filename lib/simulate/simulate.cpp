@@ -113,6 +113,14 @@ const char* to_string(EndReason reason) {
   return "unknown";
 }
 
+void check_simulation(const Robot& robot, const SimulationSpec& spec) {
+  check(robot, spec);
+  const Motion motion(robot, spec.motion, 0.0, 1);
+  const Controller controller(robot, spec.controller, spec.control_period_s);
+  const Sensors sensors(robot.joints(), spec.noise, {}, Random(1));
+  const Plant plant(robot, spec.stops, {}, spec.max_step_s);
+}
+
 SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
   const int ticks = check(robot, spec);
   const std::vector<FaultEvent> faults = real_faults(robot, spec);

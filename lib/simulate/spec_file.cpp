@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/spec_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/random.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+void read_span(const TomlTable& table, const std::string& key, double& low, double& high) {
+  if (!table.has(key)) return;
+  const auto ends = table.is_array(key) ? table.numbers(key, 2) : table.each(key, 2);
+  low = ends[0];
+  high = ends[1];
+}
+
+void read_list(const TomlTable& table, const std::string& key, int joints, std::vector<double>& list) {
+  if (table.has(key)) list = table.each(key, joints);
+}
+
+void read_motion(const TomlTable& table, int joints, MotionSpec& motion) {
+  if (table.has("profile")) {
+    const std::string profile = table.choice("profile", {"quintic", "trapezoidal", "step", "fourier"});
+    motion.profile = profile == "quintic"       ? MotionProfile::quintic
+                     : profile == "trapezoidal" ? MotionProfile::trapezoidal
+                     : profile == "step"        ? MotionProfile::step
+                                                : MotionProfile::fourier;
+  }
+  read_list(table, "low", joints, motion.low);
+  read_list(table, "high", joints, motion.high);
+  read_span(table, "move_s", motion.move_min_s, motion.move_max_s);
+  read_span(table, "dwell_s", motion.dwell_min_s, motion.dwell_max_s);
+  motion.blend = table.number("blend", motion.blend);
+  motion.harmonics = static_cast<int>(table.integer("harmonics", motion.harmonics));
+  motion.fourier_period_s = table.number("fourier_period_s", motion.fourier_period_s);
+  if (table.has("points")) motion.points = table.number_rows("points", joints);
+}
+
+void read_controller(const TomlTable& table, int joints, std::uint64_t seed, ControllerSpec& controller) {
+  if (table.has("kind"))
+    controller.kind = table.choice("kind", {"computed_torque", "pd_gravity"}) == "pd_gravity"
+                          ? ControllerKind::pd_gravity
+                          : ControllerKind::computed_torque;
+  controller.bandwidth_rad_s = table.number("bandwidth_rad_s", controller.bandwidth_rad_s);
+  controller.damping = table.number("damping", controller.damping);
+  controller.friction_compensation = table.flag("friction_compensation", controller.friction_compensation);
+  read_list(table, "mass_error", joints, controller.mass_error);
+  if (!table.has("mass_error_std")) return;
+  if (table.has("mass_error")) table.fail("mass_error_std", "stands beside mass_error; give one of them");
+  const double std = table.number("mass_error_std");
+  Random random = Random::stream(seed, 3);
+  controller.mass_error.resize(joints);
+  for (double& error : controller.mass_error) error = std * random.normal();
+}
+
+FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
+  FaultEvent fault;
+  std::vector<std::string> kinds;
+  for (int k = 0; k < kFaultKinds; ++k) kinds.emplace_back(to_string(static_cast<FaultKind>(k)));
+  fault.kind = fault_kind_from(table.choice("kind", kinds));
+  fault.joint =
+      static_cast<int>(table.integer("joint", fault.kind == FaultKind::payload_change ? robot.joints() : 0));
+  fault.onset_s = table.number("onset_s", 0.0);
+  if (!table.has("onset_s") && fault.kind != FaultKind::none) table.number("onset_s");
+  if (table.has("end_s") && table.has("duration_s"))
+    table.fail("duration_s", "stands beside end_s; give one of them");
+  fault.end_s = table.number("end_s", fault.end_s);
+  if (table.has("duration_s")) fault.end_s = fault.onset_s + table.number("duration_s");
+  fault.size = table.number("size", 0.0);
+  fault.viscous = table.number("viscous", 0.0);
+  try {
+    check_fault(robot, fault);
+  } catch (const Error& error) {
+    const std::string key = error.where().substr(error.where().find('.') + 1);
+    table.fail(table.has(key) ? key : "", error.what());
+  }
+  return fault;
+}
+
+void read_faults(const TomlTable& table, const Robot& robot, std::vector<FaultEvent>& faults) {
+  if (!table.has("fault")) return;
+  faults.clear();
+  if (table.is_array("fault"))
+    for (const TomlTable& one : table.tables("fault")) faults.push_back(read_fault(one, robot));
+  else
+    faults.push_back(read_fault(table.table("fault"), robot));
+}
+
+/// Keys shared by the file and each of its runs; a run's replace the file's.
+void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed, SimulationSpec& spec) {
+  const int joints = robot.joints();
+  spec.duration_s = table.number("duration_s", spec.duration_s);
+  spec.sample_period_s = table.number("sample_period_s", spec.sample_period_s);
+  if (table.is_text("control_period_s")) {
+    table.choice("control_period_s", {"held"});
+    spec.control_period_s = spec.sample_period_s;
+  } else {
+    spec.control_period_s = table.number("control_period_s", spec.control_period_s);
+  }
+  spec.max_step_s = table.number("max_step_s", spec.max_step_s);
+  spec.record_reference = table.flag("record_reference", spec.record_reference);
+  read_motion(table.table("motion"), joints, spec.motion);
+  read_controller(table.table("controller"), joints, seed, spec.controller);
+  const TomlTable noise = table.table("noise");
+  read_list(noise, "q", joints, spec.noise.q);
+  read_list(noise, "dq", joints, spec.noise.dq);
+  read_list(noise, "q_resolution", joints, spec.noise.q_resolution);
+  const TomlTable limits = table.table("limits");
+  read_list(limits, "torque", joints, spec.torque_limit);
+  read_list(limits, "stop_low", joints, spec.stops.low);
+  read_list(limits, "stop_high", joints, spec.stops.high);
+  read_list(limits, "overspeed", joints, spec.overspeed);
+  read_faults(table, robot, spec.faults);
+}
+
+Robot read_robot(const TomlTable& table, const std::string& folder) {
+  if (!table.has("robot"))
+    table.fail("", "the key robot is missing; expected the path of a robot file or a [robot] table");
+  if (table.is_table("robot")) return robot_from_table(table.table("robot"));
+  return load_robot_file((std::filesystem::path(folder) / table.text("robot")).string());
+}
+
+std::string run_name(const TomlTable& table, std::set<std::string>& taken) {
+  const std::string name = table.text("name");
+  for (const char c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && c != '.')
+      table.fail("name", fmt::format("expected letters, digits, _ - and ., found \"{}\"", name));
+  if (name.empty() || name[0] == '.')
+    table.fail("name", "expected a name that is not empty and starts with no dot");
+  if (!taken.insert(name).second) table.fail("name", fmt::format("\"{}\" is the name of two runs", name));
+  return name;
+}
+
+std::uint64_t read_seed(const TomlTable& table, std::uint64_t fallback) {
+  const std::int64_t seed = table.integer("seed", static_cast<std::int64_t>(fallback));
+  if (seed < 0)
+    table.fail("seed", fmt::format("expected a whole number that is not negative, found {}", seed));
+  return static_cast<std::uint64_t>(seed);
+}
+
+}  // namespace
+
+SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
+                                    const std::string& folder, const SimulationFileOptions& options) {
+  const TomlTable table = TomlTable::parse(text, where);
+  SimulationFile file;
+  file.robot = read_robot(table, folder);
+  if (table.has("format")) file.format = table.choice("format", {"csv", "flog"});
+  std::uint64_t seed = read_seed(table, 1);
+  if (options.override_seed) seed = options.seed;
+  const auto runs = table.tables("run");
+  if (runs.empty()) table.fail("", "has no [[run]]; expected at least one, with a name");
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    RunSpec run;
+    run.name = run_name(runs[i], taken);
+    run.seed = read_seed(runs[i], seed + i);
+    read_simulation(table, file.robot, run.seed, run.simulation);
+    read_simulation(runs[i], file.robot, run.seed, run.simulation);
+    try {
+      check_simulation(file.robot, run.simulation);
+    } catch (const Error& error) {
+      runs[i].fail("", fmt::format("run \"{}\" cannot be simulated: {}", run.name, error.what()));
+    }
+    file.runs.push_back(std::move(run));
+  }
+  table.finish();
+  return file;
+}
+
+SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options) {
+  return simulation_from_toml(read_file(path), path, std::filesystem::path(path).parent_path().string(),
+                              options);
+}
+
+std::string labels_header() {
+  return "file,fault,joint,onset_s,end_s,robot,size,size_unit,viscous,seed,sample_period_s,control_period_s,"
+         "duration_s,end_reason\n";
+}
+
+std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
+  const std::string start = spec.name + "." + file.format;
+  const std::string end = fmt::format("{},{},{},{},{}\n", spec.seed, spec.simulation.sample_period_s,
+                                      spec.simulation.control_period_s,
+                                      run.log.rows() ? run.log.time.back() : 0.0, to_string(run.end));
+  const std::string& robot = file.robot.name;
+  if (run.truth.empty()) return fmt::format("{},none,0,,,{},,,,{}", start, robot, end);
+  std::string lines;
+  for (const FaultEvent& fault : run.truth) {
+    const std::string unit = size_unit(file.robot, fault);
+    lines +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}", start, to_string(fault.kind), fault.joint, fault.onset_s,
+                    fault.end_s, robot, unit.empty() ? "" : fmt::format("{}", fault.size), unit,
+                    fault.kind == FaultKind::friction_increase ? fmt::format("{}", fault.viscous) : "", end);
+  }
+  return lines;
+}
+
+}  // namespace faultline

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/simulate/simulate.hpp"
+
+namespace faultline {
+
+/// One run of a spec file.
+struct RunSpec {
+  std::string name;  ///< of the log file, without its extension
+  std::uint64_t seed = 1;
+  SimulationSpec simulation;
+};
+
+/// A simulation spec file (TOML, docs/simulate.md): a robot and the runs it makes.
+struct SimulationFile {
+  Robot robot;
+  std::string format = "csv";  ///< extension of the logs: "csv" or "flog"
+  std::vector<RunSpec> runs;
+};
+
+struct SimulationFileOptions {
+  bool override_seed = false;  ///< `seed` in place of the file's
+  std::uint64_t seed = 1;
+};
+
+/// Reads a spec file; a robot file it names is looked for beside it. Every run is checked against the robot.
+/// Throws Error(usage) naming file, line, key, what was found and what was expected.
+SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options = {});
+
+/// The same from text; `where` names it in errors and `folder` is where a robot file is looked for.
+SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
+                                    const std::string& folder, const SimulationFileOptions& options = {});
+
+/// First line of labels.csv, with its newline.
+std::string labels_header();
+/// The lines of labels.csv for one run: one each fault, or one with fault "none".
+std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run);
+
+}  // namespace faultline
