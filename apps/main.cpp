@@ -30,6 +30,7 @@ void add_global_options(CLI::App& app, Program& program) {
 void add_commands(CLI::App& app, Program& program) {
   add_inspect(app, program);
   add_cases(app, program);
+  add_simulate(app, program);
 }
 
 std::string selected_name(const CLI::App& app) {

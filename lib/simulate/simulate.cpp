@@ -46,6 +46,24 @@ int check(const Robot& robot, const SimulationSpec& spec) {
   return static_cast<int>(std::lround(ratio));
 }
 
+/// Times of the control ticks. Periods of whole microseconds give the doubles nearest to the decimal times,
+/// so that they read 3.953 in a log and not 3.9530000000000003.
+class Clock {
+ public:
+  explicit Clock(double period_s) : period_s_(period_s) {
+    const double micro = period_s * 1e6;
+    if (std::round(micro) >= 1.0 && std::abs(micro - std::round(micro)) < 1e-6) micro_ = std::round(micro);
+  }
+  double at(std::int64_t tick) const {
+    const auto k = static_cast<double>(tick);
+    return micro_ > 0.0 ? k * micro_ / 1e6 : k * period_s_;
+  }
+
+ private:
+  double period_s_;
+  double micro_ = 0.0;
+};
+
 std::vector<FaultEvent> real_faults(const Robot& robot, const SimulationSpec& spec) {
   std::vector<FaultEvent> faults;
   for (FaultEvent fault : spec.faults) {
@@ -137,20 +155,19 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
   const int rows = static_cast<int>(std::floor(spec.duration_s / spec.sample_period_s + 1e-6)) + 1;
   SimulatedRun run;
   run.log = empty_log(robot, spec, rows);
+  const Clock clock(spec.control_period_s);
+  std::int64_t tick = 0;
   int row = 0;
   for (; row < rows && run.end == EndReason::complete; ++row) {
-    const double sample_start = row * spec.sample_period_s;
-    for (int tick = 0; tick < ticks && run.end == EndReason::complete; ++tick) {
-      const double t = sample_start + tick * spec.control_period_s;
-      const double next = tick + 1 < ticks ? sample_start + (tick + 1) * spec.control_period_s
-                                           : (row + 1) * spec.sample_period_s;
+    for (int k = 0; k < ticks && run.end == EndReason::complete; ++k, ++tick) {
+      const double t = clock.at(tick);
       sensors.read(t, plant.q, plant.dq);
       motion.at(t, reference);
       controller.torque(reference, sensors.q, sensors.dq, tau);
       for (std::size_t i = 0; i < spec.torque_limit.size(); ++i)
         tau[i] = std::clamp(tau[i], -spec.torque_limit[i], spec.torque_limit[i]);
-      if (tick == 0) record(run.log, row, t, sensors, tau, reference);
-      plant.advance(t, next, tau);
+      if (k == 0) record(run.log, row, t, sensors, tau, reference);
+      plant.advance(t, clock.at(tick + 1), tau);
       run.end = state_of(plant, spec.overspeed);
     }
   }
