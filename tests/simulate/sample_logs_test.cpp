@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "lib/simulate/spec_file.hpp"
+
+/// The committed sample logs are what the committed specs make.
+namespace faultline {
+namespace {
+
+const std::string kSamples = FAULTLINE_SOURCE_DIR "/sample_logs/";
+
+std::string made_by_program(const std::string& robot) {
+  const std::string folder = testing::TempDir() + "faultline_samples_" + robot;
+  std::filesystem::remove_all(folder);
+  const std::string command = std::string(FAULTLINE_PROGRAM) + " simulate " + kSamples + robot +
+                              "/spec.toml -o " + folder + " > /dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return folder + "/";
+}
+
+void expect_same_logs(const std::string& robot) {
+  const std::string folder = made_by_program(robot);
+  const SimulationFile file = load_simulation_file(kSamples + robot + "/spec.toml");
+  for (const RunSpec& run : file.runs) {
+    const std::string name = run.name + "." + file.format;
+    EXPECT_TRUE(read_file(folder + name) == read_file(kSamples + robot + "/" + name)) << robot << "/" << name;
+  }
+  EXPECT_EQ(read_file(folder + "labels.csv"), read_file(kSamples + robot + "/labels.csv"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SampleLogs, BenchIsMadeByItsSpec) { expect_same_logs("bench"); }
+TEST(SampleLogs, IndustrialIsMadeByItsSpec) { expect_same_logs("industrial"); }
+TEST(SampleLogs, RrprIsMadeByItsSpec) { expect_same_logs("rrpr"); }
+
+TEST(SampleLogs, EveryRobotHasHealthyLogsAndEveryFaultKind) {
+  for (const char* robot : {"bench", "industrial", "rrpr"}) {
+    const SimulationFile file = load_simulation_file(kSamples + robot + "/spec.toml");
+    std::vector<int> runs(kFaultKinds, 0);
+    for (const RunSpec& run : file.runs)
+      ++runs[run.simulation.faults.empty() ? 0 : static_cast<int>(run.simulation.faults[0].kind)];
+    EXPECT_EQ(runs[0], 3) << robot;
+    for (int kind = 1; kind < static_cast<int>(FaultKind::unknown); ++kind)
+      EXPECT_EQ(runs[kind], 1) << robot << " " << to_string(static_cast<FaultKind>(kind));
+  }
+}
+
+TEST(SampleLogs, RobotFilesHoldNoTrueMasses) {
+  for (const char* robot : {"bench", "industrial", "rrpr"}) {
+    const Robot known = load_robot_file(kSamples + robot + "/robot.toml");
+    const SimulationFile file = load_simulation_file(kSamples + robot + "/spec.toml");
+    EXPECT_EQ(known.axes, file.robot.axes);
+    ASSERT_EQ(known.known.size(), 1u);
+    EXPECT_EQ(known.known.at("l1").value, file.robot.chain.length[0]);
+  }
+}
+
+}  // namespace
+}  // namespace faultline
