@@ -14,6 +14,11 @@ packages=(
   libgtest-dev
 )
 
+if ! command -v apt-get >/dev/null; then
+  echo "install: this is no Debian; install the packages of this list by other means: ${packages[*]}" >&2
+  exit 0
+fi
+
 is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
 
 missing=()
