@@ -7,44 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/core/utf8.hpp"
 #include "lib/diagnosis/fault_words.hpp"
+#include "lib/report/markup.hpp"
 
 namespace faultline {
 namespace {
-
-/// XML 1.0 text: the five marks escaped, control characters that XML cannot hold replaced.
-std::string xml(const std::string& text) {
-  std::string escaped;
-  for (const char c : valid_utf8(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&apos;";
-        break;
-      case '\n':
-        escaped += "&#10;";
-        break;
-      case '\t':
-        escaped += "&#9;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-    }
-  }
-  return escaped;
-}
 
 std::string seconds(double time_s) {
   return std::isfinite(time_s) ? fmt::format("{:.3f} s", time_s) : "unknown time";
@@ -54,8 +21,8 @@ std::string failure(const FaultFinding& fault) {
   return fmt::format(
       "      <failure type=\"{}\" message=\"{}\">onset {}, alarm {}, end {}, confidence {:.2f}. "
       "{}</failure>\n",
-      to_string(fault.label.kind), xml(plain_words(fault.label)), seconds(fault.onset_s),
-      seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence, xml(fault.next_check));
+      to_string(fault.label.kind), escaped_markup(plain_words(fault.label)), seconds(fault.onset_s),
+      seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence, escaped_markup(fault.next_check));
 }
 
 struct TestCase {
@@ -72,7 +39,8 @@ std::vector<TestCase> test_cases(const Diagnosis& diagnosis) {
     cases[has_case ? fault.label.joint : 0].body += failure(fault);
   }
   if (diagnosis.faults.empty() && diagnosis.verdict != Verdict::healthy)
-    cases[0].body += fmt::format("      <skipped message=\"{}\"/>\n", xml(diagnosis.verdict_reason));
+    cases[0].body +=
+        fmt::format("      <skipped message=\"{}\"/>\n", escaped_markup(diagnosis.verdict_reason));
   return cases;
 }
 
@@ -84,7 +52,7 @@ std::string render_junit(const Diagnosis& diagnosis) {
     return std::count_if(cases.begin(), cases.end(),
                          [&](const TestCase& c) { return c.body.find(element) != std::string::npos; });
   };
-  const std::string name = xml(diagnosis.log.path);
+  const std::string name = escaped_markup(diagnosis.log.path);
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" "
       "failures=\"{}\" skipped=\"{}\">\n",

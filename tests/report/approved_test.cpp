@@ -8,6 +8,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/report/csv.hpp"
+#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/text.hpp"
@@ -32,6 +33,7 @@ void expect_all_approved(const std::string& name, const Diagnosis& diagnosis) {
   expect_approved(name + ".json", render_json(diagnosis));
   expect_approved(name + ".csv", render_csv(diagnosis));
   expect_approved(name + ".junit.xml", render_junit(diagnosis));
+  expect_approved(name + ".html", render_html(diagnosis));
 }
 
 TEST(ApprovedReport, Healthy) { expect_all_approved("healthy", healthy_diagnosis()); }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lib/report/csv.hpp"
+#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/layout.hpp"
@@ -128,6 +129,28 @@ TEST(JunitReport, OpenedElementsAreClosed) {
     };
     EXPECT_EQ(count("<testcase[^>]*[^/]>"), count("</testcase>"));
     EXPECT_EQ(count("<failure"), count("</failure>"));
+  }
+}
+
+TEST(HtmlReport, EscapesEveryTextAndLoadsNothing) {
+  const std::string html = render_html(hostile_diagnosis());
+  EXPECT_EQ(html.find("<c>"), std::string::npos);
+  EXPECT_EQ(html.find('\x1b'), std::string::npos);
+  EXPECT_EQ(html.find("]]> \"done\""), std::string::npos);
+  for (const char* loads : {"src=", "href=", "<script", "@import", "url("})
+    EXPECT_EQ(html.find(loads), std::string::npos) << loads;
+}
+
+TEST(HtmlReport, OpenedElementsAreClosed) {
+  for (const auto example : kExamples) {
+    const std::string html = render_html(example());
+    const auto count = [&](const std::string& pattern) {
+      const std::regex regex(pattern);
+      return std::distance(std::sregex_iterator(html.begin(), html.end(), regex), std::sregex_iterator());
+    };
+    for (const std::string element :
+         {"table", "tr", "td", "th", "ul", "li", "section", "svg", "p", "h2", "h3", "title"})
+      EXPECT_EQ(count("<" + element + "[ >]"), count("</" + element + ">")) << element;
   }
 }
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace faultline {
+
+/// Text that is safe inside XML 1.0 and HTML, also in quoted attributes: valid UTF-8, the five marks escaped,
+/// control characters that XML cannot hold replaced by "?".
+std::string escaped_markup(std::string_view text);
+
+}  // namespace faultline
