@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "lib/cases/case_file.hpp"
@@ -117,6 +118,15 @@ TEST_F(CasesCommand, HelpShowsAnExampleOfEachAction) {
     EXPECT_EQ(run.status, 0);
     EXPECT_NE(run.out.find(std::string("Example: faultline cases ") + action), std::string::npos) << run.out;
   }
+}
+
+TEST_F(CasesCommand, AnImportThatDoesNotFitLeavesNothing) {
+  const std::string file = folder_.file("export.json"), copy = folder_.file("copy.db");
+  ASSERT_EQ(cases({"export", "-o", file}).status, 0);
+  const ProgramRun run = run_program({"cases", "import", file, "--cases", copy}, {.file_size_limit = 8192});
+  EXPECT_EQ(run.status, 3) << run.out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_EQ(entry.path().string().rfind(copy, 0), std::string::npos) << entry.path();
 }
 
 TEST_F(CasesCommand, AFullDiskChangesNothing) {

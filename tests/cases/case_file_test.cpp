@@ -110,6 +110,21 @@ TEST_F(CaseFile, AChangeThatFailsChangesNothing) {
   EXPECT_EQ(read_file(path_), before);
 }
 
+TEST_F(CaseFile, AnInterruptedChangeIsRolledBackByTheNextOne) {
+  const CaseBase base = example_base(200);
+  write_case_base(path_, base);
+  const std::string cut = folder_.file("cut.db");
+  {
+    SqliteFile file(path_, SqliteMode::change);
+    file.run("PRAGMA cache_size = 1; BEGIN IMMEDIATE; UPDATE fault_case SET what_was_done = 'half a change'");
+    std::filesystem::copy(path_, cut);  // as a power cut would leave it
+    std::filesystem::copy(path_ + "-journal", cut + "-journal");
+  }
+  EXPECT_NE(refusal(cut).find("interrupted"), std::string::npos) << refusal(cut);
+  change_case_base(cut, [](CaseBase&) {});
+  EXPECT_EQ(read_case_base(cut).sha256(), base.sha256());
+}
+
 TEST_F(CaseFile, MissingFile) { EXPECT_NE(refusal(path_).find("no such case base"), std::string::npos); }
 
 TEST_F(CaseFile, Directory) {
