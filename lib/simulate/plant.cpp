@@ -16,6 +16,9 @@ namespace {
 /// Largest rate x step that Runge-Kutta of fourth order follows with a few per cent (it is stable to 2.78).
 constexpr double kRateTimesStep = 1.0;
 
+/// Steps a stiff friction may ask for within max_step_s.
+constexpr double kMostSubSteps = 10.0;
+
 /// Adds `mass` at the end of the last link.
 void add_payload(Chain<double>& chain, double mass) {
   const int last = chain.joints() - 1;
@@ -73,15 +76,35 @@ Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<Faul
   enter(-1.0);
 }
 
-void Plant::choose_step() {
-  const JointVector<double> most = mobility(dynamics_);
-  double rate = 0.0;
-  for (int i = 0; i < dynamics_.joints(); ++i) {
-    const Friction<double>& f = dynamics_.chain().friction[i];
-    rate = std::max(rate, most[i] * (f.viscous + f.coulomb / f.width));
-    if (stop_low_.size() > 0) rate = std::max(rate, std::sqrt(most[i] * stop_stiffness_[i]));
+/// The steps this moment's mechanics allow, near rest and sliding; raises friction widths that would ask for
+/// more than kMostSubSteps.
+void Plant::choose_steps(Chain<double>& chain) {
+  const JointVector<double> most = mobility(FastDynamics(chain));
+  double sliding = 0.0, near_rest = 0.0;
+  for (int i = 0; i < chain.joints(); ++i) {
+    Friction<double>& f = chain.friction[i];
+    f.width = std::max(f.width, most[i] * f.coulomb * max_step_ / (kRateTimesStep * kMostSubSteps));
+    sliding = std::max(sliding, most[i] * f.viscous);
+    if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(most[i] * stop_stiffness_[i]));
+    near_rest = std::max(near_rest, most[i] * (f.viscous + f.coulomb / f.width));
   }
-  step_ = rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;
+  const auto step_for = [&](double rate) {
+    return rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;
+  };
+  sliding_step_ = step_for(sliding);
+  step_ = std::min(sliding_step_, step_for(near_rest));
+}
+
+/// The longest step that is safe from the present state, in which the joints accelerate with `ddq`: friction
+/// is stiff only where a velocity may pass near zero within the step.
+double Plant::safe_step(const JointVector<double>& ddq) const {
+  if (step_ == sliding_step_) return step_;
+  for (int i = 0; i < dq.size(); ++i) {
+    const Friction<double>& f = dynamics_.chain().friction[i];
+    if (f.coulomb != 0.0 && std::abs(dq[i]) < 8.0 * f.width + 2.0 * sliding_step_ * std::abs(ddq[i]))
+      return step_;
+  }
+  return sliding_step_;
 }
 
 /// The mechanics of the moment `now`: which faults act, and the velocity that a joint just locked has lost.
@@ -121,8 +144,8 @@ void Plant::enter(double now) {
         break;
     }
   }
+  choose_steps(chain);
   dynamics_ = FastDynamics(chain);
-  choose_step();
   if (locked_ & ~was_locked) impact();
 }
 
@@ -168,32 +191,36 @@ void Plant::accelerate(const JointVector<double>& at, const JointVector<double>&
 }
 
 void Plant::integrate(double length, const JointVector<double>& tau) {
-  if (length <= 0.0) return;
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / step_ - 1e-9)));
-  const double h = length / steps;
-  const int n = dynamics_.joints();
-  JointVector<double> a1(n), a2(n), a3(n), a4(n), v2(n), v3(n), v4(n), x(n);
-  for (int step = 0; step < steps; ++step) {
+  JointVector<double> a1(dq.size());
+  while (length > 1e-12) {
     accelerate(q, dq, tau, a1);
-    for (int i = 0; i < n; ++i) {
-      v2[i] = dq[i] + 0.5 * h * a1[i];
-      x[i] = q[i] + 0.5 * h * dq[i];
-    }
-    accelerate(x, v2, tau, a2);
-    for (int i = 0; i < n; ++i) {
-      v3[i] = dq[i] + 0.5 * h * a2[i];
-      x[i] = q[i] + 0.5 * h * v2[i];
-    }
-    accelerate(x, v3, tau, a3);
-    for (int i = 0; i < n; ++i) {
-      v4[i] = dq[i] + h * a3[i];
-      x[i] = q[i] + h * v3[i];
-    }
-    accelerate(x, v4, tau, a4);
-    for (int i = 0; i < n; ++i) {
-      q[i] += h / 6.0 * (dq[i] + 2.0 * v2[i] + 2.0 * v3[i] + v4[i]);
-      dq[i] += h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
-    }
+    const double h = length / std::max(1.0, std::ceil(length / safe_step(a1) - 1e-9));
+    runge_kutta(h, tau, a1);
+    length -= h;
+  }
+}
+
+void Plant::runge_kutta(double h, const JointVector<double>& tau, const JointVector<double>& a1) {
+  const int n = dynamics_.joints();
+  JointVector<double> a2(n), a3(n), a4(n), v2(n), v3(n), v4(n), x(n);
+  for (int i = 0; i < n; ++i) {
+    v2[i] = dq[i] + 0.5 * h * a1[i];
+    x[i] = q[i] + 0.5 * h * dq[i];
+  }
+  accelerate(x, v2, tau, a2);
+  for (int i = 0; i < n; ++i) {
+    v3[i] = dq[i] + 0.5 * h * a2[i];
+    x[i] = q[i] + 0.5 * h * v2[i];
+  }
+  accelerate(x, v3, tau, a3);
+  for (int i = 0; i < n; ++i) {
+    v4[i] = dq[i] + h * a3[i];
+    x[i] = q[i] + h * v3[i];
+  }
+  accelerate(x, v4, tau, a4);
+  for (int i = 0; i < n; ++i) {
+    q[i] += h / 6.0 * (dq[i] + 2.0 * v2[i] + 2.0 * v3[i] + v4[i]);
+    dq[i] += h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
   }
 }
 

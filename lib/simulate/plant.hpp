@@ -33,9 +33,11 @@ class Plant {
 
  private:
   void enter(double now);
-  void choose_step();
+  void choose_steps(Chain<double>& chain);
+  double safe_step(const JointVector<double>& ddq) const;
   void impact();
   void integrate(double length, const JointVector<double>& tau);
+  void runge_kutta(double h, const JointVector<double>& tau, const JointVector<double>& a1);
   void accelerate(const JointVector<double>& at, const JointVector<double>& rate,
                   const JointVector<double>& tau, JointVector<double>& out) const;
 
@@ -51,7 +53,8 @@ class Plant {
   JointVector<double> external_;  ///< added torque
   bool altered_ = false;          ///< gain_ or external_ matter
   unsigned locked_ = 0;
-  double step_ = 0.001;
+  double step_ = 0.001;          ///< where friction is stiff
+  double sliding_step_ = 0.001;  ///< elsewhere
 };
 
 }  // namespace faultline

@@ -25,7 +25,9 @@ struct SimulationSpec {
   double sample_period_s = 0.001;  ///< of the log; a whole multiple of the control period
   /// The torque is held over this. Equal to the sample period, it is "held" in the log's terms.
   double control_period_s = 0.001;
-  double max_step_s = 0.001;  ///< of the integration; stiff friction and stops make it shorter
+  /// Of the integration. Stiff friction shortens it, to a tenth at most; sharper friction is smoothed to
+  /// that.
+  double max_step_s = 0.001;
   MotionSpec motion{};
   ControllerSpec controller{};
   NoiseSpec noise{};

@@ -26,6 +26,14 @@ void read_list(const TomlTable& table, const std::string& key, int joints, std::
   if (table.has(key)) list = table.each(key, joints);
 }
 
+/// A whole number of modest size, for joints and counts.
+int small_integer(const TomlTable& table, const std::string& key, int fallback) {
+  const std::int64_t value = table.integer(key, fallback);
+  if (value < 0 || value > 1000)
+    table.fail(key, fmt::format("expected a whole number from 0 to 1000, found {}", value));
+  return static_cast<int>(value);
+}
+
 void read_motion(const TomlTable& table, int joints, MotionSpec& motion) {
   if (table.has("profile")) {
     const std::string profile = table.choice("profile", {"quintic", "trapezoidal", "step", "fourier"});
@@ -39,7 +47,7 @@ void read_motion(const TomlTable& table, int joints, MotionSpec& motion) {
   read_span(table, "move_s", motion.move_min_s, motion.move_max_s);
   read_span(table, "dwell_s", motion.dwell_min_s, motion.dwell_max_s);
   motion.blend = table.number("blend", motion.blend);
-  motion.harmonics = static_cast<int>(table.integer("harmonics", motion.harmonics));
+  motion.harmonics = small_integer(table, "harmonics", motion.harmonics);
   motion.fourier_period_s = table.number("fourier_period_s", motion.fourier_period_s);
   if (table.has("points")) motion.points = table.number_rows("points", joints);
 }
@@ -66,8 +74,7 @@ FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
   std::vector<std::string> kinds;
   for (int k = 0; k < kFaultKinds; ++k) kinds.emplace_back(to_string(static_cast<FaultKind>(k)));
   fault.kind = fault_kind_from(table.choice("kind", kinds));
-  fault.joint =
-      static_cast<int>(table.integer("joint", fault.kind == FaultKind::payload_change ? robot.joints() : 0));
+  fault.joint = small_integer(table, "joint", fault.kind == FaultKind::payload_change ? robot.joints() : 0);
   fault.onset_s = table.number("onset_s", 0.0);
   if (!table.has("onset_s") && fault.kind != FaultKind::none) table.number("onset_s");
   if (table.has("end_s") && table.has("duration_s"))
@@ -95,16 +102,19 @@ void read_faults(const TomlTable& table, const Robot& robot, std::vector<FaultEv
 }
 
 /// Keys shared by the file and each of its runs; a run's replace the file's.
-void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed, SimulationSpec& spec) {
+void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed, SimulationSpec& spec,
+                     bool& held) {
   const int joints = robot.joints();
   spec.duration_s = table.number("duration_s", spec.duration_s);
   spec.sample_period_s = table.number("sample_period_s", spec.sample_period_s);
   if (table.is_text("control_period_s")) {
     table.choice("control_period_s", {"held"});
-    spec.control_period_s = spec.sample_period_s;
-  } else {
-    spec.control_period_s = table.number("control_period_s", spec.control_period_s);
+    held = true;
+  } else if (table.has("control_period_s")) {
+    spec.control_period_s = table.number("control_period_s");
+    held = false;
   }
+  if (held) spec.control_period_s = spec.sample_period_s;
   spec.max_step_s = table.number("max_step_s", spec.max_step_s);
   spec.record_reference = table.flag("record_reference", spec.record_reference);
   read_motion(table.table("motion"), joints, spec.motion);
@@ -163,8 +173,9 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
     RunSpec run;
     run.name = run_name(runs[i], taken);
     run.seed = read_seed(runs[i], seed + i);
-    read_simulation(table, file.robot, run.seed, run.simulation);
-    read_simulation(runs[i], file.robot, run.seed, run.simulation);
+    bool held = false;  // the file's "held" also holds over a run's own sample period
+    read_simulation(table, file.robot, run.seed, run.simulation, held);
+    read_simulation(runs[i], file.robot, run.seed, run.simulation, held);
     try {
       check_simulation(file.robot, run.simulation);
     } catch (const Error& error) {

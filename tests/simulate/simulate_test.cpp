@@ -266,6 +266,36 @@ TEST(Simulate, HeldTorqueAndFastControlLoggedSlowly) {
   EXPECT_NE(fast.log.q, held.log.q);
 }
 
+double largest_difference(const JointSignals& a, const JointSignals& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < a[i].size(); ++k) most = std::max(most, std::abs(a[i][k] - b[i][k]));
+  return most;
+}
+
+TEST(Simulate, TheStepIsShortEnoughForStiffFriction) {
+  Robot robot = preset_robot("RRPR");
+  set_masses_and_lengths(robot, {3.0, 2.0, 0.7, 0.4}, {0.25, 0.2, 0.0, 0.0});
+  robot.chain.links[3] = general_body(0.4, {0, 0, -0.05}, 2e-3 * Eigen::Matrix3d::Identity());
+  robot.chain.friction = {
+      {0.6, 0.8, 0, 0.03}, {0.4, 0.5, 0, 0.03}, {5.0, 2.0, 0, 0.01}, {0.02, 0.1, 0, 0.02}};
+  SimulationSpec spec = short_run(2.0);
+  const Log usual = simulate(robot, spec).log;
+  spec.max_step_s = 2e-5;
+  const Log exact = simulate(robot, spec).log;
+  EXPECT_LT(largest_difference(usual.q, exact.q), 1e-5);
+  EXPECT_LT(largest_difference(usual.dq, exact.dq), 1e-3);
+}
+
+TEST(Simulate, FrictionSharperThanAnyStepStaysBounded) {
+  Robot robot = industrial();
+  for (auto& friction : robot.chain.friction) friction.width = 1e-7;
+  const Log sharp = simulate(robot, short_run()).log;
+  for (auto& friction : robot.chain.friction) friction.width = 2e-3;
+  const Log soft = simulate(robot, short_run()).log;
+  EXPECT_LT(largest_difference(sharp.q, soft.q), 1e-3);
+}
+
 TEST(Simulate, PdWithGravityHoldsAgainstIt) {
   SimulationSpec spec = short_run();
   spec.controller.kind = ControllerKind::pd_gravity;

@@ -72,6 +72,14 @@ TEST(SpecFile, RunsTakeTheFilesKeysAndReplaceThem) {
   EXPECT_TRUE(healthy.simulation.faults.empty());
 }
 
+TEST(SpecFile, HeldFollowsTheRunsOwnSamplePeriod) {
+  const SimulationFile file = parse(
+      "robot = {axes = \"RRP\"}\ncontrol_period_s = \"held\"\n[[run]]\nname = \"a\"\nsample_period_s = 0.02\n"
+      "[[run]]\nname = \"b\"\nsample_period_s = 0.02\ncontrol_period_s = 0.01");
+  EXPECT_EQ(file.runs[0].simulation.control_period_s, 0.02);
+  EXPECT_EQ(file.runs[1].simulation.control_period_s, 0.01);
+}
+
 TEST(SpecFile, SeedCanBeOverridden) {
   SimulationFileOptions options;
   options.override_seed = true;
