@@ -20,6 +20,7 @@ struct Program {
 
 // One function a subcommand, each in its own file: adds the subcommand, its options, help and example.
 void add_inspect(CLI::App& app, Program& program);
+void add_convert(CLI::App& app, Program& program);
 void add_cases(CLI::App& app, Program& program);
 void add_simulate(CLI::App& app, Program& program);
 

@@ -1,23 +1,54 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <string>
-#include <vector>
+#include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "lib/core/hash.hpp"
+#include "apps/inspection.hpp"
+#include "apps/progress.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
 
 namespace faultline {
 namespace {
 
 struct InspectArguments {
   std::vector<std::string> logs;
+  std::string robot;
+  std::string json;
 };
 
-int inspect(const InspectArguments& arguments) {
-  for (const std::string& log : arguments.logs) print(log + "  sha256 " + sha256_of_file(log) + "\n");
-  return kNothingFound;
+/// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
+std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoice color, int& status) {
+  std::optional<Robot> robot;
+  if (!arguments.robot.empty()) robot = load_robot_file(arguments.robot);
+  std::vector<Inspection> inspections;
+  for (const std::string& log : arguments.logs) {
+    const int result = guarded([&] {
+      ProgressBar bar(color);
+      inspections.push_back(inspect_log(log, robot, bar.callback()));
+      return inspections.back().severe() ? kFindings : kNothingFound;
+    });
+    status = std::max(status, result);
+  }
+  return inspections;
+}
+
+int inspect(const InspectArguments& arguments, ColorChoice color) {
+  int status = kNothingFound;
+  const auto inspections = inspect_all(arguments, color, status);
+  if (!arguments.json.empty()) {
+    nlohmann::ordered_json json{{"schema", "faultline/inspection/1"},
+                                {"logs", nlohmann::ordered_json::array()}};
+    for (const Inspection& inspection : inspections) json["logs"].push_back(inspection_json(inspection));
+    write_file(arguments.json, json.dump(2) + "\n");
+  }
+  if (arguments.json != "-")
+    for (const Inspection& inspection : inspections)
+      print(inspection_text(inspection, use_color(color, stdout)));
+  return status;
 }
 
 }  // namespace
@@ -26,8 +57,18 @@ void add_inspect(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<InspectArguments>();
   CLI::App* command = app.add_subcommand("inspect", "Tell what is in logs and what is wrong with them");
   command->add_option("LOG", arguments->logs, "Log files")->required();
-  command->footer("Example: faultline inspect run.csv");
-  command->callback([arguments, &program] { program.run = [arguments] { return inspect(*arguments); }; });
+  command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
+      ->type_name("ROBOT.toml");
+  command
+      ->add_option("--json", arguments->json,
+                   "Write the findings as JSON to this file, - for standard output")
+      ->type_name("F");
+  command->footer(
+      "Exit status 1 when something severe was found.\n"
+      "Example: faultline inspect run.csv --robot robot.toml --json findings.json");
+  command->callback([arguments, &program] {
+    program.run = [arguments, &program] { return inspect(*arguments, program.color); };
+  });
 }
 
 }  // namespace faultline

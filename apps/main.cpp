@@ -29,6 +29,7 @@ void add_global_options(CLI::App& app, Program& program) {
 
 void add_commands(CLI::App& app, Program& program) {
   add_inspect(app, program);
+  add_convert(app, program);
   add_cases(app, program);
   add_simulate(app, program);
 }

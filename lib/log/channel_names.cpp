@@ -65,13 +65,13 @@ bool is_reference(const std::string& word) {
 
 /// Words of columns that are near a joint signal but are none.
 bool is_something_else(const std::string& word) {
-  return among(
-      word,
-      {"error",     "err",    "acc",  "accel",       "acceleration", "accelerations", "qdd",     "ddq",
-       "tcp",       "pose",   "tool", "max",         "min",          "limit",         "limited", "fric",
-       "friction",  "pert",   "ext",  "external",    "gravity",      "noise",         "std",     "threshold",
-       "output",    "multi",  "temp", "temperature", "voltage",      "sec",           "nanosec", "stamp",
-       "cartesian", "wrench", "ft",   "ee",          "jerk",         "removed",       "pid"});
+  return among(word, {"error",   "err",      "acc",       "accel",       "acceleration", "accelerations",
+                      "qdd",     "ddq",      "tcp",       "pose",        "tool",         "max",
+                      "min",     "limit",    "limited",   "fric",        "friction",     "pert",
+                      "ext",     "external", "gravity",   "noise",       "std",          "threshold",
+                      "output",  "multi",    "temp",      "temperature", "voltage",      "sec",
+                      "nanosec", "stamp",    "cartesian", "wrench",      "ft",           "ee",
+                      "jerk",    "removed",  "scaling",   "factor",      "pid"});
 }
 
 std::optional<Quantity> quantity_of(const std::string& word) {

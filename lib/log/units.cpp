@@ -118,7 +118,8 @@ NameAndUnit split_unit(std::string_view text) {
     if (open == std::string::npos || open == 0) continue;
     const std::string unit = trimmed(std::string_view(all).substr(open + 1, all.size() - open - 2));
     const bool index = !unit.empty() && unit.find_first_not_of("0123456789") == std::string::npos;
-    if (!index) return {trimmed(std::string_view(all).substr(0, open)), unit};
+    const bool part_of_name = pair[0] == '(' && all[open - 1] != ' ' && !si_factor(unit);  // "abs(error)"
+    if (!index && !part_of_name) return {trimmed(std::string_view(all).substr(0, open)), unit};
   }
   const auto underscore = all.rfind('_');
   if (underscore != std::string::npos && underscore > 0 && underscore + 1 < all.size()) {

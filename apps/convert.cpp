@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/progress.hpp"
+#include "formats/open_log.hpp"
+#include "formats/write_log.hpp"
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+struct ConvertArguments {
+  std::string log;
+  std::string out;
+  std::string robot;
+};
+
+void refuse_same_file(const ConvertArguments& arguments) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(arguments.log, arguments.out, ignored))
+    throw Error(ErrorCode::usage, arguments.out, "is the log itself; give the converted log another name");
+}
+
+void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
+  Log segment;
+  while (source.next(segment)) {
+    writer.write(segment);
+    if (progress) progress("converting " + source.identity().path, source.share_read());
+  }
+}
+
+void tell(const LogSource& source, const ConvertArguments& arguments) {
+  for (const Issue& issue : source.issues().all())
+    std::fprintf(stderr, "faultline: %s: %s %s%s: %s\n", arguments.log.c_str(), to_string(issue.severity),
+                 issue.code.c_str(),
+                 issue.count > 1 ? (" (" + std::to_string(issue.count) + " times)").c_str() : "",
+                 issue.message.c_str());
+  if (arguments.out == "-") return;
+  const auto& log = source.identity();
+  print(arguments.out + ": " + std::to_string(log.rows_read - source.issues().rows_dropped()) + " of " +
+        std::to_string(log.rows_read) + " rows of " + arguments.log + "\n");
+}
+
+int convert(const ConvertArguments& arguments, ColorChoice color) {
+  OpenLogOptions options;
+  if (!arguments.robot.empty()) options.columns = load_robot_file(arguments.robot).log.columns;
+  refuse_same_file(arguments);
+  const auto source = open_log(arguments.log, options);
+  const auto writer = create_log(arguments.out);
+  {
+    ProgressBar bar(color);
+    copy_rows(*source, *writer, bar.callback());
+  }
+  writer->commit();
+  tell(*source, arguments);
+  return kNothingFound;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      app.add_subcommand("convert", "Write a log in another format, its columns as channels in SI");
+  command->add_option("LOG", arguments->log, "The log to read")->required();
+  command->add_option("OUT", arguments->out, "The file to write: .csv (- for standard output) or .flog")
+      ->required();
+  command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
+      ->type_name("ROBOT.toml");
+  command->footer(
+      "The converted log needs no column mapping any more. Rows without a usable time are left out and "
+      "told.\n"
+      "Example: faultline convert run.csv run.flog --robot robot.toml");
+  command->callback([arguments, &program] {
+    program.run = [arguments, &program] { return convert(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline

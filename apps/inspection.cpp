@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "apps/inspection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "formats/open_log.hpp"
+#include "lib/core/error.hpp"
+#include "lib/log/channel_names.hpp"
+#include "lib/log/mapped_source.hpp"
+
+namespace faultline {
+namespace {
+
+std::string unit_of(Channel channel, const std::optional<Robot>& robot) {
+  const bool known = robot && channel.joint <= robot->joints();
+  const bool turns = known && robot->chain.geometry[channel.joint - 1].kind == AxisKind::revolute;
+  switch (channel.quantity) {
+    case Quantity::time:
+      return "s";
+    case Quantity::q:
+    case Quantity::q_ref:
+      return !known ? "rad or m" : turns ? "rad" : "m";
+    case Quantity::dq:
+    case Quantity::dq_ref:
+      return !known ? "rad/s or m/s" : turns ? "rad/s" : "m/s";
+    case Quantity::tau:
+      return !known ? "N m or N" : turns ? "N m" : "N";
+  }
+  return "";
+}
+
+std::string column_of(const ChannelSummary& channel, const Matching& matching,
+                      const std::vector<RawColumn>& columns) {
+  if (!channel.canonical) return channel.name;
+  for (const ChannelSource& source : matching.channels)
+    if (to_string(source.channel) == channel.name)
+      return source.column >= 0 ? columns[source.column].name : kRowNumberName;
+  return "";
+}
+
+std::vector<std::string> what_is_lacking(const Log& log) {
+  std::vector<std::string> lacking;
+  if (log.tau.empty())
+    lacking.push_back("torque: without it only the motion can be judged, and no robot be identified");
+  if (log.dq.empty()) lacking.push_back("velocity: it will be derived from the position");
+  return lacking;
+}
+
+void judge_dropped_rows(Inspection& inspection) {
+  const std::int64_t dropped = inspection.issues.rows_dropped();
+  if (100 * dropped <= inspection.log.rows_read) return;
+  inspection.issues.add({"many_rows_dropped", "", Severity::severe,
+                         fmt::format("{} of {} rows could not be used", dropped, inspection.log.rows_read)});
+}
+
+void judge_robot(Inspection& inspection, const std::optional<Robot>& robot) {
+  if (!robot || robot->joints() == inspection.joints) return;
+  inspection.issues.add(
+      {"other_robot", "", Severity::severe,
+       fmt::format("the log has positions of {} joints, the robot file {} axes; is it a log of another "
+                   "robot, or is a column not mapped?",
+                   inspection.joints, robot->joints())});
+}
+
+Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>& columns,
+                             const std::optional<Robot>& robot, const Progress& progress) {
+  Inspection inspection;
+  QualityState state;
+  Log segment;
+  while (source.next(segment)) {
+    assess(segment, state);
+    inspection.rows_used += segment.rows();
+    if (inspection.lacking.empty()) inspection.lacking = what_is_lacking(segment);
+    if (progress) progress("reading " + source.identity().path, source.share_read());
+  }
+  inspection.joint_log = true;
+  inspection.joints = source.matching().joints;
+  inspection.log = source.identity();
+  inspection.quality = quality_of(state);
+  inspection.issues = source.issues();
+  inspection.issues.merge(inspection.quality.issues);
+  judge_dropped_rows(inspection);
+  judge_robot(inspection, robot);
+  for (const ChannelSummary& channel : inspection.quality.channels) {
+    const auto canonical = channel.canonical ? canonical_channel(channel.name) : std::nullopt;
+    inspection.channels.push_back({channel, column_of(channel, source.matching(), columns),
+                                   canonical ? unit_of(*canonical, robot) : channel.unit});
+  }
+  return inspection;
+}
+
+/// A block of raw columns as a log whose columns are all extra and whose time is the row number.
+void as_extra(RawBlock& block, const std::vector<RawColumn>& columns, Log& log) {
+  log.first_row = block.first_row;
+  log.time.resize(block.rows);
+  for (int i = 0; i < block.rows; ++i) log.time[i] = static_cast<double>(block.first_row + i);
+  log.extra.resize(columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    log.extra[c].name = columns[c].name;
+    log.extra[c].unit = columns[c].unit;
+    log.extra[c].values.swap(block.columns[c]);
+  }
+}
+
+Inspection inspect_table(RawReader& reader, const std::string& why_not) {
+  Inspection inspection;
+  QualityState state;
+  RawBlock block;
+  Log log;
+  while (reader.next(block, 4096)) {
+    inspection.rows_used += block.rows;
+    as_extra(block, reader.columns(), log);
+    assess(log, state);
+  }
+  inspection.why_not = why_not;
+  inspection.log = reader.identity();
+  for (Issue issue : reader.issues().all()) {
+    if (issue.code == "not_a_number") issue.severity = Severity::note;  // a table may have columns of text
+    inspection.issues.add(issue);
+  }
+  inspection.issues.add({"no_joint_log", "", Severity::severe, why_not});
+  for (const ChannelSummary& channel : state.channels)
+    inspection.channels.push_back({channel, channel.name, channel.unit});
+  return inspection;
+}
+
+}  // namespace
+
+bool Inspection::severe() const {
+  const auto& all = issues.all();
+  return std::any_of(all.begin(), all.end(),
+                     [](const Issue& issue) { return issue.severity == Severity::severe; });
+}
+
+Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress) {
+  auto reader = open_raw(path);
+  MappedSourceOptions options;
+  if (robot && !reader->canonical()) options.columns = robot->log.columns;
+  const auto columns = reader->columns();
+  const std::string why_not = why_no_match(columns, options.columns, path);
+  if (!why_not.empty()) return inspect_table(*reader, why_not);
+  MappedSource source(std::move(reader), options);
+  return inspect_joint_log(source, columns, robot, progress);
+}
+
+}  // namespace faultline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/core/progress.hpp"
+#include "lib/log/column_matching.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// A channel as it was found, and the column it comes from (empty: none).
+struct InspectedChannel {
+  ChannelSummary summary;
+  std::string column;
+  std::string unit;
+};
+
+/// What a log holds, what is wrong with it, and what a diagnosis would miss.
+struct Inspection {
+  LogIdentity log;
+  bool joint_log =
+      false;  ///< false: no time or no position was found; `why_not` says which and how to name it
+  std::string why_not;
+  int joints = 0;
+  std::int64_t rows_used = 0;
+  LogQuality quality;
+  std::vector<InspectedChannel> channels;
+  std::vector<std::string> lacking;  ///< what a diagnosis would have to do without
+  Issues issues;                     ///< of reading, cleaning and quality together
+
+  bool severe() const;
+};
+
+/// Throws Error(input) when nothing can be read from the file.
+Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress);
+
+std::string inspection_text(const Inspection& inspection, bool color);
+nlohmann::ordered_json inspection_json(const Inspection& inspection);
+
+}  // namespace faultline

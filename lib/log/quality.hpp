@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/core/issue.hpp"
+#include "lib/log/log.hpp"
+#include "lib/log/time_axis.hpp"
+#include "lib/log/velocity_check.hpp"
+
+namespace faultline {
+
+/// One channel over the whole log.
+struct ChannelSummary {
+  std::string name{};  ///< canonical, or the column's own for an extra channel
+  std::string unit{};  ///< of an extra channel; canonical ones are SI
+  bool canonical = true;
+  double min = std::numeric_limits<double>::infinity();  ///< above max when there is no value
+  double max = -std::numeric_limits<double>::infinity();
+  std::int64_t values = 0;
+  std::int64_t missing = 0;
+  std::int64_t first_missing_row = 0;  ///< from 1; 0 for none
+  double first_missing_s = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t at_min = 0;  ///< values equal to min
+  std::int64_t at_max = 0;
+
+  bool constant() const { return values > 1 && min == max; }
+};
+
+struct QualityOptions {
+  TimeAxisOptions time{};
+  double position_span =
+      20.0;               ///< a position that spans more, or lies beyond 5 times this, is hardly rad or m
+  double fastest = 50.0;  ///< a velocity beyond it is hardly in rad/s or m/s
+  double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
+  double saturated_share = 0.01;  ///< of a torque's values at its largest or smallest one, at least 20
+};
+
+/// What a look at all rows told; complete after the last segment.
+struct LogQuality {
+  TimeAxis time;
+  std::vector<ChannelSummary> channels;     ///< t left out; canonical ones first
+  std::vector<VelocityAgreement> velocity;  ///< of each joint; empty without velocities
+  Issues issues;  ///< time_gap, time_jitter, missing_values, constant_channel, saturated_channel,
+                  ///< velocity_contradicts_position, unit_implausible
+};
+
+/// What the look carries from segment to segment.
+struct QualityState {
+  TimeAxisPass time;
+  std::vector<ChannelSummary> channels;
+  std::vector<VelocityCheck> velocity;
+};
+
+void assess(const Log& segment, QualityState& state);
+LogQuality quality_of(const QualityState& state, const QualityOptions& options = {});
+
+}  // namespace faultline

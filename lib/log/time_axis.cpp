@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/time_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+
+double median_step(const std::vector<double>& time) {
+  if (time.size() < 2) return std::nan("");
+  std::vector<double> steps(time.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time[i + 1] - time[i];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+void TimeAxisPass::add(const std::vector<double>& time) {
+  for (const double t : time) {
+    if (axis_.rows++ == 0) axis_.start_s = t;
+    if (!std::isnan(axis_.period_s)) {
+      judge_step(axis_.end_s, t);
+    } else {
+      head_.push_back(t);
+      if (head_.size() > kPeriodSteps) settle_period();
+    }
+    axis_.end_s = t;
+  }
+}
+
+void TimeAxisPass::settle_period() {
+  axis_.period_s = median_step(head_);
+  for (std::size_t i = 1; i < head_.size(); ++i) judge_step(head_[i - 1], head_[i]);
+  head_ = {};
+}
+
+void TimeAxisPass::judge_step(double before, double now) {
+  ++judged_;
+  const double step = now - before;
+  if (step > options_.gap_factor * axis_.period_s) {
+    if (axis_.gaps++ == 0) axis_.first_gap_row = judged_, axis_.first_gap_s = before;
+    axis_.longest_gap_s = std::max(axis_.longest_gap_s, step);
+    axis_.in_gaps_s += step;
+    return;
+  }
+  const double off = step - axis_.period_s;
+  axis_.uneven_steps += std::abs(off) > options_.jitter_share * axis_.period_s;
+  squares_ += off * off;
+}
+
+TimeAxis TimeAxisPass::result() const {
+  TimeAxisPass done = *this;
+  if (std::isnan(done.axis_.period_s) && done.head_.size() > 1) done.settle_period();
+  const std::int64_t steps = done.judged_ - done.axis_.gaps;
+  if (steps > 0) done.axis_.jitter_s = std::sqrt(done.squares_ / static_cast<double>(steps));
+  return done.axis_;
+}
+
+}  // namespace faultline

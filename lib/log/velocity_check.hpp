@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+namespace faultline {
+
+enum class VelocityVerdict {
+  not_judged,  ///< too little motion above the noise
+  agrees,
+  scaled,       ///< follows the motion, but by a factor: a unit or a sign is wrong
+  contradicts,  ///< does not follow the motion
+};
+
+/// How a recorded velocity goes with the recorded position: change of position = factor * integral of
+/// velocity.
+struct VelocityAgreement {
+  VelocityVerdict verdict = VelocityVerdict::not_judged;
+  double factor = 0.0;
+  double correlation = 0.0;
+};
+
+/// Compares the position's change with the velocity's integral (trapezoids) over windows of 0.1 s, at least 5
+/// samples, of one joint; missing values interrupt a window.
+class VelocityCheck {
+ public:
+  void add(const std::vector<double>& time, const std::vector<double>& q, const std::vector<double>& dq);
+  VelocityAgreement result() const;
+
+ private:
+  void add_sample(double t, double q, double dq);
+
+  struct Sample {
+    double t = 0.0, q = 0.0, dq = 0.0;
+  };
+  Sample last_, before_last_;
+  int run_ = 0;  ///< samples since the last interruption
+  double window_start_ = 0.0, window_q_ = 0.0, integral_ = 0.0;
+  int window_samples_ = 0;
+  long long windows_ = 0;
+  double xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;  ///< sums over windows; x the integral, y the change of position
+  long long differences_ = 0;
+  double q_noise_ = 0.0, integral_noise_ = 0.0;  ///< sums of squared second differences
+};
+
+}  // namespace faultline

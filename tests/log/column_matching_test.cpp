@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/column_matching.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+
+#include "lib/core/error.hpp"
+#include "lib/log/units.hpp"
+
+namespace faultline {
+namespace {
+
+using Names = std::map<std::string, std::string>;
+
+/// Channel name to column name.
+Names matched(const std::vector<std::string>& names, const ColumnMap& map = {}) {
+  std::vector<RawColumn> columns;
+  for (const std::string& name : names) columns.push_back({name, ""});
+  Names result;
+  for (const ChannelSource& source : match_columns(columns, map, "log").channels)
+    result[to_string(source.channel)] = source.column >= 0 ? names[source.column] : "";
+  return result;
+}
+
+TEST(ColumnMatching, NamesThatCountFromZero) {
+  EXPECT_EQ(matched({"timestamp", "target_q_0", "target_q_1", "actual_q_0", "actual_q_1", "actual_qd_0",
+                     "actual_qd_1", "target_moment_0", "target_moment_1", "actual_TCP_pose_0"}),
+            (Names{{"t", "timestamp"},
+                   {"q1", "actual_q_0"},
+                   {"q2", "actual_q_1"},
+                   {"dq1", "actual_qd_0"},
+                   {"dq2", "actual_qd_1"},
+                   {"tau1", "target_moment_0"},
+                   {"tau2", "target_moment_1"},
+                   {"q_ref1", "target_q_0"},
+                   {"q_ref2", "target_q_1"}}));
+}
+
+TEST(ColumnMatching, JointStatesNames) {
+  EXPECT_EQ(matched({"__time", "/joint_states/position[0]", "/joint_states/position[1]",
+                     "/joint_states/velocity[0]", "/joint_states/velocity[1]", "/joint_states/effort[0]",
+                     "/joint_states/effort[1]", "/joint_states/header/stamp/nanosec"}),
+            (Names{{"t", "__time"},
+                   {"q1", "/joint_states/position[0]"},
+                   {"q2", "/joint_states/position[1]"},
+                   {"dq1", "/joint_states/velocity[0]"},
+                   {"dq2", "/joint_states/velocity[1]"},
+                   {"tau1", "/joint_states/effort[0]"},
+                   {"tau2", "/joint_states/effort[1]"}}));
+}
+
+TEST(ColumnMatching, PlainWordsThatCountFromOne) {
+  EXPECT_EQ(matched({"time", "position_1", "position_2", "speed_1", "speed_2", "torque_1", "torque_2"}),
+            (Names{{"t", "time"},
+                   {"q1", "position_1"},
+                   {"q2", "position_2"},
+                   {"dq1", "speed_1"},
+                   {"dq2", "speed_2"},
+                   {"tau1", "torque_1"},
+                   {"tau2", "torque_2"}}));
+}
+
+TEST(ColumnMatching, OneAxisNeedsNoNumbers) {
+  EXPECT_EQ(matched({"t", "qm", "qg", "force"}),
+            (Names{{"t", "t"}, {"q1", "qm"}, {"q_ref1", "qg"}, {"tau1", "force"}}));
+}
+
+TEST(ColumnMatching, ErrorsLimitsAndAccelerationsAreNoPositions) {
+  EXPECT_EQ(matched({"t", "q1", "q_error1", "position_limit_1", "qdd1"}), (Names{{"t", "t"}, {"q1", "q1"}}));
+}
+
+TEST(ColumnMatching, SecondsAndNanosecondsMakeATime) {
+  const std::vector<RawColumn> columns{{"header/stamp/nanosec", ""}, {"header/stamp/sec", ""}, {"q1", ""}};
+  const Matching matching = match_columns(columns, {}, "log");
+  EXPECT_EQ(matching.channels[0].column, 1);
+  EXPECT_EQ(matching.channels[0].nanoseconds_column, 0);
+}
+
+TEST(ColumnMatching, TheMapWinsOverNames) {
+  EXPECT_EQ(matched({"t", "q1", "arm"}, {{"q1", {.name = "arm"}}}), (Names{{"t", "t"}, {"q1", "arm"}}));
+}
+
+TEST(ColumnMatching, AJointWithoutAColumnIsTold) {
+  const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"q2", ""}, {"tau1", ""}};
+  EXPECT_NE(match_columns(columns, {}, "log").issues.find("channel_missing", "tau2"), nullptr);
+}
+
+TEST(ColumnMatching, SeveralCandidatesAreTold) {
+  const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"tau_meas1", ""}, {"tau_con1", ""}};
+  const Matching matching = match_columns(columns, {}, "log");
+  ASSERT_NE(matching.issues.find("channel_ambiguous", "tau1"), nullptr);
+  EXPECT_NE(matching.issues.find("channel_ambiguous", "tau1")->message.find("tau_meas1"), std::string::npos);
+}
+
+TEST(ColumnMatching, AChannelThatDoesNotExistIsAUsageError) {
+  try {
+    matched({"t", "q1"}, {{"speed1", {.name = "q1"}}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(error.message().find("dq1"), std::string::npos);
+  }
+}
+
+TEST(Units, KnownAndUnknown) {
+  EXPECT_DOUBLE_EQ(si_factor("deg").value(), std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(si_factor("rpm").value(), std::numbers::pi / 30.0);
+  EXPECT_EQ(si_factor("N m"), 1.0);
+  EXPECT_EQ(si_factor("ms"), 1e-3);
+  EXPECT_EQ(si_factor(""), 1.0);
+  EXPECT_FALSE(si_factor("furlong"));
+}
+
+TEST(Units, SplitFromTheName) {
+  auto split = [](const char* text) {
+    const NameAndUnit parts = split_unit(text);
+    return parts.name + "|" + parts.unit;
+  };
+  EXPECT_EQ(split("q1 [deg]"), "q1|deg");
+  EXPECT_EQ(split("Program Time (s)"), "Program Time|s");
+  EXPECT_EQ(split("time_ms"), "time|ms");
+  EXPECT_EQ(split("positions[0]"), "positions[0]|");
+  EXPECT_EQ(split("abs(error)"), "abs(error)|");
+  EXPECT_EQ(split("vel_m"), "vel_m|");
+}
+
+}  // namespace
+}  // namespace faultline
