@@ -238,9 +238,9 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   LearnedResidual learned;
   ResidualGenerator& generator = learned.generator = untrained(identified, survey, shape, options);
   if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
-    training = joined(training, twin_transitions(training, shape, identified.chain,
-                                                 static_cast<int>(options.twin_share * training.count()),
-                                                 {.seed = options.seed}));
+    training = joined(
+        training, twin_transitions(training, shape, identified.chain,
+                                   static_cast<int>(options.twin_share * options.max_patterns), options.twin));
   learned.training_patterns = training.count();
   if (options.kind != ResidualKind::physics) {
     generator.inputs = range_scaler(network_inputs(generator, training));

@@ -10,6 +10,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/residual/residual_generator.hpp"
+#include "lib/residual/twin_patterns.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -28,10 +29,11 @@ struct ResidualOptions {
   int stride = 0;
   bool mean_torque = true;  ///< also feed the mean torque over the step where it differs from the first
   int max_patterns = 2000;  ///< trained on, drawn from the logs at random
-  /// Patterns added for each logged one, made by the identified robot around the logged states: a few logs
+  /// Patterns made by the identified robot around the logged states, as a share of max_patterns: a few logs
   /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,
   /// as in the paper.
   double twin_share = 0.5;
+  TwinOptions twin = {};
   int max_iterations = 0;  ///< of the trainer; 0 = 60 (Levenberg-Marquardt) or 1500 epochs (back-propagation)
   double weight_decay = 1e-9;
   std::uint64_t seed = 1;

@@ -11,8 +11,8 @@ namespace faultline {
 struct TwinOptions {
   double position_spread =
       0.3;  ///< standard deviations added to the logged starts, as a share of half the range
-  double velocity_spread = 0.5;
-  double torque_spread = 0.7;
+  double velocity_spread = 0.3;
+  double torque_spread = 0.4;
   std::uint64_t seed = 1;
 };
 
