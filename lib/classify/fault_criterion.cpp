@@ -214,15 +214,19 @@ CriterionSearch tune_criterion(const CriterionOptions& start, const OutputMeanin
     search.tried.push_back(score_criterion(options, meaning, runs));
     most = std::max(most, search.tried.back().detected);
   }
-  const CriterionScore* best = nullptr;
   const auto key = [](const CriterionScore& score) {
     return std::tuple(score.false_alarms, -score.detected, score.median_delay_s);
   };
-  for (const CriterionScore& score : search.tried) {
-    if (score.detected < 0.9 * most) continue;
-    if (best == nullptr || key(score) < key(*best)) best = &score;
+  std::size_t best = search.tried.size();
+  for (std::size_t i = 0; i < search.tried.size(); ++i) {
+    if (search.tried[i].detected < 0.9 * most) continue;
+    if (best == search.tried.size() || key(search.tried[i]) < key(search.tried[best])) best = i;
   }
-  search.best = best->options;
+  // The last setting without a false alarm stands on an edge; one step more is margin if it costs no
+  // detection.
+  const bool margin =
+      best + 1 < search.tried.size() && search.tried[best + 1].detected >= 0.97 * search.tried[best].detected;
+  search.best = search.tried[best + (margin ? 1 : 0)].options;
   return search;
 }
 
