@@ -11,12 +11,13 @@
 namespace faultline {
 namespace {
 
-const char* in_words(DecidedBy decided_by) {
-  switch (decided_by) {
+const char* in_words(const FaultFinding& fault) {
+  switch (fault.decided_by) {
     case DecidedBy::agreement:
       return "both networks agree";
     case DecidedBy::cases:
-      return "the networks disagree; similar cases decided";
+      return fault.precedents.empty() ? "the networks disagree and no similar case is known"
+                                      : "the networks disagree; similar cases decided";
     case DecidedBy::evidence:
       return "the physical evidence decided";
     case DecidedBy::criterion:
@@ -78,8 +79,7 @@ class FaultBlock {
   }
 
   std::string opinions() const {
-    return fmt::format("  confidence {:.0f} %: {}\n", 100.0 * fault_.confidence,
-                       in_words(fault_.decided_by)) +
+    return fmt::format("  confidence {:.0f} %: {}\n", 100.0 * fault_.confidence, in_words(fault_)) +
            opinion("MLP", fault_.mlp) + opinion("RBFN", fault_.rbfn);
   }
 
