@@ -44,6 +44,7 @@ std::string joint_text(const Robot& robot, int i) {
   text += fmt::format("kind = \"{}\"\n", joint.kind == AxisKind::revolute ? "revolute" : "prismatic");
   text += fmt::format("axis = {}\noffset = {}\n", numbers(joint.axis), numbers(joint.offset));
   if (!joint.direction.isZero()) text += fmt::format("direction = {}\n", numbers(joint.direction));
+  if (robot.identified) return text;  // [identified] has the rest
   text += fmt::format("friction = {{viscous = {}, coulomb = {}, offset = {}, width = {}}}\n",
                       number(f.viscous), number(f.coulomb), number(f.offset), number(f.width));
   return text + fmt::format("rotor_inertia = {}\n", number(robot.chain.rotor_inertia[i]));
@@ -52,11 +53,11 @@ std::string joint_text(const Robot& robot, int i) {
 std::string link_text(const Robot& robot, int i) {
   const LinkInertia<double>& link = robot.chain.links[i];
   const LinkShape shape = robot.shapes[i];
-  std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\nmass = {}\nlength = {}\n",
-                                 shape == LinkShape::rod     ? "rod"
-                                 : shape == LinkShape::point ? "point"
-                                                             : "general",
-                                 number(link.mass), number(robot.chain.length[i]));
+  std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", shape == LinkShape::rod     ? "rod"
+                                                                 : shape == LinkShape::point ? "point"
+                                                                                             : "general");
+  if (robot.identified) return text;  // [identified] has the rest
+  text += fmt::format("mass = {}\nlength = {}\n", number(link.mass), number(robot.chain.length[i]));
   if (shape == LinkShape::general)
     text += fmt::format("first_moment = {}\ninertia_at_joint = {}\n", numbers(link.first_moment),
                         tensor(link.inertia));

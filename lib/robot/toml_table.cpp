@@ -36,7 +36,8 @@ struct TomlTable::Data {
   std::string place(const std::string& key) const {
     const toml::node* node = key.empty() ? table : table->get(key);
     const auto line = (node ? node : table)->source().begin.line;
-    const std::string name = key.empty() ? prefix : prefix + key;
+    std::string name = prefix + key;
+    if (key.empty() && !name.empty()) name.pop_back();  // the table itself
     return where + (line ? fmt::format(", line {}", line) : "") + (name.empty() ? "" : ", key " + name);
   }
 

@@ -87,7 +87,7 @@ FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
     check_fault(robot, fault);
   } catch (const Error& error) {
     const std::string key = error.where().substr(error.where().find('.') + 1);
-    table.fail(table.has(key) ? key : "", error.what());
+    table.fail(table.has(key) ? key : "", table.has(key) ? error.message() : error.what());
   }
   return fault;
 }
@@ -167,7 +167,11 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
   std::uint64_t seed = read_seed(table, 1);
   if (options.override_seed) seed = options.seed;
   const auto runs = table.tables("run");
-  if (runs.empty()) table.fail("", "has no [[run]]; expected at least one, with a name");
+  if (runs.empty()) {
+    const std::string near = nearest_word("run", table.keys());
+    table.fail("", "has no [[run]]; expected at least one, with a name" +
+                       (near.empty() ? "" : fmt::format(". Is \"{}\" a misspelling of it?", near)));
+  }
   std::set<std::string> taken;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     RunSpec run;

@@ -126,6 +126,8 @@ TEST(RobotFile, IdentifiedRobotRoundTripsExactly) {
   robot.chain.links[1].first_moment = {1.0 / 7.0, -1e-17, 3e22};
   robot.chain.links[1].inertia(0, 1) = robot.chain.links[1].inertia(1, 0) = 1.0 / 9.0;
   robot.chain.friction[0] = {2.0 / 3.0, 1.1, -0.3, 1e-4};
+  robot.chain.friction[1].viscous = -1e-3;  // what noise may make of a joint without friction
+  robot.chain.links[0].mass = -0.2;         // one choice among those that move alike
   const Robot again = robot_from_toml(robot_file_text(robot), "again");
   EXPECT_TRUE(again.identified);
   EXPECT_EQ(again.torque_phi, robot.torque_phi);

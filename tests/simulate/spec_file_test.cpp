@@ -103,6 +103,8 @@ TEST(SpecFile, LabelsTellTheTruth) {
 TEST(SpecFile, ErrorsNameLineAndKey) {
   expect_error("axes = 1", {"robot is missing"});
   expect_error("robot = {axes = \"RRP\"}", {"no [[run]]"});
+  expect_error("robot = {axes = \"RRP\"}\n[[runs]]\nname = \"a\"", {"no [[run]]", "\"runs\""});
+  expect_error("robot = {axes = \"RRP\"}\n[[run]]\nnam = \"a\"", {"key run[1]: ", "\"nam\""});
   expect_error("robot = {axes = \"RRP\"}\n[[run]]\nname = \"a/b\"", {"line 3", "name", "a/b"});
   expect_error("robot = {axes = \"RRP\"}\n[[run]]\nname = \"a\"\n[[run]]\nname = \"a\"",
                {"line 5", "two runs"});
