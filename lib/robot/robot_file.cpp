@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/robot/log_meaning_file.hpp"
 
 namespace faultline {
 namespace {
@@ -181,13 +181,6 @@ KnownValue known_value(const TomlTable& table, const std::string& key) {
   return {fact.number("value"), not_negative(fact, "std", 0.0)};
 }
 
-std::vector<std::string> parameter_names(int joints) {
-  std::vector<std::string> names;
-  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "jr"})
-    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
-  return names;
-}
-
 void read_known(Robot& robot, const TomlTable& table) {
   const TomlTable known = table.table("known");
   const auto names = parameter_names(robot.joints());
@@ -208,56 +201,6 @@ void read_known(Robot& robot, const TomlTable& table) {
   }
   const TomlTable payload = table.table("payload");
   for (const std::string& key : payload.keys()) robot.payloads[key] = known_value(payload, key);
-}
-
-ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
-  ColumnSpec spec;
-  if (!columns.is_table(channel)) {
-    spec.name = columns.text(channel);
-    return spec;
-  }
-  const TomlTable table = columns.table(channel);
-  spec.name = table.text("name", "");
-  spec.unit = table.text("unit", "");
-  spec.sign = table.number("sign", 1.0);
-  if (std::abs(spec.sign) != 1.0) table.fail("sign", fmt::format("expected 1 or -1, found {}", spec.sign));
-  spec.scale = table.number("scale", 1.0);
-  if (spec.scale == 0.0) table.fail("scale", "expected a number other than 0");
-  spec.offset = table.number("offset", 0.0);
-  return spec;
-}
-
-std::vector<std::string> channel_names(int joints) {
-  std::vector<std::string> names{"t"};
-  for (const char* prefix : {"q", "dq", "tau", "q_ref", "dq_ref"})
-    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
-  return names;
-}
-
-void read_log_meaning(Robot& robot, const TomlTable& table) {
-  const TomlTable log = table.table("log");
-  if (log.has("torque")) {
-    const std::string meaning = log.choice("torque", {"commanded", "measured", "current"});
-    robot.log.torque = meaning == "commanded"  ? TorqueMeaning::commanded
-                       : meaning == "measured" ? TorqueMeaning::measured
-                                               : TorqueMeaning::current;
-  }
-  if (log.has("torque_between_samples")) {
-    const std::string timing = log.choice("torque_between_samples", {"held", "linear", "unknown"});
-    robot.log.torque_between_samples = timing == "held"     ? TorqueTiming::held
-                                       : timing == "linear" ? TorqueTiming::linear
-                                                            : TorqueTiming::unknown;
-  }
-  const TomlTable columns = log.table("columns");
-  const auto names = channel_names(robot.joints());
-  for (const std::string& channel : columns.keys()) {
-    if (std::find(names.begin(), names.end(), channel) == names.end())
-      columns.fail(channel,
-                   fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
-                               "tau1..tau{0}, q_ref1..q_ref{0} or dq_ref1..dq_ref{0}",
-                               robot.joints()));
-    robot.log.columns[channel] = column_spec(columns, channel);
-  }
 }
 
 void read_identified(Robot& robot, const TomlTable& table) {
@@ -285,39 +228,6 @@ void read_identified(Robot& robot, const TomlTable& table) {
 
 }  // namespace
 
-bool set_parameter(Robot& robot, const std::string& name, double value) {
-  const std::size_t digits = name.find_first_of("0123456789");
-  int joint = 0;
-  if (digits == std::string::npos || digits == 0) return false;
-  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), joint);
-  if (error != std::errc() || end != name.data() + name.size() || joint < 1 || joint > robot.joints())
-    return false;
-  const std::string what = name.substr(0, digits);
-  const int i = joint - 1;
-  Chain<double>& chain = robot.chain;
-  LinkInertia<double>& link = chain.links[i];
-  if (what == "fv")
-    chain.friction[i].viscous = value;
-  else if (what == "fc")
-    chain.friction[i].coulomb = value;
-  else if (what == "fo")
-    chain.friction[i].offset = value;
-  else if (what == "jr")
-    chain.rotor_inertia[i] = value;
-  else if (what != "m" && what != "l")
-    return false;
-  if (what == "l") chain.length[i] = value;
-  if (robot.shapes[i] == LinkShape::rod && (what == "m" || what == "l")) {
-    link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
-  } else if (robot.shapes[i] == LinkShape::point && what == "m") {
-    link = point_mass(value);
-  } else if (what == "m") {  // a general body of the same shape: everything scales with the mass
-    const double ratio = link.mass > 0.0 ? value / link.mass : 0.0;
-    link = {value, ratio * link.first_moment, ratio * link.inertia};
-  }
-  return true;
-}
-
 Robot robot_from_table(const TomlTable& table) {
   const auto joints = table.tables("joint");
   Robot robot;
@@ -341,7 +251,7 @@ Robot robot_from_table(const TomlTable& table) {
   read_links(robot, table);
   read_friction(robot, table, joints);
   read_known(robot, table);
-  read_log_meaning(robot, table);
+  robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   read_identified(robot, table);
   return robot;
 }

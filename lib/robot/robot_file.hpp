@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "lib/robot/parameter.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/toml_table.hpp"
 
@@ -21,9 +22,5 @@ Robot robot_from_table(const TomlTable& table);
 /// The robot as a robot file that loads again as the same values, bit for bit. An identified robot has its
 /// parameters in [identified].
 std::string robot_file_text(const Robot& robot);
-
-/// Sets one known parameter ("m1", "l2", "fv3", "fc1", "fo1", "jr2") in `robot.chain`; does not add it to
-/// `robot.known`. False when the robot has no such parameter.
-bool set_parameter(Robot& robot, const std::string& name, double value);
 
 }  // namespace faultline

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/log_meaning_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
+  ColumnSpec spec;
+  if (!columns.is_table(channel)) {
+    spec.name = columns.text(channel);
+    return spec;
+  }
+  const TomlTable table = columns.table(channel);
+  spec.name = table.text("name", "");
+  spec.unit = table.text("unit", "");
+  spec.sign = table.number("sign", 1.0);
+  if (std::abs(spec.sign) != 1.0) table.fail("sign", fmt::format("expected 1 or -1, found {}", spec.sign));
+  spec.scale = table.number("scale", 1.0);
+  if (spec.scale == 0.0) table.fail("scale", "expected a number other than 0");
+  spec.offset = table.number("offset", 0.0);
+  return spec;
+}
+
+std::vector<std::string> channel_names(int joints) {
+  std::vector<std::string> names{"t"};
+  for (const char* prefix : {"q", "dq", "tau", "q_ref", "dq_ref"})
+    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  return names;
+}
+
+}  // namespace
+
+LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
+  LogMeaning result;
+  if (log.has("torque")) {
+    const std::string meaning = log.choice("torque", {"commanded", "measured", "current"});
+    result.torque = meaning == "commanded"  ? TorqueMeaning::commanded
+                    : meaning == "measured" ? TorqueMeaning::measured
+                                            : TorqueMeaning::current;
+  }
+  if (log.has("torque_between_samples")) {
+    const std::string timing = log.choice("torque_between_samples", {"held", "linear", "unknown"});
+    result.torque_between_samples = timing == "held"     ? TorqueTiming::held
+                                    : timing == "linear" ? TorqueTiming::linear
+                                                         : TorqueTiming::unknown;
+  }
+  const TomlTable columns = log.table("columns");
+  const auto names = channel_names(joints);
+  for (const std::string& channel : columns.keys()) {
+    if (std::find(names.begin(), names.end(), channel) == names.end())
+      columns.fail(channel,
+                   fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
+                               "tau1..tau{0}, q_ref1..q_ref{0} or dq_ref1..dq_ref{0}",
+                               joints));
+    result.columns[channel] = column_spec(columns, channel);
+  }
+  return result;
+}
+
+}  // namespace faultline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/parameter.hpp"
+
+#include <charconv>
+
+namespace faultline {
+
+std::vector<std::string> parameter_names(int joints) {
+  std::vector<std::string> names;
+  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "jr"})
+    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  return names;
+}
+
+bool set_parameter(Robot& robot, const std::string& name, double value) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  int joint = 0;
+  if (digits == std::string::npos || digits == 0) return false;
+  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), joint);
+  if (error != std::errc() || end != name.data() + name.size() || joint < 1 || joint > robot.joints())
+    return false;
+  const std::string what = name.substr(0, digits);
+  const int i = joint - 1;
+  Chain<double>& chain = robot.chain;
+  LinkInertia<double>& link = chain.links[i];
+  if (what == "fv")
+    chain.friction[i].viscous = value;
+  else if (what == "fc")
+    chain.friction[i].coulomb = value;
+  else if (what == "fo")
+    chain.friction[i].offset = value;
+  else if (what == "jr")
+    chain.rotor_inertia[i] = value;
+  else if (what != "m" && what != "l")
+    return false;
+  if (what == "l") chain.length[i] = value;
+  if (robot.shapes[i] == LinkShape::rod && (what == "m" || what == "l")) {
+    link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
+  } else if (robot.shapes[i] == LinkShape::point && what == "m") {
+    link = point_mass(value);
+  } else if (what == "m") {  // a general body of the same shape: everything scales with the mass
+    const double ratio = link.mass > 0.0 ? value / link.mass : 0.0;
+    link = {value, ratio * link.first_moment, ratio * link.inertia};
+  }
+  return true;
+}
+
+}  // namespace faultline
