@@ -83,7 +83,8 @@ CriterionScore score_criterion(const CriterionOptions& options, const OutputMean
                                std::span<const LabelledOutputs> runs);
 
 /// Tries g (or the threshold, for log odds) from small to large. Best: fewest false alarms among the settings
-/// that find at least 90 % of what the most sensitive one finds, then most found, then the shortest delay.
+/// that find at least 90 % of what the most sensitive one finds, then most found, then the shortest delay;
+/// and one step more for margin where that costs no detection.
 struct CriterionSearch {
   CriterionOptions best;
   std::vector<CriterionScore> tried;

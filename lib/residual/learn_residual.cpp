@@ -76,7 +76,7 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
 
 TransitionShape shape_for(const Survey& survey, int joints, double torque_phi,
                           const ResidualOptions& options) {
-  constexpr double kStep = 0.015, kTolerance = 1e-6;
+  constexpr double kStep = 0.02, kTolerance = 1e-6;
   TransitionShape shape;
   shape.joints = joints;
   const double rows = (options.step_s > 0.0 ? options.step_s : kStep) / survey.period_s;
@@ -238,9 +238,9 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   LearnedResidual learned;
   ResidualGenerator& generator = learned.generator = untrained(identified, survey, shape, options);
   if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
-    training = joined(
-        training, twin_transitions(training, shape, identified.chain,
-                                   static_cast<int>(options.twin_share * options.max_patterns), options.twin));
+    training = joined(training, twin_transitions(training, shape, identified.chain,
+                                                 static_cast<int>(options.twin_share * options.max_patterns),
+                                                 options.twin));
   learned.training_patterns = training.count();
   if (options.kind != ResidualKind::physics) {
     generator.inputs = range_scaler(network_inputs(generator, training));

@@ -22,8 +22,8 @@ struct ResidualOptions {
   PredictedQuantity target = PredictedQuantity::change;
   ResidualTrainer trainer = ResidualTrainer::levenberg_marquardt;
   std::vector<int> hidden = {49};  ///< units of each hidden layer
-  /// Time to foretell over, s; rounded down to whole rows, at least one. 0 = 15 ms: at 1 kHz the velocity
-  /// changes by more than its noise, at 100 Hz and below it is one row.
+  /// Time to foretell over, s; rounded down to whole rows, at least one. 0 = 20 ms: at 1 kHz the velocity
+  /// changes by more than its noise, at 13.7 Hz it is one row.
   double step_s = 0.0;
   /// Rows between predictions; 0 = a third of the step, so that each row lies in about three predictions.
   int stride = 0;
