@@ -16,7 +16,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kWidthDoubt = 1.15;  ///< of ln(width): a factor of about 3
+constexpr double kWidthDoubt = 1.15;    ///< of ln(width): a factor of about 3
+constexpr double kShowsWidth_s = 0.03;  ///< slower logs step over the velocities where friction bends
 constexpr double kNormal95 = 1.959963984540054;
 
 /// Which parameters the robot file and the options leave to the logs.
@@ -116,13 +117,17 @@ std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& 
   return priors;
 }
 
-std::vector<int> free_parameters(const WeakFit& weak, const ParameterSpace& space,
+std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
                                  const IdentifyOptions& options) {
+  const ParameterSpace& space = id.space;
+  const bool is_fast = std::any_of(id.logs.begin(), id.logs.end(), [](const IdentifiedLog& log) {
+    return log.sample_period_s < kShowsWidth_s;
+  });
   std::vector<int> free;
   for (int p = 0; p < space.linear(); ++p)
     if (weak.free[p]) free.push_back(p);
   for (int j = 0; j < space.joints(); ++j)
-    if (options.estimate_width && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
+    if (options.estimate_width && is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
   return free;
 }
 
@@ -164,7 +169,7 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
   const WeakFit weak = fit_weak_form(gathered.windows, nominal, wanted_parameters(id.space, robot));
   const auto excerpts = gathered.excerpts.take();
   const ShootingFit shot = fit_shooting(id.space, excerpts, weak.parameters,
-                                        free_parameters(weak, id.space, options), priors_of(id.space, robot),
+                                        free_parameters(weak, id, options), priors_of(id.space, robot),
                                         first_noise(gathered.roughness), noise_floor(gathered.roughness),
                                         {options.max_iterations, 6, thread_count(options)}, progress);
 

@@ -21,6 +21,22 @@ Chain<double> direction_chain(const ParameterSpace& space, int base) {
   return chain;
 }
 
+/// In place, by Gauss and Jordan; the matrix is positive definite, so no pivoting.
+void invert(JointMatrix<double>& m) {
+  const Eigen::Index n = m.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double pivot = 1.0 / m(k, k);
+    m(k, k) = 1.0;
+    for (Eigen::Index c = 0; c < n; ++c) m(k, c) *= pivot;
+    for (Eigen::Index r = 0; r < n; ++r) {
+      if (r == k) continue;
+      const double factor = m(r, k);
+      m(r, k) = 0.0;
+      for (Eigen::Index c = 0; c < n; ++c) m(r, c) -= factor * m(k, c);
+    }
+  }
+}
+
 JointVector<double> rigid_torque(const FastDynamics& dynamics, const JointVector<double>& q,
                                  const JointVector<double>& dq, const JointVector<double>& ddq) {
   JointMatrix<double> m;
@@ -32,14 +48,14 @@ JointVector<double> rigid_torque(const FastDynamics& dynamics, const JointVector
 
 }  // namespace
 
-/// One evaluation of the equations of motion and their slopes.
+/// The equations of motion at one state and their slopes there.
 struct SegmentModel::Workspace {
   JointVector<double> q, dq, ddq;
-  JointMatrix<double> inertia;
-  Eigen::LDLT<JointMatrix<double>> factor;
-  Eigen::MatrixXd by_state, by_parameter;      ///< of ddq: n x 2n, n x free
-  Eigen::VectorXd x, stage, slope, sum;        ///< 2n
-  Eigen::MatrixXd s, s_stage, s_slope, s_sum;  ///< 2n x (2n + free)
+  JointMatrix<double> inverse_inertia;
+  Eigen::MatrixXd by_state, by_parameter;  ///< of ddq: n x 2n, n x free
+  Eigen::MatrixXd rhs_state, rhs_parameter;
+  Eigen::VectorXd x, stage, slope, sum;  ///< 2n
+  Eigen::MatrixXd s, term, next, bend;   ///< 2n x (2n + free); n x the same
 };
 
 SegmentModel::SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& parameters,
@@ -53,115 +69,124 @@ SegmentModel::SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& p
     if (p < space.rigid()) directions_.emplace_back(direction_chain(space, p));
 }
 
-void SegmentModel::slopes(Workspace& w) const {
+void SegmentModel::accelerate(const JointVector<double>& tau, Workspace& w) const {
+  JointVector<double> bias, friction;
+  dynamics_.inertia_and_bias(w.q, w.dq, w.inverse_inertia, bias);
+  dynamics_.friction(w.dq, friction);
+  invert(w.inverse_inertia);
+  w.ddq.noalias() = w.inverse_inertia.lazyProduct(tau - bias - friction);
+}
+
+void SegmentModel::slopes_by_state(Workspace& w) const {
   const int n = space_.joints();
-  const auto& friction = dynamics_.chain().friction;
   for (int j = 0; j < n; ++j) {
     const bool idle = dynamics_.planar() && space_.chain.geometry[j].kind == AxisKind::prismatic;
-    w.by_state.col(j).setZero();
-    w.by_state.col(n + j).setZero();
+    w.rhs_state.col(j).setZero();
+    w.rhs_state.col(n + j).setZero();
     if (!idle) {
       JointVector<double> up = w.q, down = w.q;
       up[j] += kDifference;
       down[j] -= kDifference;
-      w.by_state.col(j) =
+      w.rhs_state.col(j) =
           (rigid_torque(dynamics_, down, w.dq, w.ddq) - rigid_torque(dynamics_, up, w.dq, w.ddq)) /
           (2.0 * kDifference);
       up = down = w.dq;  // the torque is quadratic in velocity: a difference over a whole unit is exact
       up[j] += 0.5;
       down[j] -= 0.5;
-      w.by_state.col(n + j) =
+      w.rhs_state.col(n + j) =
           rigid_torque(dynamics_, w.q, down, w.ddq) - rigid_torque(dynamics_, w.q, up, w.ddq);
     }
-    const Friction<double>& f = friction[j];
+    const Friction<double>& f = dynamics_.chain().friction[j];
     const double bent = std::tanh(w.dq[j] / f.width);
-    w.by_state(j, n + j) -= f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
+    w.rhs_state(j, n + j) -= f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
   }
+  w.by_state.noalias() = w.inverse_inertia.lazyProduct(w.rhs_state);
 }
 
-void SegmentModel::derivative(const JointVector<double>& q, const JointVector<double>& dq,
-                              const JointVector<double>& tau, const JointVector<double>& tau_step,
-                              bool with_sensitivity, Workspace& w) const {
+void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const {
   const int n = space_.joints();
-  JointVector<double> bias, friction;
-  dynamics_.inertia_and_bias(q, dq, w.inertia, bias);
-  dynamics_.friction(dq, friction);
-  w.q = q;
-  w.dq = dq;
-  w.factor.compute(w.inertia);
-  w.ddq = w.factor.solve(tau - bias - friction);
-  if (!with_sensitivity) return;
-  slopes(w);
   std::size_t direction = 0;
+  w.rhs_parameter.setZero();
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const int p = free_[k];
-    auto column = w.by_parameter.col(k);
-    column.setZero();
+    auto column = w.rhs_parameter.col(k);
     if (p < space_.rigid()) {
-      column = -rigid_torque(directions_[direction++], q, dq, w.ddq);
+      column = -rigid_torque(directions_[direction++], w.q, w.dq, w.ddq);
     } else if (p == space_.timing()) {
       column = tau_step;
     } else {
       const int joint = (p > space_.timing() ? p - space_.timing() - 1 : p - space_.rigid()) % n;
       const Friction<double>& f = dynamics_.chain().friction[joint];
-      const double u = dq[joint] / f.width, bent = std::tanh(u);
+      const double u = w.dq[joint] / f.width, bent = std::tanh(u);
       column[joint] = p >= space_.log_width(0) ? f.coulomb * (1.0 - bent * bent) * u
                       : p >= space_.offset(0)  ? -1.0
                       : p >= space_.coulomb(0) ? -bent
-                                               : -dq[joint];
+                                               : -w.dq[joint];
     }
   }
-  for (Eigen::Index c = 0; c < w.by_state.cols(); ++c)
-    w.by_state.col(c) = w.factor.solve(w.by_state.col(c)).eval();
-  for (Eigen::Index c = 0; c < w.by_parameter.cols(); ++c)
-    w.by_parameter.col(c) = w.factor.solve(w.by_parameter.col(c)).eval();
+  w.by_parameter.noalias() = w.inverse_inertia.lazyProduct(w.rhs_parameter);
+}
+
+/// Over one step with the slopes of its middle, S' = A S + B is linear with constant coefficients: four terms
+/// of the series of its exponential.
+void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
+  const int n = space_.joints();
+  w.next = w.s;
+  w.term = w.s;
+  for (int order = 1; order <= 4; ++order) {
+    w.bend.noalias() = w.by_state.lazyProduct(w.term);
+    if (order == 1) w.bend.rightCols(w.by_parameter.cols()) += w.by_parameter;
+    w.term.topRows(n) = (h / order) * w.term.bottomRows(n);
+    w.term.bottomRows(n) = (h / order) * w.bend;
+    w.next += w.term;
+  }
+  std::swap(w.s, w.next);
+}
+
+void SegmentModel::step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
+                        bool with_sensitivity, Workspace& w) const {
+  constexpr double kAt[4] = {0.0, 0.5, 0.5, 1.0}, kShare[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+  const int n = space_.joints();
+  w.sum = w.x;
+  for (int stage = 0; stage < 4; ++stage) {
+    w.stage = w.x;
+    if (stage > 0) w.stage += h * kAt[stage] * w.slope;
+    w.q = w.stage.head(n);
+    w.dq = w.stage.tail(n);
+    accelerate(tau, w);
+    w.slope.head(n) = w.dq;
+    w.slope.tail(n) = w.ddq;
+    w.sum += h * kShare[stage] * w.slope;
+    if (!with_sensitivity || stage != 2) continue;
+    slopes_by_state(w);
+    slopes_by_parameter(tau_step, w);
+    carry_sensitivity(h, w);
+  }
+  w.x = w.sum;
 }
 
 void SegmentModel::run(const Excerpt& e, const Eigen::VectorXd& start, bool with_sensitivity,
                        SegmentMotion& motion) const {
-  const int n = space_.joints(), rows = e.rows(), width = 2 * n + static_cast<int>(free_.size());
+  const int n = space_.joints(), rows = e.rows(), free = static_cast<int>(free_.size());
   Workspace w;
   w.by_state.setZero(n, 2 * n);
-  w.by_parameter.setZero(n, free_.size());
+  w.by_parameter.setZero(n, free);
+  w.rhs_state = w.by_state;
+  w.rhs_parameter = w.by_parameter;
   w.x = start;
   w.slope.resize(2 * n);
-  if (with_sensitivity) {
-    w.s.setIdentity(2 * n, width);
-    w.s_slope.resize(2 * n, width);
-    motion.sensitivity.resize(2 * n * rows, width);
-    motion.sensitivity.topRows(2 * n) = w.s;
-  }
+  w.s.setIdentity(2 * n, 2 * n + free);
+  w.bend.resize(n, 2 * n + free);
+  if (with_sensitivity) motion.sensitivity.resize(2 * n * rows, 2 * n + free);
+  if (with_sensitivity) motion.sensitivity.topRows(2 * n) = w.s;
   motion.state.resize(2 * n, rows);
   motion.state.col(0) = start;
-  const double phi = parameters_[space_.timing()];
-  const double at[4] = {0.0, 0.5, 0.5, 1.0}, share[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   for (int k = 0; k + 1 < rows; ++k) {
     const double dt = e.time[k + 1] - e.time[k];
     const int pieces = std::max(1, static_cast<int>(std::ceil(dt / longest_step_s_ - 1e-9)));
-    const double h = dt / pieces;
     const JointVector<double> tau_step = e.tau.col(k + 1) - e.tau.col(k);
-    const JointVector<double> tau = e.tau.col(k) + phi * tau_step;
-    for (int i = 0; i < pieces; ++i) {
-      w.sum = w.x;
-      if (with_sensitivity) w.s_sum = w.s;
-      for (int stage = 0; stage < 4; ++stage) {
-        w.stage = w.x;
-        if (stage > 0) w.stage += h * at[stage] * w.slope;
-        derivative(w.stage.head(n), w.stage.tail(n), tau, tau_step, with_sensitivity, w);
-        if (with_sensitivity) {
-          w.s_stage = w.s;
-          if (stage > 0) w.s_stage += h * at[stage] * w.s_slope;
-          w.s_slope.topRows(n) = w.s_stage.bottomRows(n);
-          w.s_slope.bottomRows(n).noalias() = w.by_state.lazyProduct(w.s_stage);
-          w.s_slope.bottomRightCorner(n, w.by_parameter.cols()) += w.by_parameter;
-          w.s_sum += h * share[stage] * w.s_slope;
-        }
-        w.slope << w.stage.tail(n), w.ddq;
-        w.sum += h * share[stage] * w.slope;
-      }
-      w.x = w.sum;
-      if (with_sensitivity) std::swap(w.s, w.s_sum);
-    }
+    const JointVector<double> tau = e.tau.col(k) + parameters_[space_.timing()] * tau_step;
+    for (int i = 0; i < pieces; ++i) step(dt / pieces, tau, tau_step, with_sensitivity, w);
     motion.state.col(k + 1) = w.x;
     if (with_sensitivity) motion.sensitivity.middleRows(2 * n * (k + 1), 2 * n) = w.s;
   }

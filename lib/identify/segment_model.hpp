@@ -22,7 +22,7 @@ struct SegmentMotion {
 /// number of threads.
 class SegmentModel {
  public:
-  /// `free` lists the parameters that sensitivities are wanted of; `substeps` a sample, by log period.
+  /// `free` lists the parameters that sensitivities are wanted of.
   SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& parameters, const std::vector<int>& free,
                double longest_step_s);
 
@@ -31,9 +31,12 @@ class SegmentModel {
 
  private:
   struct Workspace;
-  void derivative(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
-                  const JointVector<double>& tau_step, bool with_sensitivity, Workspace& w) const;
-  void slopes(Workspace& w) const;
+  void accelerate(const JointVector<double>& tau, Workspace& w) const;
+  void slopes_by_state(Workspace& w) const;
+  void slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const;
+  void carry_sensitivity(double h, Workspace& w) const;
+  void step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
+            bool with_sensitivity, Workspace& w) const;
 
   const ParameterSpace& space_;
   Eigen::VectorXd parameters_;
