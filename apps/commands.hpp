@@ -23,5 +23,6 @@ void add_inspect(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
 void add_cases(CLI::App& app, Program& program);
 void add_simulate(CLI::App& app, Program& program);
+void add_identify(CLI::App& app, Program& program);
 
 }  // namespace faultline

@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_convert(app, program);
   add_cases(app, program);
   add_simulate(app, program);
+  add_identify(app, program);
 }
 
 std::string selected_name(const CLI::App& app) {

@@ -15,7 +15,7 @@ struct IdentifyOptions {
   double segment_s = 0.25;      ///< length of a shooting segment on logs of 100 Hz and above
   int min_segment_rows = 8;     ///< rows of a shooting segment on slower logs
   int max_rows = 40000;         ///< rows that shooting uses, spread over all logs
-  int max_windows = 20000;      ///< windows that the weak form keeps, spread over all logs
+  int max_windows = 6000;       ///< windows that the weak form keeps, spread over all logs
   int max_iterations = 40;      ///< of each least-squares solve
   bool estimate_offset = true;  ///< friction offset of a joint, kept only where the data ask for it
   bool estimate_width =

@@ -11,7 +11,9 @@ namespace faultline {
 namespace {
 
 constexpr int kRounds = 8;
-constexpr double kBisquare = 4.685;  ///< 95 % efficient on normal residuals
+constexpr double kOutlierStd = 8.0;
+constexpr double kClearlyBetter = 1.3;  ///< Coulomb friction is sharp unless the logs strongly say otherwise
+constexpr double kResting = 0.03;       ///< of a joint's fastest window
 constexpr double kBlock_s = 1.0;
 constexpr double kDependent = 3e-3;   ///< share of a scaled column that must be its own
 constexpr double kNotExcited = 1e-9;  ///< of a column's largest entry
@@ -20,17 +22,32 @@ constexpr double kNotExcited = 1e-9;  ///< of a column's largest entry
 struct System {
   Eigen::MatrixXd a;
   Eigen::VectorXd y;
+  Eigen::VectorXd use;     ///< 1, or 0 for rows to leave out
   std::vector<int> block;  ///< of each row: windows of the same second of the same log
   int joints = 0;
 };
 
-System assemble(const WeakWindows& windows) {
+/// The known width nearest to that of `parameters`.
+int nearest_width(const ParameterSpace& space, const Eigen::VectorXd& parameters, int joint) {
+  int best = 0;
+  const auto distance = [&](int k) {
+    return std::abs(std::log(weak_width(space, joint, k)) - parameters[space.log_width(joint)]);
+  };
+  for (int k = 1; k < kWidths; ++k)
+    if (distance(k) < distance(best)) best = k;
+  return best;
+}
+
+System assemble(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
   const ParameterSpace& space = windows.space();
   const int n = space.joints(), count = static_cast<int>(windows.all().size());
   System s;
   s.joints = n;
   s.a.setZero(count * n, space.linear());
   s.y.resize(count * n);
+  s.use.setOnes(count * n);
+  std::vector<int> width;
+  for (int j = 0; j < n; ++j) width.push_back(nearest_width(space, parameters, j));
   double start = 0.0;
   int block = -1, log = -1;
   for (int k = 0; k < count; ++k) {
@@ -43,7 +60,7 @@ System assemble(const WeakWindows& windows) {
     s.a.block(k * n, 0, n, space.rigid()) = w.base;
     for (int j = 0; j < n; ++j) {
       s.a(k * n + j, space.viscous(j)) = w.viscous[j];
-      s.a(k * n + j, space.coulomb(j)) = w.coulomb[j];
+      s.a(k * n + j, space.coulomb(j)) = w.coulomb(j, width[j]);
       s.a(k * n + j, space.offset(j)) = 1.0;
       s.a(k * n + j, space.timing()) = -w.timing[j];
       s.y[k * n + j] = w.torque[j];
@@ -118,9 +135,10 @@ Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) 
   return out;
 }
 
-double bisquare(double r) {
-  const double u = r / kBisquare;
-  return std::abs(u) >= 1.0 ? 0.0 : (1.0 - u * u) * (1.0 - u * u);
+/// Full weight for all that a model a little wrong may leave; beyond, falling with the square.
+double outlier_weight(double r) {
+  const double u = std::abs(r) / kOutlierStd;
+  return u > 1.0 ? 1.0 / (u * u) : 1.0;
 }
 
 /// (A^T W A)^-1 (sum over blocks of g g^T) (A^T W A)^-1, g the weighted gradient of a block.
@@ -159,16 +177,16 @@ void judge(const System& s, const Eigen::VectorXd& residual, const Eigen::Vector
   }
 }
 
-}  // namespace
-
-WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
-                      const std::vector<bool>& wanted) {
-  const System s = assemble(windows);
+WeakFit fit_system(const System& s, const WeakWindows& windows, const Eigen::VectorXd& start,
+                   const std::vector<bool>& wanted) {
   const int linear = windows.space().linear();
   WeakFit fit;
   fit.windows = static_cast<int>(windows.all().size());
   fit.parameters = start;
-  Eigen::VectorXd row_weight = Eigen::VectorXd::Ones(s.y.size()), robust = row_weight, residual = s.y;
+  for (int j = 0; j < s.joints; ++j)
+    fit.parameters[windows.space().log_width(j)] =
+        std::log(weak_width(windows.space(), j, nearest_width(windows.space(), start, j)));
+  Eigen::VectorXd row_weight = Eigen::VectorXd::Ones(s.y.size()), robust = s.use, residual = s.y;
   for (int j = 0; j < s.joints; ++j) {
     const double scale = std::max(robust_scale(s.y, j, s.joints), 1e-9);
     for (Eigen::Index k = j; k < s.y.size(); k += s.joints) row_weight[k] = 1.0 / (scale * scale);
@@ -189,7 +207,7 @@ WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
       const double scale = std::max(robust_scale(residual, j, s.joints), 1e-12);
       for (Eigen::Index k = j; k < s.y.size(); k += s.joints) {
         row_weight[k] = 1.0 / (scale * scale);
-        robust[k] = bisquare(residual[k] / scale);
+        robust[k] = s.use[k] * outlier_weight(residual[k] / scale);
       }
     }
   }
@@ -208,8 +226,43 @@ WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
   return fit;
 }
 
+WeakFit fit_moving(const WeakWindows& windows, const Eigen::VectorXd& start,
+                   const std::vector<bool>& wanted) {
+  System s = assemble(windows, start);
+  const auto& all = windows.all();
+  Eigen::VectorXd fastest = Eigen::VectorXd::Zero(s.joints);
+  for (const WeakWindow& w : all) fastest = fastest.cwiseMax(w.speed);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (int j = 0; j < s.joints; ++j)
+      if (all[k].speed[j] < kResting * fastest[j]) s.use[static_cast<Eigen::Index>(k) * s.joints + j] = 0.0;
+  return fit_system(s, windows, start, wanted);
+}
+
+}  // namespace
+
+WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
+                      const std::vector<bool>& wanted) {
+  return fit_system(assemble(windows, start), windows, start, wanted);
+}
+
+WeakFit fit_weak_form_and_width(const WeakWindows& windows, const Eigen::VectorXd& start,
+                                const std::vector<bool>& wanted) {
+  const ParameterSpace& space = windows.space();
+  Eigen::VectorXd sharp = start;
+  for (int j = 0; j < space.joints(); ++j) sharp[space.log_width(j)] = std::log(weak_width(space, j, 0));
+  WeakFit best = fit_moving(windows, sharp, wanted);
+  for (int j = 0; j < space.joints(); ++j)
+    for (int k = 1; k < kWidths; ++k) {
+      Eigen::VectorXd tried = best.parameters;
+      tried[space.log_width(j)] = std::log(weak_width(space, j, k));
+      WeakFit fit = fit_moving(windows, tried, wanted);
+      if (kClearlyBetter * fit.residual_rms[j] < best.residual_rms[j]) best = std::move(fit);
+    }
+  return best;
+}
+
 Eigen::MatrixXd weak_residuals(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
-  const System s = assemble(windows);
+  const System s = assemble(windows, parameters);
   const Eigen::VectorXd r = s.y - s.a * parameters.head(windows.space().linear());
   return Eigen::Map<const Eigen::MatrixXd>(r.data(), s.joints, r.size() / s.joints).transpose();
 }

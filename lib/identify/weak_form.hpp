@@ -10,6 +10,11 @@
 
 namespace faultline {
 
+/// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth.
+inline constexpr int kWidths = 7;
+inline constexpr int kNominalWidth = 4;
+double weak_width(const ParameterSpace& space, int joint, int k);
+
 /// One window: the momentum balance of every joint, weighted over the window so that no acceleration is
 /// needed,
 ///   sum w (p_k+1 - p_k) = sum w dt (tau - F + dT/dq - G),   sum w dt = 1.
@@ -18,9 +23,11 @@ struct WeakWindow {
   int log = 0;
   double time_s = 0.0;  ///< its start
   int rows = 0;
-  Eigen::MatrixXd base;  ///< joints x base parameters
-  Eigen::VectorXd viscous, coulomb, timing, torque;
-  double travel = 0.0;  ///< how much the joints move in it, rad or m, summed
+  Eigen::MatrixXd base;     ///< joints x base parameters
+  Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column a friction width
+  Eigen::VectorXd viscous, timing, torque;
+  Eigen::VectorXd speed;  ///< mean |dq| of each joint in it, rad/s or m/s
+  double travel = 0.0;    ///< how much the joints move in it, rad or m, summed
 };
 
 /// Windows of all logs, bounded in number: when there are too many, every other one goes and from then on
@@ -49,7 +56,7 @@ class WeakWindows {
 
 /// Solution of the windows' equations for the linear parameters of the space.
 struct WeakFit {
-  Eigen::VectorXd parameters;     ///< all of the space; widths as they were
+  Eigen::VectorXd parameters;     ///< all of the space
   Eigen::MatrixXd covariance;     ///< of all; zero rows where kept. Sandwich over blocks of about a second
   std::vector<bool> free;         ///< false: kept at its given value
   std::vector<bool> confounded;   ///< true: kept, or its column nearly a mixture of others
@@ -58,10 +65,16 @@ struct WeakFit {
   int windows = 0;
 };
 
-/// Weighted least squares (each joint by its own residual), bisquare weights against outliers.
+/// Weighted least squares (each joint by its own residual), outliers weighted down.
 /// `start` gives the values of parameters that `wanted` leaves out or the data cannot tell.
 WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
                       const std::vector<bool>& wanted);
+
+/// The same with Coulomb friction as sharp as the windows know it, each joint smoother only where that
+/// explains clearly more torque: integrated over a window, friction needs no smoothing, and any shifts fv and
+/// fc. Windows in which a joint rests say nothing of that joint: its friction may be anything up to stiction.
+WeakFit fit_weak_form_and_width(const WeakWindows& windows, const Eigen::VectorXd& start,
+                                const std::vector<bool>& wanted);
 
 /// Torque the parameters leave unexplained in every window: windows x joints.
 Eigen::MatrixXd weak_residuals(const WeakWindows& windows, const Eigen::VectorXd& parameters);

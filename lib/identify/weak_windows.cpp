@@ -12,7 +12,8 @@ constexpr double kLongestStep_s = 0.012;  ///< longer samples are integrated ove
 /// Momentum and force of the base parameters and the friction terms at one state.
 struct StateTerms {
   Eigen::MatrixXd momentum, force;  ///< joints x base
-  Eigen::VectorXd rotor_momentum, coulomb;
+  Eigen::VectorXd rotor_momentum;
+  Eigen::MatrixXd coulomb;  ///< joints x kWidths
 };
 
 StateTerms terms_at(const ParameterSpace& space, const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
@@ -23,10 +24,11 @@ StateTerms terms_at(const ParameterSpace& space, const Eigen::VectorXd& q, const
   terms.momentum = y * space.lift;
   force_regressor(frames, dq, y);
   terms.force = y * space.lift;
-  terms.rotor_momentum = terms.coulomb = Eigen::VectorXd::Zero(space.joints());
+  terms.rotor_momentum.setZero(space.joints());
+  terms.coulomb.resize(space.joints(), kWidths);
   for (int j = 0; j < space.joints(); ++j) {
     if (!space.chain.rotor_inertia.empty()) terms.rotor_momentum[j] = space.chain.rotor_inertia[j] * dq[j];
-    terms.coulomb[j] = std::tanh(dq[j] / space.chain.friction[j].width);
+    for (int k = 0; k < kWidths; ++k) terms.coulomb(j, k) = std::tanh(dq[j] / weak_width(space, j, k));
   }
   return terms;
 }
@@ -43,8 +45,7 @@ void interpolate(const Stretch& s, int k, double x, Eigen::VectorXd& q, Eigen::V
 
 /// Means over one sample of the terms that are integrated.
 struct StepMeans {
-  Eigen::MatrixXd force;
-  Eigen::VectorXd coulomb;
+  Eigen::MatrixXd force, coulomb;
 };
 
 StepMeans step_means(const ParameterSpace& space, const Stretch& s, int k, const StateTerms& from,
@@ -85,7 +86,9 @@ WeakWindow empty_window(const ParameterSpace& space, const Stretch& s, int begin
   w.time_s = s.time[begin];
   w.rows = steps;
   w.base.setZero(space.joints(), space.rigid());
-  w.viscous = w.coulomb = w.timing = w.torque = Eigen::VectorXd::Zero(space.joints());
+  w.coulomb.setZero(space.joints(), kWidths);
+  w.viscous = w.timing = w.torque = Eigen::VectorXd::Zero(space.joints());
+  w.speed = s.dq_smooth.middleCols(begin, steps + 1).cwiseAbs().rowwise().mean();
   w.travel = (s.q.middleCols(begin, steps + 1).rowwise().maxCoeff() -
               s.q.middleCols(begin, steps + 1).rowwise().minCoeff())
                  .sum();
@@ -93,6 +96,11 @@ WeakWindow empty_window(const ParameterSpace& space, const Stretch& s, int begin
 }
 
 }  // namespace
+
+double weak_width(const ParameterSpace& space, int joint, int k) {
+  constexpr double kFactor[kWidths] = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+  return kFactor[k] * space.chain.friction[joint].width;
+}
 
 WeakWindows::WeakWindows(const ParameterSpace& space, double window_s, int max_windows)
     : space_(space), window_s_(window_s), max_windows_(static_cast<std::size_t>(max_windows)) {}

@@ -52,6 +52,9 @@ void print(const Group& group, const Identification& id, const std::vector<doubl
   for (std::size_t k = 4; k < id.base_parameters.size(); ++k)
     std::cout << id.base_parameters[k].name << " " << id.base_parameters[k].value << " +- "
               << id.base_parameters[k].std << "  ";
+  std::cout << "\n    ";
+  for (const auto& e : id.physical_parameters)
+    std::cout << e.name << " " << e.value << " +- " << e.std << " " << e.why_not << "  ";
   std::cout << "\n    condition " << id.condition_number << " R2";
   for (double r2 : id.fit_r2) std::cout << " " << r2;
   std::cout << " noise";

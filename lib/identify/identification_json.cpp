@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/identification_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* kSchema = "faultline/identification/1";
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double number_from(const Json& j) {
+  return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>();
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (double v : values) out.push_back(number(v));
+  return out;
+}
+
+std::vector<double> numbers_from(const Json& j) {
+  std::vector<double> out;
+  for (const Json& v : j) out.push_back(number_from(v));
+  return out;
+}
+
+Json parameter(const ParameterEstimate& e) {
+  Json out = {{"name", e.name},       {"value", number(e.value)},
+              {"std", number(e.std)}, {"ci95", {number(e.ci95[0]), number(e.ci95[1])}},
+              {"unit", e.unit},       {"identifiable", e.identifiable},
+              {"why_not", e.why_not}};
+  if (!e.meaning.empty()) out["meaning"] = e.meaning;
+  return out;
+}
+
+ParameterEstimate parameter_from(const Json& j) {
+  ParameterEstimate e;
+  e.name = j.at("name");
+  e.value = number_from(j.at("value"));
+  e.std = number_from(j.at("std"));
+  e.ci95 = {number_from(j.at("ci95").at(0)), number_from(j.at("ci95").at(1))};
+  e.unit = j.at("unit");
+  e.identifiable = j.at("identifiable");
+  e.why_not = j.at("why_not");
+  e.meaning = j.value("meaning", "");
+  return e;
+}
+
+template <typename T, typename Convert>
+Json array_of(const std::vector<T>& values, Convert convert) {
+  Json out = Json::array();
+  for (const T& v : values) out.push_back(convert(v));
+  return out;
+}
+
+Json log_json(const IdentifiedLog& log) {
+  return {{"path", log.path},
+          {"sha256", log.sha256},
+          {"rows", log.rows},
+          {"rows_used", log.rows_used},
+          {"sample_period_s", number(log.sample_period_s)},
+          {"payload_kg", number(log.payload_kg)}};
+}
+
+IdentifiedLog log_from(const Json& j) {
+  return {j.at("path"),
+          j.at("sha256"),
+          j.at("rows"),
+          j.at("rows_used"),
+          number_from(j.at("sample_period_s")),
+          number_from(j.at("payload_kg"))};
+}
+
+Json state_json(const Identification& id) {
+  std::vector<double> estimate(id.estimate.data(), id.estimate.data() + id.estimate.size());
+  std::vector<double> covariance(id.covariance.data(), id.covariance.data() + id.covariance.size());
+  return {{"robot_file", robot_file_text(id.robot)},
+          {"estimate", numbers(estimate)},
+          {"covariance", numbers(covariance)}};
+}
+
+template <typename Enum>
+Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const std::string& where) {
+  for (Enum e : all)
+    if (name == to_string(e)) return e;
+  throw Error(ErrorCode::input, where,
+              fmt::format("\"{}\" is no status or method that this version knows", name));
+}
+
+Identification read(const Json& j, const std::string& where) {
+  using Status = IdentificationStatus;
+  using Method = IdentifyMethod;
+  Identification id;
+  id.status =
+      enum_from(j.at("status").get<std::string>(),
+                {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited}, where);
+  id.reason = j.at("reason");
+  id.method = enum_from(j.at("method").get<std::string>(),
+                        {Method::automatic, Method::weak_form, Method::output_error}, where);
+  for (const Json& p : j.at("base_parameters")) id.base_parameters.push_back(parameter_from(p));
+  for (const Json& p : j.at("physical_parameters")) id.physical_parameters.push_back(parameter_from(p));
+  id.q_noise = numbers_from(j.at("q_noise"));
+  id.dq_noise = numbers_from(j.at("dq_noise"));
+  id.condition_number = number_from(j.at("condition_number"));
+  id.residual_rms = numbers_from(j.at("residual_rms"));
+  id.fit_r2 = numbers_from(j.at("fit_r2"));
+  for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
+  const Json& state = j.at("state");
+  id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
+  id.space = parameter_space(id.robot);
+  const auto estimate = numbers_from(state.at("estimate")), covariance = numbers_from(state.at("covariance"));
+  const auto count = static_cast<std::size_t>(id.space.count());
+  if (estimate.size() != count || covariance.size() != count * count)
+    throw Error(ErrorCode::input, where,
+                fmt::format("holds {} parameters, its robot has {}; identify again", estimate.size(), count));
+  id.estimate = Eigen::Map<const Eigen::VectorXd>(estimate.data(), id.space.count());
+  id.covariance = Eigen::Map<const Eigen::MatrixXd>(covariance.data(), id.space.count(), id.space.count());
+  return id;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Identification& id) {
+  return {{"schema", kSchema},
+          {"status", to_string(id.status)},
+          {"reason", id.reason},
+          {"method", to_string(id.method)},
+          {"base_parameters", array_of(id.base_parameters, parameter)},
+          {"physical_parameters", array_of(id.physical_parameters, parameter)},
+          {"condition_number", number(id.condition_number)},
+          {"residual_rms", numbers(id.residual_rms)},
+          {"fit_r2", numbers(id.fit_r2)},
+          {"q_noise", numbers(id.q_noise)},
+          {"dq_noise", numbers(id.dq_noise)},
+          {"logs", array_of(id.logs, log_json)},
+          {"state", state_json(id)}};
+}
+
+Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where) {
+  if (!document.is_object() || document.value("schema", "") != kSchema)
+    throw Error(ErrorCode::input, where,
+                fmt::format("is no identification of schema {}; identify again", kSchema));
+  try {
+    return read(document, where);
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(ErrorCode::input, where, fmt::format("is incomplete ({}); identify again", e.what()));
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "lib/identify/identification.hpp"
+
+namespace faultline {
+
+/// The identification as a document of schema faultline/identification/1: what users and scripts read, and
+/// under `state` all that identification_from_json needs to give back the same value (robot, estimate,
+/// covariance), bit for bit.
+nlohmann::ordered_json to_json(const Identification& identification);
+
+/// Throws Error(input) naming `where` when the document is not ours, of another schema or incomplete.
+Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where);
+
+}  // namespace faultline
