@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/bank.hpp"
+
+#include <cmath>
+
+#include "lib/evidence/trigger.hpp"
+
+namespace faultline {
+namespace {
+
+/// A code that changes under the stuck hypothesis counts against it this much (natural logarithm).
+constexpr double kCodeChanged = -25.0;
+constexpr double kSmallestShare = 1e-4;
+
+double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
+  if (!at.repeats[j]) return kCodeChanged;
+  const double share = repeats_mean_stuck(model, j) ? std::max(model.repeat_share[j], kSmallestShare) : 1.0;
+  return -std::log(share) + 0.5 * at.chi_square[j];
+}
+
+SensorError sensor_error(const Hypothesis& hypothesis, int size_index, double age_s) {
+  if (hypothesis.label.kind == FaultKind::sensor_bias) return {size_index, 1.0, 0.0};
+  if (hypothesis.label.kind == FaultKind::sensor_drift)
+    return {size_index, std::max(age_s, 1e-9), hypothesis.variant ? 1.0 : 0.0};
+  return {};
+}
+
+}  // namespace
+
+Bank::Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses)
+    : model_(model), dynamics_(dynamics), hypotheses_(hypotheses) {}
+
+RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const FollowedSample& before,
+                              const FollowedSample& at) const {
+  RunningHypothesis running;
+  running.hypothesis = hypothesis;
+  running.onset = onset;
+  running.onset_s = at.time - 0.5 * at.dt;
+  running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
+  predict_onset(running.state, model_, dynamics_, {at.dt, before.torque.data(), at.torque.data()},
+                hypotheses_[hypothesis]);
+  judge(running, at);
+  return running;
+}
+
+void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
+  predict(running.state, model_, dynamics_, {at.dt, before.torque.data(), at.torque.data()},
+          &hypotheses_[running.hypothesis], before.time - running.onset_s);
+  judge(running, at);
+}
+
+void Bank::judge(RunningHypothesis& running, const FollowedSample& at) const {
+  const Hypothesis& hypothesis = hypotheses_[running.hypothesis];
+  const int n = model_.joints(), joint = hypothesis.joint_index();
+  for (int j = 0; j < n; ++j) {
+    if (j == joint && hypothesis.label.kind == FaultKind::stuck_encoder) {
+      running.log_likelihood_ratio += log_ratio_of_stuck(model_, at, j);
+      continue;
+    }
+    const SensorError error = j == joint ? sensor_error(hypothesis, 2 * n, at.time - running.onset_s) : SensorError{};
+    const JointObservation seen = observe_joint(running.state, model_, at, j, error);
+    running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
+  }
+  clamp_sizes(running.state, hypothesis, model_);
+}
+
+HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
+  HypothesisEvidence evidence;
+  evidence.log_likelihood_ratio = running.log_likelihood_ratio;
+  evidence.onset_s = running.onset_s;
+  const int first = 2 * model_.joints();
+  for (int s = 0; s < hypotheses_[running.hypothesis].sizes; ++s) {
+    evidence.size[s] = running.state.mean[first + s];
+    evidence.size_std[s] = std::sqrt(std::max(running.state.p(first + s, first + s), 0.0));
+  }
+  return evidence;
+}
+
+}  // namespace faultline

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/fault_dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLongestSubstep_s = 0.005;
+constexpr int kMostSubsteps = 40;
+
+using Map = Eigen::Map<const Eigen::VectorXd>;
+
+/// One more kilogram on the tip: at the last link's origin for a prismatic last axis, at its end otherwise.
+Chain<double> with_unit_payload(const Chain<double>& chain) {
+  Chain<double> loaded = chain;
+  const int last = chain.joints() - 1;
+  LinkInertia<double>& link = loaded.links[last];
+  const JointGeometry& joint = chain.geometry[last];
+  const bool has_reach = joint.kind == AxisKind::revolute && joint.direction.squaredNorm() > 0.0;
+  const Eigen::Vector3d at = has_reach ? Eigen::Vector3d(chain.length[last] * joint.direction) : Eigen::Vector3d::Zero();
+  const LinkInertia<double> kilogram = general_body(1.0, at, Eigen::Matrix3d::Zero());
+  link.mass += kilogram.mass;
+  link.first_moment += kilogram.first_moment;
+  link.inertia += kilogram.inertia;
+  return loaded;
+}
+
+/// Inverse of a symmetric positive definite n x n matrix with row and column `locked` left out (as zeros).
+void invert(const JointMatrix<double>& m, int locked, JointSquare& out) {
+  const int n = static_cast<int>(m.rows());
+  std::array<int, kMaxJoints> free{};
+  int count = 0;
+  for (int i = 0; i < n; ++i)
+    if (i != locked) free[count++] = i;
+  JointSquare work, inverse;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) {
+      work[i * count + j] = m(free[i], free[j]);
+      inverse[i * count + j] = i == j ? 1.0 : 0.0;
+    }
+  }
+  for (int k = 0; k < count; ++k) {  // Gauss-Jordan; positive definite, so no pivoting
+    const double scale = 1.0 / work[k * count + k];
+    for (int j = 0; j < count; ++j) {
+      work[k * count + j] *= scale;
+      inverse[k * count + j] *= scale;
+    }
+    for (int i = 0; i < count; ++i) {
+      if (i == k) continue;
+      const double factor = work[i * count + k];
+      for (int j = 0; j < count; ++j) {
+        work[i * count + j] -= factor * work[k * count + j];
+        inverse[i * count + j] -= factor * inverse[k * count + j];
+      }
+    }
+  }
+  std::fill_n(out.begin(), n * n, 0.0);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) out[free[i] * n + free[j]] = inverse[i * count + j];
+}
+
+}  // namespace
+
+FaultDynamics::FaultDynamics(const MotionModel& model)
+    : model_(model), unit_payload_(with_unit_payload(model.chain)), joints_(model.joints()) {
+  JointVector<double> middle(joints_);
+  for (int j = 0; j < joints_; ++j) middle[j] = 0.5 * (model.q_low[j] + model.q_high[j]);
+  JointSquare inverse;
+  invert(inertia_matrix(model.chain, middle), -1, inverse);
+  for (int j = 0; j < joints_; ++j) {
+    const Friction<double>& f = model.chain.friction[j];
+    friction_rate_ = std::max(friction_rate_, inverse[j * joints_ + j] * (f.viscous + f.coulomb / f.width));
+  }
+}
+
+Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, const double* torque,
+                                     const Hypothesis* hypothesis, const double* sizes) const {
+  const int n = joints_;
+  const JointVector<double> q = Map(q_in, n), dq = Map(dq_in, n);
+  JointVector<double> bias = bias_torque(model_.chain, q, dq);
+  JointMatrix<double> inertia = inertia_matrix(model_.chain, q);
+  const FaultKind kind = hypothesis ? hypothesis->label.kind : FaultKind::none;
+  const int joint = hypothesis ? hypothesis->joint_index() : -1;
+  Acceleration out;
+  JointVector<double> payload_bias;
+  JointMatrix<double> payload_inertia;
+  if (kind == FaultKind::payload_change) {
+    payload_bias = bias_torque(unit_payload_, q, dq) - bias;
+    payload_inertia = inertia_matrix(unit_payload_, q) - inertia;
+    bias += sizes[0] * payload_bias;
+    inertia += sizes[0] * payload_inertia;
+  }
+  invert(inertia, kind == FaultKind::locked ? joint : -1, out.inverse_inertia);
+
+  JointArray net;
+  for (int j = 0; j < n; ++j) {
+    const Friction<double>& f = model_.chain.friction[j];
+    const double sign = std::tanh(dq[j] / f.width);
+    const double sharpness = (1.0 - sign * sign) / f.width;
+    double viscous = f.viscous, coulomb = f.coulomb, drive = torque[j];
+    out.size_torque[0][j] = out.size_torque[1][j] = 0.0;
+    if (j == joint) {
+      switch (kind) {
+        case FaultKind::free_swinging: drive = 0.0; break;
+        case FaultKind::torque_loss:
+          out.size_torque[0][j] = -drive;
+          drive *= 1.0 - sizes[0];
+          break;
+        case FaultKind::friction_increase:
+          viscous += sizes[0];
+          coulomb += sizes[1];
+          out.size_torque[0][j] = -dq[j];
+          out.size_torque[1][j] = -sign;
+          break;
+        case FaultKind::collision:
+        case FaultKind::unknown:
+          drive += sizes[0];
+          out.size_torque[0][j] = 1.0;
+          break;
+        default: break;
+      }
+    }
+    out.friction_slope[j] = viscous + coulomb * sharpness;
+    net[j] = drive - bias[j] - viscous * dq[j] - coulomb * sign - f.offset;
+  }
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < n; ++j) sum += out.inverse_inertia[i * n + j] * net[j];
+    out.value[i] = sum;
+  }
+  if (kind == FaultKind::payload_change) {
+    for (int i = 0; i < n; ++i) {
+      double sum = payload_bias[i];
+      for (int j = 0; j < n; ++j) sum += payload_inertia(i, j) * out.value[j];
+      out.size_torque[0][i] = -sum;
+    }
+  }
+  return out;
+}
+
+int FaultDynamics::substeps(double dt) const {
+  const double longest = std::min(kLongestSubstep_s, friction_rate_ > 0.0 ? 1.5 / friction_rate_ : kLongestSubstep_s);
+  return std::clamp(static_cast<int>(std::ceil(dt / longest)), 1, kMostSubsteps);
+}
+
+Acceleration FaultDynamics::integrate(double* q, double* dq, const double* torque, double dt,
+                                      const Hypothesis* hypothesis, const double* sizes) const {
+  const int n = joints_;
+  if (dt <= kShortStep_s) {
+    const Acceleration start = evaluate(q, dq, torque, hypothesis, sizes);
+    JointArray q_mid, dq_mid;
+    for (int j = 0; j < n; ++j) {
+      dq_mid[j] = dq[j] + 0.5 * dt * start.value[j];
+      q_mid[j] = q[j] + 0.5 * dt * dq[j];
+    }
+    const Acceleration middle = evaluate(q_mid.data(), dq_mid.data(), torque, hypothesis, sizes);
+    for (int j = 0; j < n; ++j) {
+      q[j] += dt * dq_mid[j];
+      dq[j] += dt * middle.value[j];
+    }
+    return middle;
+  }
+  const Acceleration first = evaluate(q, dq, torque, hypothesis, sizes);
+  const int steps = substeps(dt);
+  const double h = dt / steps;
+  for (int step = 0; step < steps; ++step) {
+    JointArray qs, vs, sum_v, sum_a;
+    JointArray v = {}, a = {};
+    static constexpr double kFraction[4] = {0.0, 0.5, 0.5, 1.0};
+    static constexpr double kWeight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    std::fill_n(sum_v.begin(), n, 0.0);
+    std::fill_n(sum_a.begin(), n, 0.0);
+    for (int stage = 0; stage < 4; ++stage) {
+      for (int j = 0; j < n; ++j) {
+        qs[j] = q[j] + kFraction[stage] * h * v[j];
+        vs[j] = dq[j] + kFraction[stage] * h * a[j];
+      }
+      const Acceleration at = evaluate(qs.data(), vs.data(), torque, hypothesis, sizes);
+      for (int j = 0; j < n; ++j) {
+        v[j] = vs[j];
+        a[j] = at.value[j];
+        sum_v[j] += kWeight[stage] * v[j];
+        sum_a[j] += kWeight[stage] * a[j];
+      }
+    }
+    for (int j = 0; j < n; ++j) {
+      q[j] += h * sum_v[j];
+      dq[j] += h * sum_a[j];
+    }
+  }
+  return first;
+}
+
+JointArray FaultDynamics::stopping_impulse(const double* q_in, const double* dq, int j) const {
+  const JointVector<double> q = Map(q_in, joints_);
+  JointSquare inverse;
+  invert(inertia_matrix(model_.chain, q), -1, inverse);
+  JointArray change{};
+  const double impulse = -dq[j] / inverse[j * joints_ + j];
+  for (int i = 0; i < joints_; ++i) change[i] = inverse[i * joints_ + j] * impulse;
+  return change;
+}
+
+}  // namespace faultline

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLogTwoPi = 1.8378770664093453;
+constexpr double kGapPeriods = 5.5;  // a longer gap starts the filter anew
+
+}  // namespace
+
+double capped_log_density(const ScalarUpdate& update) {
+  return -0.5 * (std::min(update.chi_square(), kChiSquareCap) + std::log(update.variance) + kLogTwoPi);
+}
+
+JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample, int j,
+                               const SensorError& error) {
+  const int n = model.joints();
+  JointObservation out;
+  double variances = 1.0;
+  int measured = 0;
+  auto take = [&](int index, double factor, double z, double std, double& whitened) {
+    if (!std::isfinite(z)) return;
+    const ScalarUpdate update = observe(state, index, factor != 0.0 ? error.size_index : -1, factor, z, std * std);
+    whitened = update.innovation / std::sqrt(update.variance);
+    out.chi_square += std::min(update.chi_square(), kChiSquareCap);
+    variances *= update.variance;
+    ++measured;
+  };
+  take(j, error.on_q, sample.q[j], model.q_std[j], out.whitened_q);
+  take(n + j, error.on_dq, sample.dq[j], model.dq_std[j], out.whitened_dq);
+  out.log_likelihood = -0.5 * (out.chi_square + std::log(variances) + measured * kLogTwoPi);
+  return out;
+}
+
+Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {}
+
+void Follower::read_row(const Log& segment, int row, FollowedSample& out) const {
+  out.row = segment.first_row + row;
+  out.time = segment.time[row];
+  for (int j = 0; j < model_.joints(); ++j) {
+    out.q[j] = segment.q[j][row];
+    out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
+    out.torque[j] = std::isfinite(torque) ? torque : last_torque_[j];
+    out.repeats[j] = started_ && out.q[j] == last_q_[j] && (segment.dq.empty() || out.dq[j] == last_dq_[j]);
+  }
+}
+
+void Follower::start(FollowedSample& out) {
+  const int n = model_.joints();
+  state_.size = 2 * n;
+  std::fill_n(state_.covariance.begin(), 4 * n * n, 0.0);
+  for (int j = 0; j < n; ++j) {
+    const bool has_q = std::isfinite(out.q[j]), has_dq = std::isfinite(out.dq[j]);
+    const double range = model_.q_high[j] - model_.q_low[j];
+    state_.mean[j] = has_q ? out.q[j] : 0.5 * (model_.q_low[j] + model_.q_high[j]);
+    state_.mean[n + j] = has_dq ? out.dq[j] : 0.0;
+    const double q_std = has_q ? model_.q_std[j] : range;
+    const double dq_std = has_dq ? model_.dq_std[j] : 2.0 * model_.velocity_scale[j];
+    state_.p(j, j) = q_std * q_std;
+    state_.p(n + j, n + j) = dq_std * dq_std;
+    out.log_likelihood[j] = out.chi_square[j] = out.whitened[j] = out.whitened[n + j] = 0.0;
+    out.repeats[j] = false;
+  }
+  out.dt = 0.0;
+  out.total_log_likelihood = 0.0;
+  started_ = true;
+}
+
+void Follower::follow(const Log& segment, int row, FollowedSample& out) {
+  const int n = model_.joints();
+  read_row(segment, row, out);
+  const double dt = out.time - last_time_;
+  const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, 1e-9);
+  if (!started_ || gap) {
+    start(out);
+  } else {
+    usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + 0.02 * (dt - usual_dt_) : dt;
+    out.dt = dt;
+    predict(state_, model_, dynamics_, {dt, last_torque_.data(), out.torque.data()}, nullptr, 0.0);
+    out.total_log_likelihood = 0.0;
+    for (int j = 0; j < n; ++j) {
+      const JointObservation seen = observe_joint(state_, model_, out, j);
+      out.log_likelihood[j] = seen.log_likelihood;
+      out.chi_square[j] = seen.chi_square;
+      out.whitened[j] = seen.whitened_q;
+      out.whitened[n + j] = seen.whitened_dq;
+      out.total_log_likelihood += seen.log_likelihood;
+    }
+  }
+  out.posterior = state_;
+  last_time_ = out.time;
+  last_q_ = out.q;
+  last_dq_ = out.dq;
+  last_torque_ = out.torque;
+}
+
+}  // namespace faultline

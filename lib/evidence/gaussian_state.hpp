@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+/// Positions, velocities and at most two numbers that say how large a fault is.
+inline constexpr int kMaxStates = 2 * kMaxJoints + 2;
+
+/// Mean and covariance of a small state: q (n), dq (n), fault size (0 to 2).
+struct GaussianState {
+  int size = 0;
+  std::array<double, kMaxStates> mean;
+  std::array<double, kMaxStates * kMaxStates> covariance;  ///< row by row, `size` numbers each
+
+  GaussianState() = default;
+  GaussianState(const GaussianState& other) { *this = other; }
+  GaussianState& operator=(const GaussianState& other);
+
+  double& p(int row, int column) { return covariance[row * size + column]; }
+  double p(int row, int column) const { return covariance[row * size + column]; }
+};
+
+/// A state of `size` numbers with the mean and covariance of `state` in front and zeros behind.
+GaussianState extended(const GaussianState& state, int size);
+
+/// What one measured number said.
+struct ScalarUpdate {
+  double innovation = 0.0;
+  double variance = 0.0;  ///< of the innovation
+  double chi_square() const { return innovation * innovation / variance; }
+};
+
+/// Kalman update by the measurement z = mean[index] + factor * mean[other] + noise; `other` < 0 for none.
+ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z, double noise_variance);
+
+/// covariance = A covariance A^T with A row by row, size x size.
+void propagate_covariance(GaussianState& state, const double* transition);
+
+}  // namespace faultline

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/learn_motion_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/evidence/follower.hpp"
+#include "lib/evidence/healthy_statistics.hpp"
+#include "lib/evidence/listener.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kFewestRows = 50;
+constexpr int kSearchRounds = 6;
+
+/// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns.
+double carried_mass(const MotionModel& model) {
+  JointVector<double> middle(model.joints());
+  for (int j = 0; j < model.joints(); ++j) middle[j] = 0.5 * (model.q_low[j] + model.q_high[j]);
+  const JointMatrix<double> inertia = inertia_matrix(model.chain, middle);
+  for (int j = model.joints() - 1; j >= 0; --j)
+    if (model.chain.geometry[j].kind == AxisKind::prismatic) return inertia(j, j);
+  double reach = 0.0;
+  for (const double l : model.chain.length) reach += l;
+  return inertia(0, 0) / std::max(reach * reach, 1e-6);
+}
+
+SizePriors priors_of(const MotionModel& model, const HealthyStatistics& healthy) {
+  SizePriors priors;
+  for (int j = 0; j < model.joints(); ++j) {
+    const double range = model.q_high[j] - model.q_low[j];
+    const double torque = healthy.torque_rms[j], velocity = std::max(healthy.velocity_rms[j], 1e-6);
+    const Friction<double>& friction = model.chain.friction[j];
+    priors.bias.push_back(0.02 * range);
+    priors.drift.push_back(0.02 * range);
+    priors.viscous_increase.push_back(std::max(std::abs(friction.viscous), 0.05 * torque / velocity));
+    priors.coulomb_increase.push_back(std::max(std::abs(friction.coulomb), 0.05 * torque));
+    priors.external_torque.push_back(0.5 * model.torque_scale[j]);
+  }
+  priors.payload = 0.5 * carried_mass(model);
+  return priors;
+}
+
+/// The same number of rows from the middle of every log.
+std::vector<Log> excerpts(std::span<LogSource* const> logs, int rows) {
+  std::vector<Log> out;
+  const int each = std::max(rows / static_cast<int>(std::max<std::size_t>(logs.size(), 1)), kFewestRows);
+  for (LogSource* log : logs) {
+    log->rewind();
+    Log taken;
+    for (Log segment; taken.rows() < each && log->next(segment);)
+      append(taken, slice(segment, 0, std::min(segment.rows(), each - taken.rows())));
+    if (taken.rows() > 1) out.push_back(std::move(taken));
+  }
+  return out;
+}
+
+double log_likelihood(const std::vector<Log>& logs, const MotionModel& model) {
+  double sum = 0.0;
+  FollowedSample sample;
+  for (const Log& log : logs) {
+    Follower follower(model);
+    for (int k = 0; k < log.rows(); ++k) {
+      follower.follow(log, k, sample);
+      if (k > 10) sum += sample.total_log_likelihood;
+    }
+  }
+  return sum;
+}
+
+/// The numbers that the search moves, by factors.
+std::vector<std::vector<double*>> free_numbers(MotionModel& model, bool held) {
+  auto all = [](std::vector<double>& values) {
+    std::vector<double*> pointers;
+    for (double& value : values) pointers.push_back(&value);
+    return pointers;
+  };
+  std::vector<std::vector<double*>> groups = {{&model.noise.torque_share}, all(model.noise.floor),
+                                              {&model.noise.rest_share},   all(model.q_std),
+                                              all(model.dq_std)};
+  if (!held) groups.push_back({&model.noise.step_share});
+  return groups;
+}
+
+/// Coordinate search by shrinking factors for the largest likelihood of the healthy innovations.
+void match_noise(MotionModel& model, const std::vector<Log>& logs, bool held) {
+  const auto groups = free_numbers(model, held);
+  double best = log_likelihood(logs, model), factor = 4.0;
+  auto scale = [](const std::vector<double*>& group, double by) {
+    for (double* value : group) *value *= by;
+  };
+  for (int round = 0; round < kSearchRounds; ++round, factor = std::sqrt(factor)) {
+    for (const auto& group : groups) {
+      for (const double by : {factor, 1.0 / factor}) {
+        scale(group, by);
+        const double moved = log_likelihood(logs, model);
+        if (moved > best + 1e-9 * std::abs(best)) {
+          best = moved;
+          break;
+        }
+        scale(group, 1.0 / by);
+      }
+    }
+    factor = std::max(factor, 1.2);
+  }
+}
+
+}  // namespace
+
+MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
+                               const LearnMotionOptions& options) {
+  MotionModel model;
+  model.chain = identified.chain;
+  model.torque_phi = identified.torque_phi;
+  model.q_std = identified.q_std;
+  model.dq_std = identified.dq_std;
+  const HealthyStatistics healthy = healthy_statistics(logs, identified.chain.joints());
+  if (healthy.rows < kFewestRows)
+    throw Error(ErrorCode::input, "healthy logs",
+                "hold " + std::to_string(healthy.rows) + " usable rows; at least " + std::to_string(kFewestRows) +
+                    " are needed");
+  model.q_low = healthy.q_low;
+  model.q_high = healthy.q_high;
+  model.velocity_scale = healthy.velocity_rms;
+  model.torque_scale = healthy.torque_largest;
+  model.repeat_share = healthy.repeat_share;
+  model.longest_repeat = healthy.longest_repeat;
+  for (const double torque : healthy.torque_largest) model.noise.floor.push_back(std::max(0.001 * torque, 1e-9));
+  if (identified.torque_is_held) model.noise.step_share = 0.0;
+  model.priors = priors_of(model, healthy);
+  match_noise(model, excerpts(logs, options.excerpt_rows), identified.torque_is_held);
+  ProcessNoise& noise = model.noise;
+  noise.torque_share = std::max(options.safety * noise.torque_share, options.least_torque_share);
+  noise.rest_share = std::max(options.safety * noise.rest_share, options.least_rest_share);
+  noise.step_share *= options.safety;
+  for (double& floor : noise.floor) floor *= options.safety;
+  return model;
+}
+
+EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, const MotionModel& model,
+                                     const std::vector<Hypothesis>& hypotheses, EvidenceOptions options) {
+  double trigger = 0.0, ratio = 0.0;
+  std::vector<EpisodeEvidence> episodes;
+  for (LogSource* log : logs) {
+    log->rewind();
+    Listener listener(model, hypotheses, options);
+    for (Log segment; log->next(segment);) listener.listen(segment, episodes);
+    listener.finish(episodes);
+    trigger = std::max(trigger, listener.largest_trigger());
+    ratio = std::max(ratio, listener.largest_ratio());
+  }
+  for (const EpisodeEvidence& episode : episodes)
+    ratio = std::max(ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
+  options.trigger = std::max(options.trigger, 1.1 * trigger);
+  options.threshold = std::max(options.threshold, 1.5 * ratio);
+  return options;
+}
+
+}  // namespace faultline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "lib/evidence/evidence_options.hpp"
+#include "lib/evidence/motion_model.hpp"
+#include "lib/log/log_source.hpp"
+
+namespace faultline {
+
+/// What identification says of the robot, as far as the filters need it.
+struct IdentifiedMotion {
+  Chain<double> chain;
+  double torque_phi = 0.0;
+  bool torque_is_held = false;  ///< known, not estimated: nothing unseen happens between two samples
+  std::vector<double> q_std;    ///< measurement noise, one a joint
+  std::vector<double> dq_std;
+};
+
+struct LearnMotionOptions {
+  int excerpt_rows = 12000;          ///< of all logs together, for matching the noise
+  double least_torque_share = 0.003; ///< floors that keep a model of perfect logs from trusting itself too much
+  double least_rest_share = 0.05;
+  double safety = 1.25;              ///< the matched process noise is taken this much larger
+};
+
+/// A motion model whose process noise is matched to the innovations of the healthy logs by maximum likelihood,
+/// with ranges, repeated codes and size priors read from the same logs. Throws Error(input) when the logs hold
+/// too few rows.
+MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
+                               const LearnMotionOptions& options);
+
+/// Options whose trigger and threshold lie above what the healthy logs themselves reach.
+EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, const MotionModel& model,
+                                     const std::vector<Hypothesis>& hypotheses, EvidenceOptions options);
+
+}  // namespace faultline
