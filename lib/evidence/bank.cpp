@@ -37,14 +37,15 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
-  predict_onset(running.state, model_, dynamics_, {at.dt, before.torque.data(), at.torque.data()},
-                hypotheses_[hypothesis]);
+  predict_onset(running.state, model_, dynamics_,
+                {at.dt, before.torque.data(), at.torque.data(), at.pressed.data()}, hypotheses_[hypothesis]);
   judge(running, at);
   return running;
 }
 
 void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
-  predict(running.state, model_, dynamics_, {at.dt, before.torque.data(), at.torque.data()},
+  predict(running.state, model_, dynamics_,
+          {at.dt, before.torque.data(), at.torque.data(), at.pressed.data()},
           &hypotheses_[running.hypothesis], before.time - running.onset_s);
   judge(running, at);
 }
@@ -54,14 +55,18 @@ void Bank::judge(RunningHypothesis& running, const FollowedSample& at) const {
   const int n = model_.joints(), joint = hypothesis.joint_index();
   for (int j = 0; j < n; ++j) {
     if (j == joint && hypothesis.label.kind == FaultKind::stuck_encoder) {
-      running.log_likelihood_ratio += log_ratio_of_stuck(model_, at, j);
+      if (!at.pressed[j]) running.log_likelihood_ratio += log_ratio_of_stuck(model_, at, j);
       continue;
     }
-    const SensorError error = j == joint ? sensor_error(hypothesis, 2 * n, at.time - running.onset_s) : SensorError{};
+    const SensorError error =
+        j == joint ? sensor_error(hypothesis, 2 * n, at.time - running.onset_s) : SensorError{};
     const JointObservation seen = observe_joint(running.state, model_, at, j, error);
-    running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
+    if (!at.pressed[j]) running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
   }
   clamp_sizes(running.state, hypothesis, model_);
+  if (hypothesis.label.kind != FaultKind::collision) return;
+  for (int s = 0; s < hypothesis.sizes; ++s)
+    running.impulse[joint >= 0 ? joint : s] += running.state.mean[2 * n + s] * at.dt;
 }
 
 HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
@@ -69,7 +74,8 @@ HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
   evidence.log_likelihood_ratio = running.log_likelihood_ratio;
   evidence.onset_s = running.onset_s;
   const int first = 2 * model_.joints();
-  for (int s = 0; s < hypotheses_[running.hypothesis].sizes; ++s) {
+  evidence.impulse = running.impulse;
+  for (int s = 0; s < std::min(hypotheses_[running.hypothesis].sizes, 2); ++s) {
     evidence.size[s] = running.state.mean[first + s];
     evidence.size_std[s] = std::sqrt(std::max(running.state.p(first + s, first + s), 0.0));
   }

@@ -10,10 +10,11 @@ namespace faultline {
 
 /// One hypothesis from one onset on: its filter and its log likelihood ratio against the healthy filter.
 struct RunningHypothesis {
-  int hypothesis = 0;  ///< index into the bank
-  std::int64_t onset = 0;       ///< the fault begins within the step into this sample (index into the history)
-  double onset_s = 0.0;  ///< middle of that step
+  int hypothesis = 0;      ///< index into the bank
+  std::int64_t onset = 0;  ///< the fault begins within the step into this sample (index into the history)
+  double onset_s = 0.0;    ///< middle of that step
   double log_likelihood_ratio = 0.0;
+  JointArray impulse{};  ///< of a collision so far, a joint each, N m s or N s
   GaussianState state;
 };
 
@@ -24,7 +25,8 @@ class Bank {
   Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses);
 
   /// A filter that starts from the healthy state before `onset` (>= 1), advanced by that one sample.
-  RunningHypothesis start(int hypothesis, std::int64_t onset, const FollowedSample& before, const FollowedSample& at) const;
+  RunningHypothesis start(int hypothesis, std::int64_t onset, const FollowedSample& before,
+                          const FollowedSample& at) const;
   /// Advances a filter by one sample.
   void advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const;
 

@@ -14,19 +14,22 @@ namespace faultline {
 struct HypothesisEvidence {
   double log_likelihood_ratio = -std::numeric_limits<double>::infinity();  ///< against healthy, best onset
   double onset_s = std::numeric_limits<double>::quiet_NaN();               ///< that best onset
-  std::array<double, 2> size{};      ///< estimated, as many as the hypothesis has (SizePriors gives units)
+  std::array<double, 2> size{};  ///< estimated, as many as the hypothesis has (SizePriors gives units)
   std::array<double, 2> size_std{};
+  std::array<double, kMaxJoints> impulse{};  ///< of a collision, a joint each, N m s or N s
 };
 
-/// A stretch of a log that the healthy robot does not explain, and what each hypothesis of the bank makes of it.
+/// A stretch of a log that the healthy robot does not explain, and what each hypothesis of the bank makes of
+/// it.
 struct EpisodeEvidence {
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< of the best hypothesis
-  double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< first sample with the best ratio past the threshold
-  double judged_s = std::numeric_limits<double>::quiet_NaN(); ///< last sample that went into the ratios
-  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last sample that looked faulty
-  int samples = 0;                                            ///< from onset to judged_s
-  int best = -1;                                              ///< index into `hypotheses`
-  std::vector<HypothesisEvidence> hypotheses;                 ///< in the order of the bank
+  double alarm_s =
+      std::numeric_limits<double>::quiet_NaN();  ///< first sample with the best ratio past the threshold
+  double judged_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that went into the ratios
+  double end_s = std::numeric_limits<double>::quiet_NaN();     ///< last sample that looked faulty
+  int samples = 0;                                             ///< from onset to judged_s
+  int best = -1;                                               ///< index into `hypotheses`
+  std::vector<HypothesisEvidence> hypotheses;                  ///< in the order of the bank
 };
 
 }  // namespace faultline

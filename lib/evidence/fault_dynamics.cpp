@@ -9,8 +9,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kLongestSubstep_s = 0.005;
 constexpr int kMostSubsteps = 40;
+constexpr double kStiff = 1.0;  // friction rate times step from which explicit rules need shorter steps
 
 using Map = Eigen::Map<const Eigen::VectorXd>;
 
@@ -21,7 +21,8 @@ Chain<double> with_unit_payload(const Chain<double>& chain) {
   LinkInertia<double>& link = loaded.links[last];
   const JointGeometry& joint = chain.geometry[last];
   const bool has_reach = joint.kind == AxisKind::revolute && joint.direction.squaredNorm() > 0.0;
-  const Eigen::Vector3d at = has_reach ? Eigen::Vector3d(chain.length[last] * joint.direction) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d at =
+      has_reach ? Eigen::Vector3d(chain.length[last] * joint.direction) : Eigen::Vector3d::Zero();
   const LinkInertia<double> kilogram = general_body(1.0, at, Eigen::Matrix3d::Zero());
   link.mass += kilogram.mass;
   link.first_moment += kilogram.first_moment;
@@ -66,31 +67,30 @@ void invert(const JointMatrix<double>& m, int locked, JointSquare& out) {
 }  // namespace
 
 FaultDynamics::FaultDynamics(const MotionModel& model)
-    : model_(model), unit_payload_(with_unit_payload(model.chain)), joints_(model.joints()) {
-  JointVector<double> middle(joints_);
-  for (int j = 0; j < joints_; ++j) middle[j] = 0.5 * (model.q_low[j] + model.q_high[j]);
-  JointSquare inverse;
-  invert(inertia_matrix(model.chain, middle), -1, inverse);
-  for (int j = 0; j < joints_; ++j) {
-    const Friction<double>& f = model.chain.friction[j];
-    friction_rate_ = std::max(friction_rate_, inverse[j * joints_ + j] * (f.viscous + f.coulomb / f.width));
-  }
-}
+    : model_(model),
+      healthy_(model.chain),
+      unit_payload_(with_unit_payload(model.chain)),
+      joints_(model.joints()) {}
 
 Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, const double* torque,
                                      const Hypothesis* hypothesis, const double* sizes) const {
   const int n = joints_;
   const JointVector<double> q = Map(q_in, n), dq = Map(dq_in, n);
-  JointVector<double> bias = bias_torque(model_.chain, q, dq);
-  JointMatrix<double> inertia = inertia_matrix(model_.chain, q);
+  JointVector<double> bias(n);
+  JointMatrix<double> inertia(n, n);
+  healthy_.inertia_and_bias(q, dq, inertia, bias);
   const FaultKind kind = hypothesis ? hypothesis->label.kind : FaultKind::none;
   const int joint = hypothesis ? hypothesis->joint_index() : -1;
+  const bool everywhere = hypothesis && is_everywhere(*hypothesis);
   Acceleration out;
   JointVector<double> payload_bias;
   JointMatrix<double> payload_inertia;
   if (kind == FaultKind::payload_change) {
-    payload_bias = bias_torque(unit_payload_, q, dq) - bias;
-    payload_inertia = inertia_matrix(unit_payload_, q) - inertia;
+    payload_bias.resize(n);
+    payload_inertia.resize(n, n);
+    unit_payload_.inertia_and_bias(q, dq, payload_inertia, payload_bias);
+    payload_bias -= bias;
+    payload_inertia -= inertia;
     bias += sizes[0] * payload_bias;
     inertia += sizes[0] * payload_inertia;
   }
@@ -99,13 +99,16 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
   JointArray net;
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = model_.chain.friction[j];
-    const double sign = std::tanh(dq[j] / f.width);
-    const double sharpness = (1.0 - sign * sign) / f.width;
+    const bool rubs = f.coulomb != 0.0 || (j == joint && kind == FaultKind::friction_increase);
+    const double sign = rubs ? std::tanh(dq[j] / f.width) : 0.0;
+    const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
     double viscous = f.viscous, coulomb = f.coulomb, drive = torque[j];
     out.size_torque[0][j] = out.size_torque[1][j] = 0.0;
     if (j == joint) {
       switch (kind) {
-        case FaultKind::free_swinging: drive = 0.0; break;
+        case FaultKind::free_swinging:
+          drive = 0.0;
+          break;
         case FaultKind::torque_loss:
           out.size_torque[0][j] = -drive;
           drive *= 1.0 - sizes[0];
@@ -121,10 +124,13 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
           drive += sizes[0];
           out.size_torque[0][j] = 1.0;
           break;
-        default: break;
+        default:
+          break;
       }
     }
+    if (everywhere) drive += sizes[j];
     out.friction_slope[j] = viscous + coulomb * sharpness;
+    out.stiffness = std::max(out.stiffness, out.inverse_inertia[j * n + j] * (viscous + coulomb / f.width));
     net[j] = drive - bias[j] - viscous * dq[j] - coulomb * sign - f.offset;
   }
   for (int i = 0; i < n; ++i) {
@@ -142,19 +148,68 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
   return out;
 }
 
-int FaultDynamics::substeps(double dt) const {
-  const double longest = std::min(kLongestSubstep_s, friction_rate_ > 0.0 ? 1.5 / friction_rate_ : kLongestSubstep_s);
-  return std::clamp(static_cast<int>(std::ceil(dt / longest)), 1, kMostSubsteps);
+void FaultDynamics::implicit_step(double* q, double* dq, const Acceleration& at, double h) const {
+  const int n = joints_;
+  JointSquare system;  // (1 + h/2 M^-1 D) dv = h a, D the friction slope: second order, stable however stiff
+  JointArray change;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j)
+      system[i * n + j] =
+          (i == j ? 1.0 : 0.0) + 0.5 * h * at.inverse_inertia[i * n + j] * at.friction_slope[j];
+    change[i] = h * at.value[i];
+  }
+  for (int k = 0; k < n; ++k) {
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = system[i * n + k] / system[k * n + k];
+      for (int j = k; j < n; ++j) system[i * n + j] -= factor * system[k * n + j];
+      change[i] -= factor * change[k];
+    }
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j) change[i] -= system[i * n + j] * change[j];
+    change[i] /= system[i * n + i];
+  }
+  for (int j = 0; j < n; ++j) {
+    q[j] += h * (dq[j] + 0.5 * change[j]);
+    dq[j] += change[j];
+  }
+}
+
+void FaultDynamics::runge_kutta_step(double* q, double* dq, const double* torque, double h,
+                                     const Hypothesis* hypothesis, const double* sizes) const {
+  static constexpr double kFraction[4] = {0.0, 0.5, 0.5, 1.0};
+  static constexpr double kWeight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+  const int n = joints_;
+  JointArray qs, vs, v{}, a{}, sum_v{}, sum_a{};
+  for (int stage = 0; stage < 4; ++stage) {
+    for (int j = 0; j < n; ++j) {
+      qs[j] = q[j] + kFraction[stage] * h * v[j];
+      vs[j] = dq[j] + kFraction[stage] * h * a[j];
+    }
+    const Acceleration at = evaluate(qs.data(), vs.data(), torque, hypothesis, sizes);
+    for (int j = 0; j < n; ++j) {
+      v[j] = vs[j];
+      a[j] = at.value[j];
+      sum_v[j] += kWeight[stage] * v[j];
+      sum_a[j] += kWeight[stage] * a[j];
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    q[j] += h * sum_v[j];
+    dq[j] += h * sum_a[j];
+  }
 }
 
 Acceleration FaultDynamics::integrate(double* q, double* dq, const double* torque, double dt,
-                                      const Hypothesis* hypothesis, const double* sizes) const {
+                                      const Hypothesis* hypothesis, const double* sizes,
+                                      double longest_substep_s) const {
   const int n = joints_;
-  if (dt <= kShortStep_s) {
-    const Acceleration start = evaluate(q, dq, torque, hypothesis, sizes);
+  const Acceleration first = evaluate(q, dq, torque, hypothesis, sizes);
+  const bool stiff = first.stiffness * dt > kStiff;
+  if (dt <= kShortStep_s && !stiff) {
     JointArray q_mid, dq_mid;
     for (int j = 0; j < n; ++j) {
-      dq_mid[j] = dq[j] + 0.5 * dt * start.value[j];
+      dq_mid[j] = dq[j] + 0.5 * dt * first.value[j];
       q_mid[j] = q[j] + 0.5 * dt * dq[j];
     }
     const Acceleration middle = evaluate(q_mid.data(), dq_mid.data(), torque, hypothesis, sizes);
@@ -164,33 +219,15 @@ Acceleration FaultDynamics::integrate(double* q, double* dq, const double* torqu
     }
     return middle;
   }
-  const Acceleration first = evaluate(q, dq, torque, hypothesis, sizes);
-  const int steps = substeps(dt);
+  const double wanted = std::max(dt / longest_substep_s, first.stiffness * dt / kStiff);
+  const int steps = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   const double h = dt / steps;
-  for (int step = 0; step < steps; ++step) {
-    JointArray qs, vs, sum_v, sum_a;
-    JointArray v = {}, a = {};
-    static constexpr double kFraction[4] = {0.0, 0.5, 0.5, 1.0};
-    static constexpr double kWeight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
-    std::fill_n(sum_v.begin(), n, 0.0);
-    std::fill_n(sum_a.begin(), n, 0.0);
-    for (int stage = 0; stage < 4; ++stage) {
-      for (int j = 0; j < n; ++j) {
-        qs[j] = q[j] + kFraction[stage] * h * v[j];
-        vs[j] = dq[j] + kFraction[stage] * h * a[j];
-      }
-      const Acceleration at = evaluate(qs.data(), vs.data(), torque, hypothesis, sizes);
-      for (int j = 0; j < n; ++j) {
-        v[j] = vs[j];
-        a[j] = at.value[j];
-        sum_v[j] += kWeight[stage] * v[j];
-        sum_a[j] += kWeight[stage] * a[j];
-      }
-    }
-    for (int j = 0; j < n; ++j) {
-      q[j] += h * sum_v[j];
-      dq[j] += h * sum_a[j];
-    }
+  if (first.stiffness * h <= kStiff) {
+    for (int step = 0; step < steps; ++step) runge_kutta_step(q, dq, torque, h, hypothesis, sizes);
+  } else {
+    implicit_step(q, dq, first, h);
+    for (int step = 1; step < steps; ++step)
+      implicit_step(q, dq, evaluate(q, dq, torque, hypothesis, sizes), h);
   }
   return first;
 }

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLogTwoPi = 1.8378770664093453;
-constexpr double kGapPeriods = 5.5;  // a longer gap starts the filter anew
+constexpr double kRangeMargin = 0.03;  // of the range
+constexpr double kStandstill = 0.1;    // of the usual velocity
+constexpr double kGapPeriods = 5.5;    // a longer gap starts the filter anew
 
 }  // namespace
 
@@ -18,15 +20,16 @@ double capped_log_density(const ScalarUpdate& update) {
   return -0.5 * (std::min(update.chi_square(), kChiSquareCap) + std::log(update.variance) + kLogTwoPi);
 }
 
-JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample, int j,
-                               const SensorError& error) {
+JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
+                               int j, const SensorError& error) {
   const int n = model.joints();
   JointObservation out;
   double variances = 1.0;
   int measured = 0;
   auto take = [&](int index, double factor, double z, double std, double& whitened) {
     if (!std::isfinite(z)) return;
-    const ScalarUpdate update = observe(state, index, factor != 0.0 ? error.size_index : -1, factor, z, std * std);
+    const ScalarUpdate update =
+        observe(state, index, factor != 0.0 ? error.size_index : -1, factor, z, std * std);
     whitened = update.innovation / std::sqrt(update.variance);
     out.chi_square += std::min(update.chi_square(), kChiSquareCap);
     variances *= update.variance;
@@ -38,7 +41,29 @@ JointObservation observe_joint(GaussianState& state, const MotionModel& model, c
   return out;
 }
 
-Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {}
+Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {
+  for (int j = 0; j < model.joints(); ++j) {
+    const double margin = kRangeMargin * (model.q_high[j] - model.q_low[j]);
+    low_[j] = model.q_low[j] - margin;
+    high_[j] = model.q_high[j] + margin;
+  }
+}
+
+void Follower::learn_range(const FollowedSample& sample) {
+  for (int j = 0; j < model_.joints(); ++j) {
+    const double margin = kRangeMargin * (model_.q_high[j] - model_.q_low[j]);
+    low_[j] = std::min(low_[j], sample.posterior.mean[j] - margin);
+    high_[j] = std::max(high_[j], sample.posterior.mean[j] + margin);
+  }
+}
+
+bool Follower::is_pressed(const FollowedSample& sample, int j) const {
+  const double q = sample.q[j];
+  if (!std::isfinite(q) || (q >= low_[j] && q <= high_[j])) return false;
+  const double moved = std::isfinite(sample.dq[j]) ? sample.dq[j] * sample.dt : q - last_q_[j];
+  const double still = kStandstill * model_.velocity_scale[j] * sample.dt;
+  return q > high_[j] ? moved < still : moved > -still;
+}
 
 void Follower::read_row(const Log& segment, int row, FollowedSample& out) const {
   out.row = segment.first_row + row;
@@ -66,7 +91,7 @@ void Follower::start(FollowedSample& out) {
     state_.p(j, j) = q_std * q_std;
     state_.p(n + j, n + j) = dq_std * dq_std;
     out.log_likelihood[j] = out.chi_square[j] = out.whitened[j] = out.whitened[n + j] = 0.0;
-    out.repeats[j] = false;
+    out.repeats[j] = out.pressed[j] = false;
   }
   out.dt = 0.0;
   out.total_log_likelihood = 0.0;
@@ -83,7 +108,9 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   } else {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + 0.02 * (dt - usual_dt_) : dt;
     out.dt = dt;
-    predict(state_, model_, dynamics_, {dt, last_torque_.data(), out.torque.data()}, nullptr, 0.0);
+    for (int j = 0; j < n; ++j) out.pressed[j] = is_pressed(out, j);
+    predict(state_, model_, dynamics_, {dt, last_torque_.data(), out.torque.data(), out.pressed.data()},
+            nullptr, 0.0);
     out.total_log_likelihood = 0.0;
     for (int j = 0; j < n; ++j) {
       const JointObservation seen = observe_joint(state_, model_, out, j);

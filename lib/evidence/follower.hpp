@@ -15,8 +15,11 @@ struct FollowedSample {
   double dt = 0.0;    ///< s since the sample before; 0 where the filter started anew
   JointArray q;       ///< NaN where nothing was measured
   JointArray dq;
-  JointArray torque;  ///< held over from the sample before where it is missing
+  JointArray torque;                     ///< held over from the sample before where it is missing
   std::array<bool, kMaxJoints> repeats;  ///< position and velocity equal the sample before, bit for bit
+  /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
+  /// may hold them, so their readings count for no hypothesis.
+  std::array<bool, kMaxJoints> pressed;
   JointArray log_likelihood;  ///< of each joint's channels given the healthy past, chi-square capped
   JointArray chi_square;      ///< of each joint's channels, capped
   std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
@@ -32,8 +35,8 @@ double capped_log_density(const ScalarUpdate& update);
 
 /// A fault size that falsifies what a joint's sensor reads.
 struct SensorError {
-  int size_index = -1;     ///< in the state; -1 for none
-  double on_q = 0.0;       ///< reading = truth + on_q * size
+  int size_index = -1;  ///< in the state; -1 for none
+  double on_q = 0.0;    ///< reading = truth + on_q * size
   double on_dq = 0.0;
 };
 
@@ -44,8 +47,8 @@ struct JointObservation {
   double whitened_q = 0.0;
   double whitened_dq = 0.0;
 };
-JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample, int j,
-                               const SensorError& error = {});
+JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
+                               int j, const SensorError& error = {});
 
 /// Follows a log with the healthy filter, row by row; its state crosses segment borders.
 class Follower {
@@ -54,9 +57,12 @@ class Follower {
 
   /// Takes row `row` of the segment and fills `out`.
   void follow(const Log& segment, int row, FollowedSample& out);
+  /// The robot is healthy at this sample, so where its joints are belongs to the healthy range.
+  void learn_range(const FollowedSample& sample);
   const FaultDynamics& dynamics() const { return dynamics_; }
 
  private:
+  bool is_pressed(const FollowedSample& sample, int j) const;
   void read_row(const Log& segment, int row, FollowedSample& out) const;
   void start(FollowedSample& out);
 
@@ -67,6 +73,7 @@ class Follower {
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
   JointArray last_q_{}, last_dq_{}, last_torque_{};
+  JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };
 
 }  // namespace faultline

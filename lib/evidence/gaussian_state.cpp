@@ -23,7 +23,8 @@ GaussianState extended(const GaussianState& state, int size) {
   return out;
 }
 
-ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z, double noise_variance) {
+ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
+                     double noise_variance) {
   const int n = state.size;
   std::array<double, kMaxStates> ph;  // covariance times the observation row
   for (int i = 0; i < n; ++i) ph[i] = state.p(i, index);

@@ -7,10 +7,10 @@
 
 namespace faultline {
 
-/// Positions, velocities and at most two numbers that say how large a fault is.
-inline constexpr int kMaxStates = 2 * kMaxJoints + 2;
+/// Positions, velocities and the numbers that say how large a fault is, at most one a joint (or two).
+inline constexpr int kMaxStates = 3 * kMaxJoints;
 
-/// Mean and covariance of a small state: q (n), dq (n), fault size (0 to 2).
+/// Mean and covariance of a small state: q (n), dq (n), fault sizes.
 struct GaussianState {
   int size = 0;
   std::array<double, kMaxStates> mean;
@@ -35,7 +35,8 @@ struct ScalarUpdate {
 };
 
 /// Kalman update by the measurement z = mean[index] + factor * mean[other] + noise; `other` < 0 for none.
-ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z, double noise_variance);
+ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
+                     double noise_variance);
 
 /// covariance = A covariance A^T with A row by row, size x size.
 void propagate_covariance(GaussianState& state, const double* transition);

@@ -42,7 +42,9 @@ struct JointSums {
   }
 };
 
-double root_mean(double sum, long long count) { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0; }
+double root_mean(double sum, long long count) {
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
 
 }  // namespace
 
@@ -67,7 +69,8 @@ HealthyStatistics healthy_statistics(std::span<LogSource* const> logs, int joint
     out.velocity_rms.push_back(root_mean(s.dq_squared, s.dq_count));
     out.torque_rms.push_back(root_mean(s.tau_squared, s.tau_count));
     out.torque_largest.push_back(s.tau_largest);
-    out.repeat_share.push_back(s.pairs > 0 ? static_cast<double>(s.repeats) / static_cast<double>(s.pairs) : 0.0);
+    out.repeat_share.push_back(s.pairs > 0 ? static_cast<double>(s.repeats) / static_cast<double>(s.pairs)
+                                           : 0.0);
     out.longest_repeat.push_back(s.longest);
   }
   return out;

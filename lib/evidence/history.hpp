@@ -20,7 +20,9 @@ class History {
   const FollowedSample& operator[](std::int64_t number) const { return samples_[number & mask_]; }
   const FollowedSample& back() const { return samples_[(end_ - 1) & mask_]; }
   std::int64_t last() const { return end_ - 1; }
-  std::int64_t first() const { return std::max<std::int64_t>(0, end_ - static_cast<std::int64_t>(samples_.size())); }
+  std::int64_t first() const {
+    return std::max<std::int64_t>(0, end_ - static_cast<std::int64_t>(samples_.size()));
+  }
   std::int64_t capacity() const { return mask_ + 1; }
 
  private:

@@ -28,7 +28,10 @@ std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
   each_joint(FaultKind::sensor_drift, 1, 0.0, true);
   each_joint(FaultKind::friction_increase, 2);
   bank.push_back({{FaultKind::payload_change, joints}, 0.0, false, 1});
-  for (const double duration_s : kCollisionDurations) each_joint(FaultKind::collision, 1, duration_s);
+  for (const double duration_s : kCollisionDurations) {
+    each_joint(FaultKind::collision, 1, duration_s);
+    if (joints > 1) bank.push_back({{FaultKind::collision, 0}, duration_s, false, joints});
+  }
   each_joint(FaultKind::unknown, 1);
   return bank;
 }

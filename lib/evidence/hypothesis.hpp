@@ -24,13 +24,19 @@ struct SizePriors {
 struct Hypothesis {
   FaultLabel label;         ///< joint from 1
   double duration_s = 0.0;  ///< of a collision's pulse, at most; 0 for faults that stay
-  /// Of a drift: the velocity is read from the same drifting encoder. Of a lock: it is rigid, so that stopping
-  /// jolts the other joints.
+  /// Of a drift: the velocity is read from the same drifting encoder. Of a lock: it is rigid, so that
+  /// stopping jolts the other joints.
   bool variant = false;
-  int sizes = 0;            ///< numbers in the state that say how large it is
+  int sizes = 0;  ///< numbers in the state that say how large it is
 
   int joint_index() const { return label.joint - 1; }
 };
+
+/// A collision that pushes all joints at once, as a contact at the tip or on an outer link does: joint 0, one
+/// size a joint.
+inline bool is_everywhere(const Hypothesis& hypothesis) {
+  return hypothesis.label.kind == FaultKind::collision && hypothesis.label.joint == 0;
+}
 
 /// The bank: every kind at every joint. Loss of torque is left out where the logged torque is measured behind
 /// the drive, since it is then inside the measurement.

@@ -31,8 +31,8 @@ bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
 
 }  // namespace
 
-Judgement::Judgement(const Bank& bank, const History& history, const EvidenceOptions& options, std::int64_t restart,
-                     int repeats)
+Judgement::Judgement(const Bank& bank, const History& history, const EvidenceOptions& options,
+                     std::int64_t restart, int repeats)
     : bank_(bank),
       history_(history),
       options_(options),
@@ -54,14 +54,16 @@ RunningHypothesis Judgement::run(int hypothesis, std::int64_t onset) const {
 void Judgement::begin_at(std::int64_t onset, bool slow_only) {
   if (onset < earliest_ || history_[trigger_].time - history_[onset].time > kLookBack_s) return;
   for (std::size_t h = 0; h < bank_.hypotheses().size(); ++h)
-    if (!slow_only || creeps(bank_.hypotheses()[h].label.kind)) running_.push_back(run(static_cast<int>(h), onset));
+    if (!slow_only || creeps(bank_.hypotheses()[h].label.kind))
+      running_.push_back(run(static_cast<int>(h), onset));
 }
 
 void Judgement::advance() {
   ++now_;
   for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
   update();
-  if (now_ - trigger_ == kFirstPrune || (now_ - trigger_ >= kSecondPrune && (now_ - trigger_) % 20 == 0)) prune();
+  if (now_ - trigger_ == kFirstPrune || (now_ - trigger_ >= kSecondPrune && (now_ - trigger_) % 20 == 0))
+    prune();
 }
 
 void Judgement::update() {
@@ -119,7 +121,8 @@ double Judgement::margin() const {
 bool Judgement::ready() const {
   if (now_ - trigger_ > history_.capacity() / 2) return true;
   if (!alarmed())
-    return now_ - trigger_ >= kFewestConfirm && history_[now_].time - history_[trigger_].time >= options_.confirm_s;
+    return now_ - trigger_ >= kFewestConfirm &&
+           history_[now_].time - history_[trigger_].time >= options_.confirm_s;
   const double since_s = history_[now_].time - history_[alarm_].time;
   if (now_ - alarm_ < options_.fewest_samples || since_s < options_.judge_s) return false;
   return since_s >= options_.longest_judge_s || margin() > options_.clear_margin;

@@ -15,17 +15,27 @@ namespace {
 
 constexpr int kFewestRows = 50;
 constexpr int kSearchRounds = 6;
+constexpr int kMostInflations = 8;
+constexpr double kInflation = 1.5;
+constexpr double kCalmShare = 0.6;  // of the threshold that healthy logs may reach
 
-/// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns.
-double carried_mass(const MotionModel& model) {
+/// M_jj in the middle of the range.
+std::vector<double> inertia_scale(const MotionModel& model) {
   JointVector<double> middle(model.joints());
   for (int j = 0; j < model.joints(); ++j) middle[j] = 0.5 * (model.q_low[j] + model.q_high[j]);
   const JointMatrix<double> inertia = inertia_matrix(model.chain, middle);
+  std::vector<double> diagonal;
+  for (int j = 0; j < model.joints(); ++j) diagonal.push_back(inertia(j, j));
+  return diagonal;
+}
+
+/// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns.
+double carried_mass(const MotionModel& model) {
   for (int j = model.joints() - 1; j >= 0; --j)
-    if (model.chain.geometry[j].kind == AxisKind::prismatic) return inertia(j, j);
+    if (model.chain.geometry[j].kind == AxisKind::prismatic) return model.inertia_scale[j];
   double reach = 0.0;
   for (const double l : model.chain.length) reach += l;
-  return inertia(0, 0) / std::max(reach * reach, 1e-6);
+  return model.inertia_scale[0] / std::max(reach * reach, 1e-6);
 }
 
 SizePriors priors_of(const MotionModel& model, const HealthyStatistics& healthy) {
@@ -78,8 +88,10 @@ std::vector<std::vector<double*>> free_numbers(MotionModel& model, bool held) {
     for (double& value : values) pointers.push_back(&value);
     return pointers;
   };
-  std::vector<std::vector<double*>> groups = {{&model.noise.torque_share}, all(model.noise.floor),
-                                              {&model.noise.rest_share},   all(model.q_std),
+  std::vector<std::vector<double*>> groups = {{&model.noise.torque_share},
+                                              all(model.noise.floor),
+                                              {&model.noise.rest_share},
+                                              all(model.q_std),
                                               all(model.dq_std)};
   if (!held) groups.push_back({&model.noise.step_share});
   return groups;
@@ -108,6 +120,29 @@ void match_noise(MotionModel& model, const std::vector<Log>& logs, bool held) {
   }
 }
 
+/// The largest statistics that healthy logs reach.
+struct Extremes {
+  double trigger = 0.0;
+  double ratio = 0.0;
+};
+
+Extremes extremes(std::span<LogSource* const> logs, const MotionModel& model,
+                  const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options) {
+  Extremes seen;
+  std::vector<EpisodeEvidence> episodes;
+  for (LogSource* log : logs) {
+    log->rewind();
+    Listener listener(model, hypotheses, options);
+    for (Log segment; log->next(segment);) listener.listen(segment, episodes);
+    listener.finish(episodes);
+    seen.trigger = std::max(seen.trigger, listener.largest_trigger());
+    seen.ratio = std::max(seen.ratio, listener.largest_ratio());
+  }
+  for (const EpisodeEvidence& episode : episodes)
+    seen.ratio = std::max(seen.ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
+  return seen;
+}
+
 }  // namespace
 
 MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
@@ -120,16 +155,18 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   const HealthyStatistics healthy = healthy_statistics(logs, identified.chain.joints());
   if (healthy.rows < kFewestRows)
     throw Error(ErrorCode::input, "healthy logs",
-                "hold " + std::to_string(healthy.rows) + " usable rows; at least " + std::to_string(kFewestRows) +
-                    " are needed");
+                "hold " + std::to_string(healthy.rows) + " usable rows; at least " +
+                    std::to_string(kFewestRows) + " are needed");
   model.q_low = healthy.q_low;
   model.q_high = healthy.q_high;
   model.velocity_scale = healthy.velocity_rms;
   model.torque_scale = healthy.torque_largest;
   model.repeat_share = healthy.repeat_share;
   model.longest_repeat = healthy.longest_repeat;
-  for (const double torque : healthy.torque_largest) model.noise.floor.push_back(std::max(0.001 * torque, 1e-9));
+  for (const double torque : healthy.torque_largest)
+    model.noise.floor.push_back(std::max(0.001 * torque, 1e-9));
   if (identified.torque_is_held) model.noise.step_share = 0.0;
+  model.inertia_scale = inertia_scale(model);
   model.priors = priors_of(model, healthy);
   match_noise(model, excerpts(logs, options.excerpt_rows), identified.torque_is_held);
   ProcessNoise& noise = model.noise;
@@ -140,22 +177,18 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   return model;
 }
 
-EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, const MotionModel& model,
+EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
                                      const std::vector<Hypothesis>& hypotheses, EvidenceOptions options) {
-  double trigger = 0.0, ratio = 0.0;
-  std::vector<EpisodeEvidence> episodes;
-  for (LogSource* log : logs) {
-    log->rewind();
-    Listener listener(model, hypotheses, options);
-    for (Log segment; log->next(segment);) listener.listen(segment, episodes);
-    listener.finish(episodes);
-    trigger = std::max(trigger, listener.largest_trigger());
-    ratio = std::max(ratio, listener.largest_ratio());
+  for (int round = 0; round < kMostInflations; ++round) {
+    const Extremes seen = extremes(logs, model, hypotheses, options);
+    if (seen.trigger < options.trigger && seen.ratio < kCalmShare * options.threshold) return options;
+    model.noise.torque_share *= kInflation;
+    model.noise.rest_share *= kInflation;
+    for (double& floor : model.noise.floor) floor *= kInflation;
   }
-  for (const EpisodeEvidence& episode : episodes)
-    ratio = std::max(ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
-  options.trigger = std::max(options.trigger, 1.1 * trigger);
-  options.threshold = std::max(options.threshold, 1.5 * ratio);
+  const Extremes seen = extremes(logs, model, hypotheses, options);
+  options.trigger = std::max(options.trigger, 1.1 * seen.trigger);
+  options.threshold = std::max(options.threshold, 1.5 * seen.ratio);
   return options;
 }
 

@@ -19,20 +19,22 @@ struct IdentifiedMotion {
 };
 
 struct LearnMotionOptions {
-  int excerpt_rows = 12000;          ///< of all logs together, for matching the noise
-  double least_torque_share = 0.003; ///< floors that keep a model of perfect logs from trusting itself too much
+  int excerpt_rows = 12000;  ///< of all logs together, for matching the noise
+  double least_torque_share =
+      0.003;  ///< floors that keep a model of perfect logs from trusting itself too much
   double least_rest_share = 0.05;
-  double safety = 1.25;              ///< the matched process noise is taken this much larger
+  double safety = 1.25;  ///< the matched process noise is taken this much larger
 };
 
-/// A motion model whose process noise is matched to the innovations of the healthy logs by maximum likelihood,
-/// with ranges, repeated codes and size priors read from the same logs. Throws Error(input) when the logs hold
-/// too few rows.
+/// A motion model whose process noise is matched to the innovations of the healthy logs by maximum
+/// likelihood, with ranges, repeated codes and size priors read from the same logs. Throws Error(input) when
+/// the logs hold too few rows.
 MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
                                const LearnMotionOptions& options);
 
-/// Options whose trigger and threshold lie above what the healthy logs themselves reach.
-EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, const MotionModel& model,
+/// Runs the bank over the healthy logs themselves. While they come near the threshold, the process noise does
+/// not cover what the model misses and is made larger; what still sticks out raises trigger and threshold.
+EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
                                      const std::vector<Hypothesis>& hypotheses, EvidenceOptions options);
 
 }  // namespace faultline

@@ -35,9 +35,15 @@ class Listener::Impl {
     const int repeats = trigger_.repeated_codes();
     const bool suspicious = statistic > options_.trigger || repeats >= kSuspiciousRepeats;
     switch (mode_) {
-      case Mode::sleeping: sleep(sample, statistic, repeats, suspicious); break;
-      case Mode::judging: judge(); break;
-      case Mode::ailing: ail(sample, suspicious, ended); break;
+      case Mode::sleeping:
+        sleep(sample, statistic, repeats, suspicious);
+        break;
+      case Mode::judging:
+        judge();
+        break;
+      case Mode::ailing:
+        ail(sample, suspicious, ended);
+        break;
     }
     last_time_s_ = sample.time;
     last_row_ = sample.row;
@@ -58,6 +64,7 @@ class Listener::Impl {
     // A statistic that a rejected suspicion already looked into is old news until it grows or decays.
     if (sample.row < rearm_row_ && statistic < 1.3 * looked_into_ && repeats != kSuspiciousRepeats) return;
     largest_trigger = std::max(largest_trigger, statistic);
+    if (statistic < 0.7 * options_.trigger) follower_.learn_range(sample);
     if (!suspicious) return;
     looked_into_ = statistic;
     judgement_.emplace(bank_, history_, options_, restart_, repeats);

@@ -15,7 +15,8 @@ namespace faultline {
 /// fall changes nothing.
 class Listener {
  public:
-  Listener(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options);
+  Listener(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
+           const EvidenceOptions& options);
   ~Listener();
 
   /// Takes the next rows of the log; episodes that ended are appended.
@@ -23,7 +24,8 @@ class Listener {
   /// After the last row: closes what is open.
   void finish(std::vector<EpisodeEvidence>& ended);
 
-  /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was alarmed.
+  /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was
+  /// alarmed.
   int rejected_alarms() const;
   double largest_trigger() const;
   double largest_ratio() const;

@@ -13,8 +13,8 @@ namespace faultline {
 /// plus dt (step_share |tau step|)^2 for what the torque did between two samples.
 struct ProcessNoise {
   double torque_share = 0.005;
-  double rest_share = 0.1;   ///< of the Coulomb friction, where |dq| is within some friction widths
-  double step_share = 0.3;   ///< 0 when the torque is known to be held
+  double rest_share = 0.1;  ///< of the Coulomb friction, where |dq| is within some friction widths
+  double step_share = 0.3;  ///< 0 when the torque is known to be held
   double correlation_s = 0.02;
   std::vector<double> floor;  ///< N m or N, one a joint
 };
@@ -26,11 +26,13 @@ struct MotionModel {
   ProcessNoise noise;
   std::vector<double> q_std;   ///< measurement noise, rad or m, one a joint; positive
   std::vector<double> dq_std;  ///< rad/s or m/s
-  std::vector<double> q_low;   ///< range seen in healthy logs; outside it an end stop may push
+  std::vector<double> q_low;   ///< range seen in healthy logs
   std::vector<double> q_high;
   std::vector<double> velocity_scale;  ///< root mean square of the healthy velocity
   std::vector<double> torque_scale;    ///< largest healthy torque
-  /// Share of healthy samples whose position and velocity repeat the sample before to the last bit, one a joint.
+  std::vector<double> inertia_scale;   ///< M_jj in the middle of the range, kg m^2 or kg
+  /// Share of healthy samples whose position and velocity repeat the sample before to the last bit, one a
+  /// joint.
   std::vector<double> repeat_share;
   std::vector<int> longest_repeat;  ///< longest such run in the healthy logs
   SizePriors priors;

@@ -9,7 +9,8 @@ namespace {
 
 using Transition = std::array<double, kMaxStates * kMaxStates>;
 
-constexpr double kRestWidths = 3.0;       // friction is uncertain within this many widths of zero velocity
+constexpr double kRestWidths = 3.0;  // friction is uncertain within this many widths of zero velocity
+constexpr double kDerivativeSubstep_s = 0.02;
 constexpr double kUnknownTorqueTime_s = 0.1;  // an unknown disturbance changes by its scale in this time
 
 JointArray mean_torque(const MotionModel& model, const Step& step) {
@@ -32,13 +33,25 @@ double impulse_variance(const MotionModel& model, const Step& step, const Gaussi
   }
   const double jump = noise.step_share * (step.next_torque[j] - step.torque[j]);
   variance = step.dt * noise.correlation_s * variance + step.dt * step.dt * jump * jump;
-  const double margin = 0.03 * (model.q_high[j] - model.q_low[j]);
-  if (state.mean[j] < model.q_low[j] - margin || state.mean[j] > model.q_high[j] + margin)
-    variance += step.dt * noise.correlation_s * 4.0 * model.torque_scale[j] * model.torque_scale[j];
   return variance;
 }
 
-void add_process_noise(GaussianState& state, const Acceleration& at, const MotionModel& model, const Step& step) {
+/// A joint that an end stop may hold: its velocity may have been stopped or turned within the step.
+void allow_end_stops(GaussianState& state, const MotionModel& model, const Step& step) {
+  const int n = model.joints();
+  for (int j = 0; j < n; ++j) {
+    if (!step.pressed || !step.pressed[j]) continue;
+    const double push = model.torque_scale[j] * step.dt / model.inertia_scale[j];
+    const double variance = state.mean[n + j] * state.mean[n + j] + push * push;
+    state.p(n + j, n + j) += variance;
+    state.p(j, j) += step.dt * step.dt * variance / 3.0;
+    state.p(j, n + j) += 0.5 * step.dt * variance;
+    state.p(n + j, j) += 0.5 * step.dt * variance;
+  }
+}
+
+void add_process_noise(GaussianState& state, const Acceleration& at, const MotionModel& model,
+                       const Step& step) {
   const int n = model.joints();
   JointArray variance;
   for (int j = 0; j < n; ++j) variance[j] = impulse_variance(model, step, state, j);
@@ -95,7 +108,8 @@ JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
   return v;
 }
 
-Transition analytic_transition(const GaussianState& state, const Acceleration& at, int n, double dt) {
+Transition analytic_transition(const GaussianState& state, const Acceleration& at, int n, double dt,
+                               bool each_joint_has_a_size) {
   Transition a;
   const int size = state.size;
   std::fill_n(a.begin(), size * size, 0.0);
@@ -106,7 +120,10 @@ Transition analytic_transition(const GaussianState& state, const Acceleration& a
     for (int j = 0; j < n; ++j) a[(n + i) * size + n + j] = v[i * n + j];
     for (int s = 0; s < size - 2 * n; ++s) {
       double slope = 0.0;
-      for (int j = 0; j < n; ++j) slope += at.inverse_inertia[i * n + j] * at.size_torque[s][j];
+      if (each_joint_has_a_size)
+        slope = at.inverse_inertia[i * n + s];
+      else
+        for (int j = 0; j < n; ++j) slope += at.inverse_inertia[i * n + j] * at.size_torque[s][j];
       a[(n + i) * size + 2 * n + s] = dt * slope;
       a[i * size + 2 * n + s] = 0.5 * dt * dt * slope;
     }
@@ -114,34 +131,41 @@ Transition analytic_transition(const GaussianState& state, const Acceleration& a
   return a;
 }
 
-Transition numeric_transition(const GaussianState& before, const GaussianState& after, const MotionModel& model,
+/// By differences of an integration that is coarser than that of the mean, which a derivative can bear.
+Transition numeric_transition(const GaussianState& before, const MotionModel& model,
                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
                               const Hypothesis* hypothesis) {
   Transition a;
   const int n = model.joints(), size = before.size;
   std::fill_n(a.begin(), size * size, 0.0);
+  auto integrate = [&](std::array<double, kMaxStates>& x) {
+    dynamics.integrate(&x[0], &x[n], torque.data(), dt, hypothesis, &x[2 * n], kDerivativeSubstep_s);
+  };
+  std::array<double, kMaxStates> base = before.mean;
+  integrate(base);
   for (int column = 0; column < size; ++column) {
     std::array<double, kMaxStates> moved = before.mean;
     const double delta = 1e-6 * std::max(1.0, std::abs(moved[column]));
     moved[column] += delta;
-    dynamics.integrate(&moved[0], &moved[n], torque.data(), dt, hypothesis, &moved[2 * n]);
-    for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - after.mean[row]) / delta;
+    integrate(moved);
+    for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - base[row]) / delta;
     if (column >= 2 * n) a[column * size + column] = 1.0;
   }
   return a;
 }
 
 /// Moves the mean and covariance over the step, without process noise.
-Acceleration move(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics, const Step& step,
-                  const Hypothesis* hypothesis) {
+Acceleration move(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics,
+                  const Step& step, const Hypothesis* hypothesis) {
   const int n = model.joints();
   const JointArray torque = mean_torque(model, step);
   const GaussianState before = state;
-  const Acceleration at =
-      dynamics.integrate(&state.mean[0], &state.mean[n], torque.data(), step.dt, hypothesis, &state.mean[2 * n]);
-  const Transition a = step.dt <= kAnalyticStep_s
-                           ? analytic_transition(state, at, n, step.dt)
-                           : numeric_transition(before, state, model, dynamics, torque, step.dt, hypothesis);
+  const Acceleration at = dynamics.integrate(&state.mean[0], &state.mean[n], torque.data(), step.dt,
+                                             hypothesis, &state.mean[2 * n]);
+  const Transition a =
+      step.dt <= kAnalyticStep_s
+          ? analytic_transition(state, at, n, step.dt, hypothesis && is_everywhere(*hypothesis))
+          : numeric_transition(before, model, dynamics, torque, step.dt, hypothesis);
   propagate_covariance(state, a.data());
   return at;
 }
@@ -151,9 +175,28 @@ void zero_state(GaussianState& state, int index) {
   for (int i = 0; i < state.size; ++i) state.p(index, i) = state.p(i, index) = 0.0;
 }
 
-void add_outer(GaussianState& state, const double* d, int count, double factor) {
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) state.p(i, j) += factor * d[i] * d[j];
+/// From a fault at the start of the step (`state`) and one at its end (`late`) to one at an unknown moment.
+void blend_onset(GaussianState& state, const std::array<double, kMaxStates>& late,
+                 const std::array<double, kMaxStates>& prior_variance, int n) {
+  std::array<double, kMaxStates> d;
+  for (int i = 0; i < 2 * n; ++i) {
+    d[i] = state.mean[i] - late[i];
+    state.mean[i] = 0.5 * (state.mean[i] + late[i]);
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    for (int j = 0; j < 2 * n; ++j) {
+      double from_sizes = 0.0;  // B P B^T, from the covariance of state and size, which is B P
+      for (int s = 2 * n; s < state.size; ++s)
+        from_sizes += state.p(i, s) * state.p(j, s) / prior_variance[s];
+      state.p(i, j) += d[i] * d[j] / 12.0 - 2.0 / 3.0 * from_sizes;
+    }
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    for (int s = 2 * n; s < state.size; ++s) {
+      state.p(i, s) *= 0.5;
+      state.p(s, i) *= 0.5;
+    }
+  }
 }
 
 /// Change of velocity when the joint of a locked hypothesis stops: its own, and where the lock is rigid also
@@ -167,16 +210,21 @@ JointArray stopping(const double* mean, const FaultDynamics& dynamics, const Hyp
 }
 
 bool changes_motion(FaultKind kind) {
-  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift && kind != FaultKind::stuck_encoder;
+  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
+         kind != FaultKind::stuck_encoder;
 }
 
 /// The pulse of a collision has any shape while it lasts and is over at its duration.
-void shape_collision(GaussianState& state, const Hypothesis& hypothesis, double age_s, double dt, double scale) {
-  const int size_index = state.size - 1;
-  if (age_s > hypothesis.duration_s)
-    zero_state(state, size_index);
-  else
-    state.p(size_index, size_index) += 2.0 * scale * scale * dt / hypothesis.duration_s;
+void shape_collision(GaussianState& state, const Hypothesis& hypothesis, double age_s, double dt,
+                     const SizePriors& priors, int first) {
+  for (int s = first; s < state.size; ++s) {
+    const double scale =
+        priors.external_torque[hypothesis.label.joint > 0 ? hypothesis.joint_index() : s - first];
+    if (age_s > hypothesis.duration_s)
+      zero_state(state, s);
+    else
+      state.p(s, s) += 2.0 * scale * scale * dt / hypothesis.duration_s;
+  }
 }
 
 }  // namespace
@@ -185,21 +233,25 @@ void predict(GaussianState& state, const MotionModel& model, const FaultDynamics
              const Hypothesis* hypothesis, double age_s) {
   const Acceleration at = move(state, model, dynamics, step, hypothesis);
   add_process_noise(state, at, model, step);
+  allow_end_stops(state, model, step);
   if (!hypothesis) return;
-  if (hypothesis->label.kind == FaultKind::locked) zero_state(state, model.joints() + hypothesis->joint_index());
+  if (hypothesis->label.kind == FaultKind::locked)
+    zero_state(state, model.joints() + hypothesis->joint_index());
   if (hypothesis->label.kind == FaultKind::collision)
-    shape_collision(state, *hypothesis, age_s, step.dt, model.priors.external_torque[hypothesis->joint_index()]);
+    shape_collision(state, *hypothesis, age_s, step.dt, model.priors, 2 * model.joints());
   if (hypothesis->label.kind == FaultKind::unknown) {
     const double scale = model.priors.external_torque[hypothesis->joint_index()];
     state.p(state.size - 1, state.size - 1) += scale * scale * step.dt / kUnknownTorqueTime_s;
   }
 }
 
-void predict_onset(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics, const Step& step,
-                   const Hypothesis& hypothesis) {
+void predict_onset(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics,
+                   const Step& step, const Hypothesis& hypothesis) {
   const int n = model.joints();
   if (!changes_motion(hypothesis.label.kind)) return predict(state, model, dynamics, step, nullptr, 0.0);
   const bool locks = hypothesis.label.kind == FaultKind::locked;
+  std::array<double, kMaxStates> prior_variance;
+  for (int s = 2 * n; s < state.size; ++s) prior_variance[s] = state.p(s, s);
   const JointArray torque = mean_torque(model, step);
   std::array<double, kMaxStates> late = state.mean;  // healthy up to the end of the step
   dynamics.integrate(&late[0], &late[n], torque.data(), step.dt, nullptr, nullptr);
@@ -213,15 +265,11 @@ void predict_onset(GaussianState& state, const MotionModel& model, const FaultDy
     zero_state(state, n + hypothesis.joint_index());
   }
   predict(state, model, dynamics, step, &hypothesis, 0.0);
-  std::array<double, kMaxStates> d{};
-  for (int i = 0; i < 2 * n; ++i) {
-    d[i] = state.mean[i] - late[i];
-    state.mean[i] = 0.5 * (state.mean[i] + late[i]);
-  }
-  add_outer(state, d.data(), 2 * n, 1.0 / 12.0);
+  blend_onset(state, late, prior_variance, n);
 }
 
-GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothesis, const SizePriors& priors) {
+GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothesis,
+                         const SizePriors& priors) {
   GaussianState state = extended(healthy, healthy.size + hypothesis.sizes);
   const int j = hypothesis.joint_index(), first = healthy.size;
   auto prior = [&](int index, double mean, double std) {
@@ -229,17 +277,31 @@ GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothe
     state.p(index, index) = std * std;
   };
   switch (hypothesis.label.kind) {
-    case FaultKind::torque_loss: prior(first, 0.5, 0.3); break;
-    case FaultKind::sensor_bias: prior(first, 0.0, priors.bias[j]); break;
-    case FaultKind::sensor_drift: prior(first, 0.0, priors.drift[j]); break;
+    case FaultKind::torque_loss:
+      prior(first, 0.5, 0.3);
+      break;
+    case FaultKind::sensor_bias:
+      prior(first, 0.0, priors.bias[j]);
+      break;
+    case FaultKind::sensor_drift:
+      prior(first, 0.0, priors.drift[j]);
+      break;
     case FaultKind::friction_increase:
       prior(first, priors.viscous_increase[j], priors.viscous_increase[j]);
       prior(first + 1, priors.coulomb_increase[j], priors.coulomb_increase[j]);
       break;
-    case FaultKind::payload_change: prior(first, 0.0, priors.payload); break;
+    case FaultKind::payload_change:
+      prior(first, 0.0, priors.payload);
+      break;
     case FaultKind::collision:
-    case FaultKind::unknown: prior(first, 0.0, priors.external_torque[j]); break;
-    default: break;
+      for (int s = 0; s < hypothesis.sizes; ++s)
+        prior(first + s, 0.0, priors.external_torque[j >= 0 ? j : s]);
+      break;
+    case FaultKind::unknown:
+      prior(first, 0.0, priors.external_torque[j]);
+      break;
+    default:
+      break;
   }
   return state;
 }

@@ -10,7 +10,8 @@ bool repeats_mean_stuck(const MotionModel& model, int joint) {
   return model.longest_repeat[joint] < kSuspiciousRepeats - 1;
 }
 
-Trigger::Trigger(const MotionModel& model) : model_(model), history_(kWindows.back() * 2 * model.joints(), 0.0) {}
+Trigger::Trigger(const MotionModel& model)
+    : model_(model), history_(kWindows.back() * 2 * model.joints(), 0.0) {}
 
 void Trigger::restart() {
   std::fill(history_.begin(), history_.end(), 0.0);

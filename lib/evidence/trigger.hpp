@@ -8,8 +8,9 @@
 
 namespace faultline {
 
-/// The cheap watch over the healthy filter: sums of whitened innovations over windows of several lengths, each
-/// over its standard deviation (the square root of the window's length), and runs of repeated encoder codes.
+/// The cheap watch over the healthy filter: sums of whitened innovations over windows of several lengths,
+/// each over its standard deviation (the square root of the window's length), and runs of repeated encoder
+/// codes.
 class Trigger {
  public:
   static constexpr std::array<int, 5> kWindows = {1, 4, 16, 64, 256};
@@ -18,7 +19,8 @@ class Trigger {
 
   /// Takes the next sample; returns the largest statistic over channels and windows.
   double take(const FollowedSample& sample);
-  /// Samples in the run of repeated codes of any joint whose encoder does not repeat when healthy; 0 without one.
+  /// Samples in the run of repeated codes of any joint whose encoder does not repeat when healthy; 0 without
+  /// one.
   int repeated_codes() const { return longest_run_; }
 
  private:
