@@ -53,7 +53,8 @@ std::string sha256_of_file(const std::string& path) {
     hash.update({block.data(), got});
   const bool failed = std::ferror(file) != 0;
   std::fclose(file);
-  if (failed) throw Error(ErrorCode::input, path, "cannot be read to its end; is it a directory or on a bad disk?");
+  if (failed)
+    throw Error(ErrorCode::input, path, "cannot be read to its end; is it a directory or on a bad disk?");
   return hash.hex();
 }
 

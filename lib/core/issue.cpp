@@ -7,9 +7,12 @@ namespace faultline {
 
 const char* to_string(Severity severity) {
   switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::severe: return "severe";
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::severe:
+      return "severe";
   }
   return "unknown";
 }

@@ -18,11 +18,11 @@ struct Issue {
   std::string code;     ///< stable identifier, such as "time_backward"
   std::string channel;  ///< canonical channel name, empty when it concerns whole rows
   Severity severity = Severity::warning;
-  std::string message;             ///< of the first occurrence: what, where, what was done about it
-  std::int64_t first_row = 0;      ///< data row in the file, from 1; 0 when it has none
+  std::string message;         ///< of the first occurrence: what, where, what was done about it
+  std::int64_t first_row = 0;  ///< data row in the file, from 1; 0 when it has none
   double first_time_s = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t count = 0;          ///< occurrences
-  std::int64_t rows_dropped = 0;   ///< rows left out because of it
+  std::int64_t count = 0;         ///< occurrences
+  std::int64_t rows_dropped = 0;  ///< rows left out because of it
 };
 
 /// Issues in the order of their first occurrence.

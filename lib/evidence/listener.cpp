@@ -24,11 +24,11 @@ class Listener::Impl {
         bank_(model, follower_.dynamics(), hypotheses),
         history_(kHistory) {}
 
-  void take(const Log& segment, int row, std::vector<EpisodeEvidence>& ended) {
+  void take(const Log& segment, int row, std::vector<EpisodeEvidence>& episodes) {
     FollowedSample& sample = history_.push();
     follower_.follow(segment, row, sample);
     if (sample.dt <= 0.0) {
-      interrupt(ended);
+      interrupt(episodes);
       restart_ = history_.last();
     }
     const double statistic = trigger_.take(sample);
@@ -39,17 +39,17 @@ class Listener::Impl {
         sleep(sample, statistic, repeats, suspicious);
         break;
       case Mode::judging:
-        judge();
+        judge(episodes);
         break;
       case Mode::ailing:
-        ail(sample, suspicious, ended);
+        ail(sample, suspicious, episodes);
         break;
     }
     last_time_s_ = sample.time;
     last_row_ = sample.row;
   }
 
-  void finish(std::vector<EpisodeEvidence>& ended) { interrupt(ended); }
+  void finish(std::vector<EpisodeEvidence>& episodes) { interrupt(episodes); }
 
   int rejected_alarms = 0;
   double largest_trigger = 0.0;
@@ -71,41 +71,35 @@ class Listener::Impl {
     mode_ = Mode::judging;
   }
 
-  void judge() {
+  void judge(std::vector<EpisodeEvidence>& episodes) {
     judgement_->advance();
-    if (judgement_->ready()) conclude(history_.back().time, history_.back().row);
+    if (judgement_->ready()) conclude(history_.back().time, history_.back().row, episodes);
   }
 
   /// Names the fault, or lets the suspicion go when its evidence did not last.
-  void conclude(double time_s, std::int64_t row) {
+  void conclude(double time_s, std::int64_t row, std::vector<EpisodeEvidence>& episodes) {
     if (!judgement_->alarmed() || judgement_->best_ratio() < options_.threshold) {
       rejected_alarms += judgement_->alarmed();
       if (!judgement_->alarmed()) largest_ratio = std::max(largest_ratio, judgement_->largest_ratio());
       rearm_row_ = row + kRearm;
       mode_ = Mode::sleeping;
     } else {
-      episode_ = judgement_->evidence();
-      last_faulty_s_ = time_s;
+      episodes.push_back(judgement_->evidence());
+      episodes.back().end_s = last_faulty_s_ = time_s;
       mode_ = Mode::ailing;
     }
     judgement_.reset();
   }
 
-  void ail(const FollowedSample& sample, bool suspicious, std::vector<EpisodeEvidence>& ended) {
-    if (suspicious) last_faulty_s_ = sample.time;
-    if (sample.time - last_faulty_s_ > options_.recover_s) close(ended);
-  }
-
-  void close(std::vector<EpisodeEvidence>& ended) {
-    episode_.end_s = last_faulty_s_;
-    ended.push_back(std::move(episode_));
-    mode_ = Mode::sleeping;
+  void ail(const FollowedSample& sample, bool suspicious, std::vector<EpisodeEvidence>& episodes) {
+    if (suspicious) episodes.back().end_s = last_faulty_s_ = sample.time;
+    if (sample.time - last_faulty_s_ > options_.recover_s) mode_ = Mode::sleeping;
   }
 
   /// The filter started anew (a gap) or the log ended: what is open is decided with what there is.
-  void interrupt(std::vector<EpisodeEvidence>& ended) {
-    if (mode_ == Mode::judging) conclude(last_time_s_, last_row_);
-    if (mode_ == Mode::ailing) close(ended);
+  void interrupt(std::vector<EpisodeEvidence>& episodes) {
+    if (mode_ == Mode::judging) conclude(last_time_s_, last_row_, episodes);
+    mode_ = Mode::sleeping;
   }
 
   EvidenceOptions options_;
@@ -115,7 +109,6 @@ class Listener::Impl {
   History history_;
   Mode mode_ = Mode::sleeping;
   std::optional<Judgement> judgement_;
-  EpisodeEvidence episode_;
   double last_faulty_s_ = 0.0;
   double last_time_s_ = 0.0;
   std::int64_t last_row_ = 0;
@@ -129,11 +122,11 @@ Listener::Listener(const MotionModel& model, const std::vector<Hypothesis>& hypo
     : impl_(std::make_unique<Impl>(model, hypotheses, options)) {}
 Listener::~Listener() = default;
 
-void Listener::listen(const Log& segment, std::vector<EpisodeEvidence>& ended) {
-  for (int row = 0; row < segment.rows(); ++row) impl_->take(segment, row, ended);
+void Listener::listen(const Log& segment, std::vector<EpisodeEvidence>& episodes) {
+  for (int row = 0; row < segment.rows(); ++row) impl_->take(segment, row, episodes);
 }
 
-void Listener::finish(std::vector<EpisodeEvidence>& ended) { impl_->finish(ended); }
+void Listener::finish(std::vector<EpisodeEvidence>& episodes) { impl_->finish(episodes); }
 int Listener::rejected_alarms() const { return impl_->rejected_alarms; }
 double Listener::largest_trigger() const { return impl_->largest_trigger; }
 double Listener::largest_ratio() const { return impl_->largest_ratio; }

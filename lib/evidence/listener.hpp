@@ -19,10 +19,11 @@ class Listener {
            const EvidenceOptions& options);
   ~Listener();
 
-  /// Takes the next rows of the log; episodes that ended are appended.
-  void listen(const Log& segment, std::vector<EpisodeEvidence>& ended);
-  /// After the last row: closes what is open.
-  void finish(std::vector<EpisodeEvidence>& ended);
+  /// Takes the next rows of the log. An episode is appended when it has been judged; its `end_s` moves on
+  /// until the log looks healthy again, so `episodes` must be the same vector all along the log.
+  void listen(const Log& segment, std::vector<EpisodeEvidence>& episodes);
+  /// After the last row: judges what is open.
+  void finish(std::vector<EpisodeEvidence>& episodes);
 
   /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was
   /// alarmed.

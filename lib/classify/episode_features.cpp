@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "lib/classify/episode_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kNearlyAll = 0.93;        // share of lost torque from which the joint swings freely
+constexpr double kUnknownShare = 0.5;      // of the evidence that a known fault must explain
+constexpr double kLargestDeficit = 300.0;  // beyond it a label is out of the question anyway
+constexpr double kSizeFades = 20.0;        // the size of a label this far behind hardly counts
+constexpr double kUsualPulse_s = 0.05;
+
+/// The labels a hypothesis can stand for: its own, or those of all joints for a push on all of them.
+FaultLabel label_of(const Hypothesis& hypothesis, const HypothesisEvidence& evidence,
+                    const MotionModel& model) {
+  if (!is_everywhere(hypothesis)) return hypothesis.label;
+  int strongest = 0;
+  double largest = -1.0;
+  for (int j = 0; j < model.joints(); ++j) {
+    const double push = std::abs(evidence.impulse[j]) / model.torque_scale[j];
+    if (push > largest) largest = push, strongest = j;
+  }
+  return {FaultKind::collision, strongest + 1};
+}
+
+void set_size(LabelEvidence& out, const Hypothesis& hypothesis, const HypothesisEvidence& evidence,
+              const MotionModel& model) {
+  const int j = out.label.joint - 1;
+  const SizePriors& priors = model.priors;
+  switch (hypothesis.label.kind) {
+    case FaultKind::torque_loss:
+      out.size = evidence.size[0];
+      break;
+    case FaultKind::sensor_bias:
+      out.size = evidence.size[0] / priors.bias[j];
+      break;
+    case FaultKind::sensor_drift:
+      out.size = evidence.size[0] / priors.drift[j];
+      break;
+    case FaultKind::friction_increase:
+      out.size = evidence.size[0] / priors.viscous_increase[j];
+      out.second_size = evidence.size[1] / priors.coulomb_increase[j];
+      break;
+    case FaultKind::payload_change:
+      out.size = evidence.size[0] / priors.payload;
+      break;
+    case FaultKind::collision:
+      out.size = evidence.impulse[j] / (model.torque_scale[j] * kUsualPulse_s);
+      break;
+    case FaultKind::unknown:
+      out.size = evidence.size[0] / priors.external_torque[j];
+      break;
+    default:
+      break;
+  }
+}
+
+/// The labels of the bank once each, without the push on all joints.
+std::vector<FaultLabel> distinct_labels(std::span<const Hypothesis> bank) {
+  std::vector<FaultLabel> labels;
+  for (const Hypothesis& hypothesis : bank)
+    if (!is_everywhere(hypothesis) &&
+        std::find(labels.begin(), labels.end(), hypothesis.label) == labels.end())
+      labels.push_back(hypothesis.label);
+  return labels;
+}
+
+}  // namespace
+
+std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std::span<const Hypothesis> bank,
+                                             const MotionModel& model) {
+  std::vector<LabelEvidence> out;
+  for (const FaultLabel& label : distinct_labels(bank))
+    out.push_back({label, -std::numeric_limits<double>::infinity(), 0.0, 0.0});
+  for (std::size_t h = 0; h < bank.size(); ++h) {
+    const HypothesisEvidence& evidence = episode.hypotheses[h];
+    const FaultLabel label = label_of(bank[h], evidence, model);
+    auto entry =
+        std::find_if(out.begin(), out.end(), [&](const LabelEvidence& e) { return e.label == label; });
+    if (evidence.log_likelihood_ratio <= entry->log_likelihood_ratio) continue;
+    entry->log_likelihood_ratio = evidence.log_likelihood_ratio;
+    set_size(*entry, bank[h], evidence, model);
+  }
+  return out;
+}
+
+LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
+  LabelEvidence known, unknown;
+  known.log_likelihood_ratio = unknown.log_likelihood_ratio = -std::numeric_limits<double>::infinity();
+  for (const LabelEvidence& e : evidence) {
+    LabelEvidence& best = e.label.kind == FaultKind::unknown ? unknown : known;
+    if (e.log_likelihood_ratio > best.log_likelihood_ratio) best = e;
+  }
+  if (known.log_likelihood_ratio < kUnknownShare * unknown.log_likelihood_ratio) {
+    unknown.label.joint = 0;
+    return unknown;
+  }
+  if (known.label.kind == FaultKind::torque_loss && known.size > kNearlyAll)
+    known.label.kind = FaultKind::free_swinging;
+  return known;
+}
+
+std::vector<double> episode_features(const EpisodeEvidence& episode,
+                                     const std::vector<LabelEvidence>& evidence,
+                                     std::span<const double> residual_rms) {
+  double best = 0.0;
+  for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
+  std::vector<double> features;
+  for (const LabelEvidence& e : evidence)
+    features.push_back(-std::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
+  for (const LabelEvidence& e : evidence) {
+    const double counts = std::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
+    features.push_back(counts * std::tanh(e.size));
+    if (e.label.kind == FaultKind::friction_increase) features.push_back(counts * std::tanh(e.second_size));
+  }
+  features.push_back(std::log1p(best));
+  features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));
+  features.push_back(std::log(std::max(episode.judged_s - episode.onset_s, 1e-3)));
+  for (const double rms : residual_rms)
+    features.push_back(std::isfinite(rms) ? std::log(std::max(rms, 1e-3)) : 0.0);
+  return features;
+}
+
+std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints) {
+  std::vector<std::string> names;
+  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + to_string(label));
+  for (const FaultLabel& label : distinct_labels(bank)) {
+    names.push_back("size " + to_string(label));
+    if (label.kind == FaultKind::friction_increase) names.push_back("coulomb " + to_string(label));
+  }
+  names.insert(names.end(), {"strength", "samples", "duration"});
+  for (int j = 1; j <= joints; ++j) names.push_back("mlp residual " + std::to_string(j));
+  return names;
+}
+
+}  // namespace faultline

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/evidence/episode_evidence.hpp"
+#include "lib/evidence/motion_model.hpp"
+
+namespace faultline {
+
+/// What the bank makes of an episode by label: for each the best of its hypotheses.
+struct LabelEvidence {
+  FaultLabel label;
+  double log_likelihood_ratio = 0.0;  ///< against healthy
+  double size = 0.0;                  ///< in units of its prior (a loss: share of the torque)
+  double second_size = 0.0;           ///< of friction: Coulomb, in units of its prior
+};
+
+/// One entry a label of the bank, in a fixed order. A collision that pushes all joints counts for the joint
+/// it pushes most, by the joint's usual torque.
+std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std::span<const Hypothesis> bank,
+                                             const MotionModel& model);
+
+/// What the bank itself would say: the likeliest label, where a loss of nearly all torque is a free joint,
+/// and an unknown disturbance is named only when every known fault explains less than half of what it
+/// explains.
+LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
+
+/// The numbers the two networks judge an episode by: for each label how far it stays behind the likeliest and
+/// its size, how strong and how long the episode is, and the MLP's residual of each joint over the episode
+/// (root mean square in units of healthy, one a joint; NaN counts as 1).
+std::vector<double> episode_features(const EpisodeEvidence& episode,
+                                     const std::vector<LabelEvidence>& evidence,
+                                     std::span<const double> residual_rms);
+std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints);
+
+}  // namespace faultline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "lib/core/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace faultline {
+
+void parallel_for(int count, int threads, const std::function<void(int)>& work) {
+  if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  threads = std::min(threads, count);
+  std::vector<std::exception_ptr> failures(std::max(count, 0));
+  std::atomic<int> next = 0;
+  auto run = [&] {
+    for (int i; (i = next.fetch_add(1)) < count;) {
+      try {
+        work(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int t = 1; t < threads; ++t) helpers.emplace_back(run);
+  run();
+  for (std::thread& helper : helpers) helper.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace faultline
