@@ -97,7 +97,7 @@ struct ModelFacts {
 
 /// The residual of one joint over the whole log: measured minus regenerated fault-free motion (the MLP's
 /// one-step prediction), in units of its healthy root mean square, so that about 1 is healthy.
-struct ResidualSummary {
+struct JointResidualSummary {
   int joint = 0;
   double velocity_rms = std::numeric_limits<double>::quiet_NaN();   ///< over the log, normalised
   double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest, normalised
@@ -111,7 +111,7 @@ struct Diagnosis {
   std::string program_version;
   Verdict verdict = Verdict::not_run;
   std::string verdict_reason;
-  std::vector<ResidualSummary> residuals;  ///< a joint each
+  std::vector<JointResidualSummary> residuals;  ///< a joint each
   std::vector<FaultFinding> faults;        ///< by onset
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)

@@ -54,7 +54,7 @@ Json model_json(const ModelFacts& model) {
   return {{"name", model.name}, {"sha256", model.sha256}, {"cases_sha256", text_or_null(model.cases_sha256)}};
 }
 
-Json residual_json(const ResidualSummary& residual) {
+Json residual_json(const JointResidualSummary& residual) {
   return {{"joint", residual.joint},
           {"velocity_rms", number(residual.velocity_rms)},
           {"velocity_peak", number(residual.velocity_peak)},

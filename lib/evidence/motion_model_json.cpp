@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/motion_model_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
+#include "lib/neural/json_matrix.hpp"
+
+namespace faultline {
+namespace {
+
+/// Calls visit(key, vector) for every list that has one number a joint.
+template <typename Model, typename Visit>
+void visit_joint_lists(Model& model, Visit visit) {
+  visit("floor", model.noise.floor);
+  visit("q_std", model.q_std);
+  visit("dq_std", model.dq_std);
+  visit("q_low", model.q_low);
+  visit("q_high", model.q_high);
+  visit("velocity_scale", model.velocity_scale);
+  visit("torque_scale", model.torque_scale);
+  visit("inertia_scale", model.inertia_scale);
+  visit("repeat_share", model.repeat_share);
+  visit("longest_repeat", model.longest_repeat);
+  visit("prior_bias", model.priors.bias);
+  visit("prior_drift", model.priors.drift);
+  visit("prior_viscous_increase", model.priors.viscous_increase);
+  visit("prior_coulomb_increase", model.priors.coulomb_increase);
+  visit("prior_external_torque", model.priors.external_torque);
+}
+
+template <typename Model, typename Visit>
+void visit_numbers(Model& model, Visit visit) {
+  visit("torque_share", model.noise.torque_share);
+  visit("rest_share", model.noise.rest_share);
+  visit("step_share", model.noise.step_share);
+  visit("correlation_s", model.noise.correlation_s);
+  visit("prior_payload", model.priors.payload);
+}
+
+template <typename Options, typename Visit>
+void visit_options(Options& options, Visit visit) {
+  visit("trigger", options.trigger);
+  visit("threshold", options.threshold);
+  visit("judge_s", options.judge_s);
+  visit("longest_judge_s", options.longest_judge_s);
+  visit("clear_margin", options.clear_margin);
+  visit("confirm_s", options.confirm_s);
+  visit("recover_s", options.recover_s);
+}
+
+}  // namespace
+
+void to_json(nlohmann::json& json, const MotionModel& model) {
+  json = nlohmann::json::object();
+  visit_joint_lists(model, [&](const char* key, const auto& values) { json[key] = values; });
+  visit_numbers(model, [&](const char* key, double value) { json[key] = value; });
+}
+
+MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robot, const std::string& where) {
+  MotionModel model;
+  model.chain = robot.chain;
+  model.torque_phi = robot.torque_phi.value_or(0.0);
+  visit_joint_lists(model, [&](const char* key, auto& values) {
+    const Eigen::VectorXd read = vector_from_json(json, key, where);
+    if (read.size() != robot.joints())
+      throw Error(ErrorCode::input, where,
+                  std::string("\"") + key + "\" has " + std::to_string(read.size()) +
+                      " numbers, expected one a joint (" + std::to_string(robot.joints()) +
+                      "); learn the model again");
+    for (const double value : read)
+      values.push_back(static_cast<typename std::decay_t<decltype(values)>::value_type>(value));
+  });
+  visit_numbers(model, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
+  return model;
+}
+
+void to_json(nlohmann::json& json, const EvidenceOptions& options) {
+  json = nlohmann::json{{"fewest_samples", options.fewest_samples}};
+  visit_options(options, [&](const char* key, double value) { json[key] = value; });
+}
+
+EvidenceOptions evidence_options_from_json(const nlohmann::json& json, const std::string& where) {
+  EvidenceOptions options;
+  options.fewest_samples = static_cast<int>(number_from_json(json, "fewest_samples", where));
+  visit_options(options, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
+  return options;
+}
+
+}  // namespace faultline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/cases/case_base.hpp"
+#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/pipeline/model.hpp"
+
+namespace faultline {
+
+/// Diagnoses one log: listens to it, decides each episode, and puts everything into one value. Neither model
+/// nor case base is changed. Throws Error(input) when the log cannot be processed.
+Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases);
+
+}  // namespace faultline

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/cases/case_base.hpp"
+#include "lib/core/progress.hpp"
+#include "lib/identify/identify.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/pipeline/model.hpp"
+#include "lib/residual/learn_residual.hpp"
+
+namespace faultline {
+
+/// A log with the fault that it is known to show.
+struct LabelledLog {
+  LogSource* log = nullptr;
+  FaultLabel label;
+  double onset_s = 0.0;
+};
+
+struct LearnOptions {
+  IdentifyOptions identify{};
+  ResidualOptions residual{};
+  int runs_per_label = 14;       ///< simulated to train the judges and fill the case base
+  int validation_per_label = 5;  ///< simulated to measure the model, trained on by nothing
+  int healthy_runs = 40;         ///< simulated to calibrate thresholds; as many again measure false alarms
+  int threads = 0;               ///< 0 = one a core; changes no byte of the result
+  std::uint64_t seed = 1;
+
+  /// Throws Error(usage) naming the field, its value and its bound.
+  void check() const;
+};
+
+struct Learned {
+  Model model;
+  CaseBase cases;
+  Identification identification;
+  LearnedResidual residual;
+};
+
+/// Learns one robot from its healthy logs: identify it, learn its fault-free motion, match the filters'
+/// noise, simulate faults on the identified robot, train the judges and fill the case base with them (and
+/// with the labelled logs, if any), and measure all that on further simulated runs. Throws Error(input) when
+/// the logs do not suffice.
+Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
+              const LearnOptions& options = {}, const Progress& progress = {});
+
+}  // namespace faultline

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/classify/judges.hpp"
+#include "lib/evidence/evidence_options.hpp"
+#include "lib/evidence/motion_model.hpp"
+#include "lib/residual/residual_generator.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// How often faults of one kind were found in simulated runs that nothing was trained on.
+struct ValidationRow {
+  FaultKind kind = FaultKind::none;
+  int runs = 0;
+  int detected = 0;
+  int right_kind = 0;   ///< whatever the joint
+  int right_joint = 0;  ///< whatever the kind
+  int right_kind_and_joint = 0;
+  int right_or_named = 0;  ///< right, or the right one in could_also_be
+  double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< onset to alarm
+  double p90_delay_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// How good a model is, on runs of the identified robot (its parameters drawn from their uncertainty).
+struct Validation {
+  std::vector<ValidationRow> rows;
+  int early_alarms = 0;  ///< alarms before the onset, in the runs of `rows`
+  double healthy_hours = 0.0;
+  int false_alarms = 0;  ///< in them
+};
+
+/// A log that a model was learned from.
+struct ModelSource {
+  std::string path;  ///< file name without folders
+  std::string sha256;
+  long long rows = 0;
+  std::string fault;  ///< "none" or the label it came with
+};
+
+/// All that is known of one healthy robot: what `learn` makes and `diagnose` needs besides the case base.
+struct Model {
+  std::string name;
+  Robot robot;                   ///< identified
+  double sample_period_s = 0.0;  ///< usual one of the logs it was learned from
+  bool has_velocity = true;      ///< those logs have dq
+  MotionModel motion;
+  EvidenceOptions evidence;
+  std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
+  ResidualGenerator residual;
+  Judges judges;
+  Validation validation;
+  std::vector<ModelSource> sources;
+  std::string sha256;  ///< of the file it was read from
+};
+
+/// The model as one JSON file, schema "faultline/model/1".
+std::string model_to_json(const Model& model);
+/// Throws Error(input) for text that is no model, is cut, is of a newer schema or does not fit together.
+Model model_from_json(const std::string& text, const std::string& where);
+/// Throws Error(input).
+Model load_model(const std::string& path);
+
+}  // namespace faultline

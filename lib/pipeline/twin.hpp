@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/evidence/motion_model.hpp"
+#include "lib/identify/identification.hpp"
+#include "lib/simulate/simulate.hpp"
+
+namespace faultline {
+
+/// What the twin needs of the robot to make runs that resemble its logs.
+struct Twin {
+  const Identification* identification = nullptr;
+  const MotionModel* motion = nullptr;
+  double sample_period_s = 0.0;
+  bool has_velocity = true;
+};
+
+/// A simulated run with the one fault it was asked for; FaultKind::none for a healthy one.
+struct TwinRun {
+  Log log;
+  FaultLabel label;
+  double onset_s = 0.0;
+};
+
+/// Length of a run: long enough for a few moves after any onset.
+double twin_run_length_s(const Twin& twin);
+
+/// A run of the identified robot with its parameters drawn from their uncertainty, motion within the range
+/// and about the speed of its logs, controller and fault size at random, noise as measured. The same seed
+/// gives the same run.
+TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed);
+
+}  // namespace faultline
