@@ -24,5 +24,7 @@ void add_convert(CLI::App& app, Program& program);
 void add_cases(CLI::App& app, Program& program);
 void add_simulate(CLI::App& app, Program& program);
 void add_identify(CLI::App& app, Program& program);
+void add_learn(CLI::App& app, Program& program);
+void add_diagnose(CLI::App& app, Program& program);
 
 }  // namespace faultline

@@ -33,6 +33,8 @@ void add_commands(CLI::App& app, Program& program) {
   add_cases(app, program);
   add_simulate(app, program);
   add_identify(app, program);
+  add_learn(app, program);
+  add_diagnose(app, program);
 }
 
 std::string selected_name(const CLI::App& app) {

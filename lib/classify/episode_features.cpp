@@ -88,6 +88,13 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
   return out;
 }
 
+FaultLabel named_by_size(const FaultLabel& label, const std::vector<LabelEvidence>& evidence) {
+  if (label.kind != FaultKind::torque_loss) return label;
+  for (const LabelEvidence& e : evidence)
+    if (e.label == label && e.size > kNearlyAll) return {FaultKind::free_swinging, label.joint};
+  return label;
+}
+
 LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
   LabelEvidence known, unknown;
   known.log_likelihood_ratio = unknown.log_likelihood_ratio = -std::numeric_limits<double>::infinity();
@@ -99,8 +106,7 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
     unknown.label.joint = 0;
     return unknown;
   }
-  if (known.label.kind == FaultKind::torque_loss && known.size > kNearlyAll)
-    known.label.kind = FaultKind::free_swinging;
+  known.label = named_by_size(known.label, evidence);
   return known;
 }
 

@@ -23,6 +23,9 @@ struct LabelEvidence {
 std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std::span<const Hypothesis> bank,
                                              const MotionModel& model);
 
+/// Free-swinging and the loss of all torque are one fault: a loss of nearly all of it gets the former's name.
+FaultLabel named_by_size(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
+
 /// What the bank itself would say: the likeliest label, where a loss of nearly all torque is a free joint,
 /// and an unknown disturbance is named only when every known fault explains less than half of what it
 /// explains.

@@ -115,8 +115,11 @@ FaultFinding decide_episode(const EpisodeEvidence& episode, std::span<const Join
   finding.alarm_s = episode.alarm_s;
   finding.end_s = episode.end_s;
   const Episode query = episode_of(episode, residuals, model);
-  apply_decision(finding, query, cases, decide(query, cases));
-  add_close_labels(finding, episode, evidence_by_label(episode, model.bank, model.motion), model);
+  const std::vector<LabelEvidence> evidence = evidence_by_label(episode, model.bank, model.motion);
+  CaseDecision decision = decide(query, cases);
+  decision.label = named_by_size(decision.label, evidence);
+  apply_decision(finding, query, cases, decision);
+  add_close_labels(finding, episode, evidence, model);
   add_evidence_lines(finding, episode, residuals, model);
   return finding;
 }

@@ -141,7 +141,7 @@ std::string fault_section(const FaultFinding& f, const LogFacts& log) {
 
 std::string residuals(const Diagnosis& d) {
   std::vector<Row> rows;
-  for (const ResidualSummary& r : d.residuals)
+  for (const JointResidualSummary& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
                     time_text(r.peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return rows.empty() ? "" : table({"joint", "velocity rms", "largest", "at", "position rms"}, rows);

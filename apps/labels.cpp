@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "apps/labels.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else if (c != '\r') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+/// Where the columns are.
+struct LabelColumns {
+  std::size_t file, fault, joint, onset;
+};
+
+std::size_t column(const std::vector<std::string>& header, const char* name, const std::string& path) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end())
+    throw Error(ErrorCode::input, path,
+                std::string("has no column \"") + name + "\"; expected the header file,fault,joint,onset_s");
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+double number(const std::string& cell, const std::string& where) {
+  if (cell.empty()) return 0.0;
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(cell, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used != cell.size()) throw Error(ErrorCode::input, where, "\"" + cell + "\" is no number");
+  return value;
+}
+
+LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& at, const std::string& where) {
+  if (cells.size() <= std::max({at.file, at.fault, at.joint, at.onset}))
+    throw Error(ErrorCode::input, where, "has only " + std::to_string(cells.size()) + " cells");
+  LogLabel label;
+  label.file = cells[at.file];
+  try {
+    label.label.kind = fault_kind_from(cells[at.fault]);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::input, where + ", column fault", error.message());
+  }
+  label.label.joint = static_cast<int>(number(cells[at.joint], where + ", column joint"));
+  label.onset_s = number(cells[at.onset], where + ", column onset_s");
+  return label;
+}
+
+}  // namespace
+
+std::vector<LogLabel> read_labels(const std::string& path) {
+  std::istringstream text(read_file(path));
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> header = cells_of(line);
+  const LabelColumns at{column(header, "file", path), column(header, "fault", path),
+                        column(header, "joint", path), column(header, "onset_s", path)};
+  std::vector<LogLabel> labels;
+  for (int row = 2; std::getline(text, line); ++row)
+    if (line.find_first_not_of(" \r\t,") != std::string::npos)
+      labels.push_back(label_from(cells_of(line), at, path + ", row " + std::to_string(row)));
+  return labels;
+}
+
+const LogLabel* label_of(const std::vector<LogLabel>& labels, const std::string& log) {
+  const auto name = std::filesystem::path(log).filename();
+  for (const LogLabel& label : labels)
+    if (std::filesystem::path(label.file).filename() == name) return &label;
+  return nullptr;
+}
+
+}  // namespace faultline

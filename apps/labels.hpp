@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/core/fault_kind.hpp"
+
+namespace faultline {
+
+/// A row of labels.csv: which fault a log is known to show.
+struct LogLabel {
+  std::string file;  ///< as written; compared by name without folders
+  FaultLabel label;
+  double onset_s = 0.0;
+};
+
+/// Reads `file,fault,joint,onset_s[,...]`; other columns are passed over. Throws Error(input) naming file,
+/// row and column.
+std::vector<LogLabel> read_labels(const std::string& path);
+
+/// The label of a log, by file name; null when there is none.
+const LogLabel* label_of(const std::vector<LogLabel>& labels, const std::string& log);
+
+}  // namespace faultline

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "lib/pipeline/learn.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/labels.hpp"
+#include "apps/progress.hpp"
+#include "formats/open_log.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+struct LearnArguments {
+  std::vector<std::string> logs;
+  std::string robot, labels, model, cases, json;
+  LearnOptions options;
+};
+
+/// The logs that the user named, open, by what they are known to show.
+struct OpenLogs {
+  std::vector<std::unique_ptr<LogSource>> owners;
+  std::vector<LogSource*> healthy;
+  std::vector<LabelledLog> labelled;
+};
+
+OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
+  std::vector<LogLabel> labels;
+  if (!arguments.labels.empty()) labels = read_labels(arguments.labels);
+  OpenLogs open;
+  OpenLogOptions options;
+  options.columns = robot.log.columns;
+  options.keep_extra = false;
+  for (const std::string& log : arguments.logs) {
+    open.owners.push_back(open_log(log, options));
+    const LogLabel* label = label_of(labels, log);
+    if (label && label->label.kind != FaultKind::none)
+      open.labelled.push_back({open.owners.back().get(), label->label, label->onset_s});
+    else
+      open.healthy.push_back(open.owners.back().get());
+  }
+  if (open.healthy.empty())
+    throw Error(ErrorCode::usage, "faultline learn",
+                "all logs are labelled with faults; at least one log of a healthy run is needed");
+  return open;
+}
+
+std::string delay_text(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{:.3f}", seconds) : "-";
+}
+
+std::string validation_text(const Validation& validation) {
+  std::string text = fmt::format("{:<18} {:>5} {:>6} {:>6} {:>6} {:>8} {:>10} {:>8}\n", "simulated fault",
+                                 "runs", "found", "joint", "both", "or named", "delay/s", "p90/s");
+  ValidationRow all;
+  for (const ValidationRow& row : validation.rows) {
+    text += fmt::format("{:<18} {:>5} {:>6} {:>6} {:>6} {:>8} {:>10} {:>8}\n", to_string(row.kind), row.runs,
+                        row.detected, row.right_joint, row.right_kind_and_joint, row.right_or_named,
+                        delay_text(row.median_delay_s), delay_text(row.p90_delay_s));
+    all.runs += row.runs;
+    all.detected += row.detected;
+    all.right_joint += row.right_joint;
+    all.right_kind_and_joint += row.right_kind_and_joint;
+    all.right_or_named += row.right_or_named;
+  }
+  text += fmt::format("{:<18} {:>5} {:>6} {:>6} {:>6} {:>8}\n", "all", all.runs, all.detected,
+                      all.right_joint, all.right_kind_and_joint, all.right_or_named);
+  text +=
+      fmt::format("False alarms: {} in {:.2f} h of simulated healthy running; alarms before the onset: {}.\n",
+                  validation.false_alarms, validation.healthy_hours, validation.early_alarms);
+  return text;
+}
+
+std::string parameter_text(const Identification& identification) {
+  std::string text;
+  auto add = [&](const std::vector<ParameterEstimate>& parameters) {
+    for (const ParameterEstimate& p : parameters) {
+      if (p.identifiable)
+        text += fmt::format("  {:<10} {:>12.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value, p.unit,
+                            p.ci95[0], p.ci95[1]);
+      else
+        text += fmt::format("  {:<10} not identifiable: {}\n", p.name, p.why_not);
+    }
+  };
+  add(identification.physical_parameters);
+  add(identification.base_parameters);
+  return text;
+}
+
+std::string learned_text(const Learned& learned, const LearnArguments& arguments) {
+  std::string text = fmt::format("Learned \"{}\" from {} logs at {:.4g} Hz.\n", learned.model.name,
+                                 learned.model.sources.size(), 1.0 / learned.model.sample_period_s);
+  text += fmt::format("\nIdentified ({}; {}):\n{}", to_string(learned.identification.status),
+                      learned.identification.reason, parameter_text(learned.identification));
+  text += fmt::format(
+      "\nThe MLP foretells the healthy motion with a normalised mean square error of {:.3g} ({:.3g} if "
+      "nothing "
+      "changed).\n\nOn runs of the identified robot that nothing was trained on:\n{}",
+      learned.residual.normalised_mse, learned.residual.persistence_mse,
+      validation_text(learned.model.validation));
+  text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", arguments.model, arguments.cases,
+                      learned.cases.cases().size());
+  return text;
+}
+
+std::string learned_json(const Learned& learned) {
+  const nlohmann::ordered_json model = nlohmann::ordered_json::parse(model_to_json(learned.model));
+  nlohmann::ordered_json json{{"schema", "faultline/learning/1"}, {"name", learned.model.name}};
+  json["identification"] = {{"status", to_string(learned.identification.status)},
+                            {"reason", learned.identification.reason}};
+  for (const char* key : {"sample_period_s", "sources", "validation", "evidence"}) json[key] = model[key];
+  json["cases"] = learned.cases.cases().size();
+  return json.dump(2) + "\n";
+}
+
+int run_learn(const LearnArguments& arguments, ColorChoice color) {
+  const Robot robot = load_robot_file(arguments.robot);
+  const OpenLogs logs = open_logs(arguments, robot);
+  ProgressBar bar(color);
+  const Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
+  write_case_base(arguments.cases, learned.cases);
+  write_file(arguments.model, model_to_json(learned.model));
+  if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned));
+  if (arguments.json != "-") print(learned_text(learned, arguments));
+  return kNothingFound;
+}
+
+}  // namespace
+
+void add_learn(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<LearnArguments>();
+  CLI::App* command = app.add_subcommand("learn", "Learn a model of one robot from logs of healthy runs");
+  command
+      ->add_option("LOG", arguments->logs,
+                   "Logs of healthy runs, and labelled ones of faults if there are any")
+      ->required();
+  command->add_option("--robot", arguments->robot, "Robot file")->required()->type_name("ROBOT.toml");
+  command->add_option("--labels", arguments->labels, "Which logs show which fault: file,fault,joint,onset_s")
+      ->type_name("LABELS.csv");
+  command->add_option("-o,--output", arguments->model, "The model to write")->required()->type_name("MODEL");
+  command->add_option("--cases", arguments->cases, "The case base to write, MODEL.cases.db by default")
+      ->type_name("FILE");
+  command
+      ->add_option("--json", arguments->json, "Write a summary as JSON to this file, - for standard output")
+      ->type_name("F");
+  command
+      ->add_option("--runs-per-label", arguments->options.runs_per_label,
+                   "Simulated runs for each fault and joint that the networks learn from")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Of every random choice")->capture_default_str();
+  command->add_option("--threads", arguments->options.threads, "0 = one a core; changes no byte")
+      ->capture_default_str();
+  command->footer("Example: faultline learn healthy_*.csv --robot robot.toml -o robot.model");
+  command->callback([arguments, &program] {
+    if (arguments->cases.empty()) arguments->cases = arguments->model + ".cases.db";
+    arguments->options.identify.threads = arguments->options.threads;
+    program.run = [arguments, &program] { return run_learn(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline
