@@ -14,6 +14,9 @@ constexpr double kStopShare = 0.6;          // of runs with end stops somewhere 
 constexpr double kTripSpeed = 12.0;         // of the usual speed
 constexpr double kEverywhereShare = 0.4;    // of collisions that push a second joint too
 
+constexpr int kMostAttempts = 4;  // controllers are drawn until one holds the robot up to the onset
+constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;
+
 double log_uniform(Random& random, double low, double high) {
   return low * std::exp(random.uniform() * std::log(high / low));
 }
@@ -45,9 +48,10 @@ MotionSpec motion_spec(const Twin& twin, Random& random) {
   return spec;
 }
 
-ControllerSpec controller_spec(int joints, Random& random) {
+ControllerSpec controller_spec(int joints, bool allow_pd, Random& random) {
   ControllerSpec spec;
-  spec.kind = random.uniform() < kPdShare ? ControllerKind::pd_gravity : ControllerKind::computed_torque;
+  const bool pd = random.uniform() < kPdShare;
+  spec.kind = pd && allow_pd ? ControllerKind::pd_gravity : ControllerKind::computed_torque;
   for (int j = 0; j < joints; ++j) spec.mass_error.push_back(random.uniform(-kModelError, kModelError));
   return spec;
 }
@@ -117,14 +121,9 @@ void push_another_joint(const MotionModel& motion, std::vector<FaultEvent>& faul
   faults.push_back(other);
 }
 
-}  // namespace
-
-double twin_run_length_s(const Twin& twin) {
-  return std::max({5.0, 4.0 * usual_move_s(*twin.motion), 150.0 * twin.sample_period_s});
-}
-
-TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed) {
-  Random random = Random::stream(seed, 7);
+/// One try; the run may end early when the controller drawn does not hold this robot.
+TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
+  Random random = Random::stream(seed, 7 + static_cast<std::uint64_t>(attempt));
   const Robot robot = draw(*twin.identification, random);
   const MotionModel& motion = *twin.motion;
   SimulationSpec spec;
@@ -133,20 +132,37 @@ TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed) 
   spec.control_period_s = control_period_s(twin);
   spec.max_step_s = std::max(kControlPeriod_s, 0.1 * spec.control_period_s);
   spec.motion = motion_spec(twin, random);
-  spec.controller = controller_spec(robot.joints(), random);
+  spec.controller = controller_spec(robot.joints(), attempt == 0, random);
   spec.noise.q = twin.identification->q_noise;
   spec.noise.dq = twin.identification->dq_noise;
   for (const double speed : motion.velocity_scale) spec.overspeed.push_back(kTripSpeed * speed);
   if (random.uniform() < kStopShare) spec.stops = stops_outside(motion, random);
   TwinRun run;
   run.label = label;
+  run.onset_s = spec.duration_s;
   if (label.kind != FaultKind::none) {
     run.onset_s = random.uniform(0.25, 0.7) * spec.duration_s;
     spec.faults.push_back(fault_event(twin, label, run.onset_s, random));
     if (label.kind == FaultKind::collision) push_another_joint(motion, spec.faults, random);
   }
-  run.log = simulate(robot, spec, seed).log;
+  run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;
   if (!twin.has_velocity) run.log.dq.clear();
+  return run;
+}
+
+}  // namespace
+
+double twin_run_length_s(const Twin& twin) {
+  return std::max({5.0, 4.0 * usual_move_s(*twin.motion), 150.0 * twin.sample_period_s});
+}
+
+TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed) {
+  TwinRun run;
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    run = try_twin_run(twin, label, seed, attempt);
+    const double needed_s = run.onset_s + (label.kind == FaultKind::none ? -2.0 : 3.0) * twin.sample_period_s;
+    if (run.log.rows() > 0 && run.log.time.back() >= needed_s) break;
+  }
   return run;
 }
 
