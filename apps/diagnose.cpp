@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "lib/log/prefetch.hpp"
 #include "lib/pipeline/diagnose.hpp"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,7 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   OpenLogOptions options;
   options.columns = model.robot.log.columns;
   options.keep_extra = false;
-  const auto log = open_log(arguments.log, options);
+  const auto log = prefetched(open_log(arguments.log, options));
   const Diagnosis diagnosis = diagnose(*log, model, cases);
   write_reports(diagnosis, arguments);
   TimelineOptions timeline;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/prefetch.hpp"
+
+#include <array>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace faultline {
+namespace {
+
+constexpr int kSegmentsAhead = 4;
+
+/// A ring of segments between the reading thread and the taker.
+class PrefetchSource : public LogSource {
+ public:
+  explicit PrefetchSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {}
+  ~PrefetchSource() override { stop(); }
+
+  bool next(Log& segment) override {
+    if (!reader_.joinable() && !ended_) reader_ = std::thread([this] { read(); });
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ready_ > 0 || ended_; });
+    if (ready_ > 0) {
+      std::swap(segment, ring_[static_cast<std::size_t>(taken_ % kSegmentsAhead)]);
+      ++taken_;
+      --ready_;
+      changed_.notify_all();
+      return true;
+    }
+    lock.unlock();
+    if (reader_.joinable()) reader_.join();
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    return false;
+  }
+
+  void rewind() override {
+    stop();
+    source_->rewind();
+    taken_ = ready_ = 0;
+    ended_ = stopping_ = false;
+    failure_ = nullptr;
+  }
+
+  const LogIdentity& identity() const override { return source_->identity(); }
+  const Issues& issues() const override { return source_->issues(); }
+
+ private:
+  void read() {
+    try {
+      for (int number = 0;; ++number) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return ready_ < kSegmentsAhead || stopping_; });
+        if (stopping_) break;
+        lock.unlock();
+        const bool got = source_->next(ring_[static_cast<std::size_t>(number % kSegmentsAhead)]);
+        lock.lock();
+        if (!got) break;
+        ++ready_;
+        changed_.notify_all();
+      }
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+      changed_.notify_all();
+    }
+    if (reader_.joinable()) reader_.join();
+  }
+
+  std::unique_ptr<LogSource> source_;
+  std::thread reader_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::array<Log, kSegmentsAhead> ring_;
+  int taken_ = 0;  ///< segments handed out
+  int ready_ = 0;  ///< segments read and not handed out
+  bool ended_ = false;
+  bool stopping_ = false;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogSource> prefetched(std::unique_ptr<LogSource> source) {
+  return std::make_unique<PrefetchSource>(std::move(source));
+}
+
+}  // namespace faultline
