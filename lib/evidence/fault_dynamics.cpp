@@ -14,6 +14,9 @@ constexpr double kStiff = 1.0;  // friction rate times step from which explicit 
 
 using Map = Eigen::Map<const Eigen::VectorXd>;
 
+/// tanh, at once where it is 1 to the last bit: a joint that moves.
+double saturating_tanh(double x) { return std::abs(x) > 20.0 ? std::copysign(1.0, x) : std::tanh(x); }
+
 /// One more kilogram on the tip: at the last link's origin for a prismatic last axis, at its end otherwise.
 Chain<double> with_unit_payload(const Chain<double>& chain) {
   Chain<double> loaded = chain;
@@ -117,7 +120,7 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = model_.chain.friction[j];
     const bool rubs = f.coulomb != 0.0 || (j == joint && kind == FaultKind::friction_increase);
-    const double sign = rubs ? std::tanh(dq[j] / f.width) : 0.0;
+    const double sign = rubs ? saturating_tanh(dq[j] / f.width) : 0.0;
     const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
     double viscous = f.viscous, coulomb = f.coulomb, drive = torque[j];
     out.size_torque[0][j] = out.size_torque[1][j] = 0.0;
