@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/prefetch.hpp"
 #include "lib/pipeline/diagnose.hpp"
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 #include "formats/open_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/log/prefetch.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
@@ -21,6 +21,8 @@ namespace {
 
 struct DiagnoseArguments {
   std::string log, model, cases, json, csv, html, junit;
+  std::string mode = "evidence", criterion = "log_odds";
+  int g = 0;
 
   bool standard_output_is_taken() const { return json == "-" || csv == "-" || html == "-" || junit == "-"; }
 };
@@ -32,6 +34,15 @@ void write_reports(const Diagnosis& diagnosis, const DiagnoseArguments& argument
   if (!arguments.junit.empty()) write_file(arguments.junit, render_junit(diagnosis));
 }
 
+DiagnoseOptions diagnose_options(const DiagnoseArguments& arguments) {
+  DiagnoseOptions options;
+  options.mode = arguments.mode == "samples" ? ClassifyMode::samples : ClassifyMode::evidence;
+  options.criterion =
+      arguments.criterion == "consecutive" ? CriterionKind::consecutive : CriterionKind::log_odds;
+  options.g = arguments.g;
+  return options;
+}
+
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   const Model model = load_model(arguments.model);
   const CaseBase cases = read_case_base(arguments.cases);
@@ -39,7 +50,7 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   options.columns = model.robot.log.columns;
   options.keep_extra = false;
   const auto log = prefetched(open_log(arguments.log, options));
-  const Diagnosis diagnosis = diagnose(*log, model, cases);
+  const Diagnosis diagnosis = diagnose(*log, model, cases, diagnose_options(arguments));
   write_reports(diagnosis, arguments);
   TimelineOptions timeline;
   timeline.color = use_color(color, stdout);
@@ -64,6 +75,20 @@ void add_diagnose(CLI::App& app, Program& program) {
   report("--csv", arguments->csv, "Write one row a fault as CSV");
   report("--html", arguments->html, "Write a page to look at");
   report("--junit", arguments->junit, "Write JUnit XML for a CI server");
+  command
+      ->add_option("--classify", arguments->mode,
+                   "evidence: hypotheses on the identified robot, judged by both networks; samples: the "
+                   "paper's way, both "
+                   "networks over the residuals of each sample")
+      ->check(CLI::IsMember({"evidence", "samples"}))
+      ->capture_default_str();
+  command
+      ->add_option("--criterion", arguments->criterion,
+                   "With --classify samples: sum of log odds, or g consecutive samples (the paper)")
+      ->check(CLI::IsMember({"log_odds", "consecutive"}))
+      ->capture_default_str();
+  command->add_option("--g", arguments->g, "With --criterion consecutive: samples; 0 = as tuned by learn")
+      ->check(CLI::NonNegativeNumber);
   command->footer(
       "Exit status 0: healthy or inconclusive, 1: a fault was found.\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");

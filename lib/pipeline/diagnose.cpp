@@ -11,6 +11,7 @@
 #include "lib/diagnosis/decision.hpp"
 #include "lib/pipeline/decide_episode.hpp"
 #include "lib/pipeline/listen.hpp"
+#include "lib/pipeline/listen_to_samples.hpp"
 
 namespace faultline {
 namespace {
@@ -24,31 +25,26 @@ std::string shown_path(const std::string& path) {
   return given.is_absolute() ? given.filename().string() : given.generic_string();
 }
 
-LogFacts log_facts(const LogSource& log, const Heard& heard, int joints) {
+LogFacts log_facts(const LogSource& log, const LogTally& tally, int joints) {
   LogFacts facts;
   facts.path = shown_path(log.identity().path);
   facts.sha256 = log.identity().sha256;
   facts.format = log.identity().format;
   facts.rows_read = log.identity().rows_read;
-  facts.rows_used = heard.rows;
-  facts.start_s = heard.start_s;
-  facts.end_s = heard.end_s;
-  if (heard.rows > 1)
-    facts.sample_period_s = (heard.end_s - heard.start_s) / static_cast<double>(heard.rows - 1);
+  facts.rows_used = tally.rows;
+  facts.start_s = tally.start_s;
+  facts.end_s = tally.end_s;
+  if (tally.rows > 1)
+    facts.sample_period_s = (tally.end_s - tally.start_s) / static_cast<double>(tally.rows - 1);
   facts.joints = joints;
   facts.issues = log.issues();
-  if (heard.rejected_alarms > 0)
-    facts.issues.add(
-        {"short_disturbance", "", Severity::note,
-         "a disturbance looked like a fault but did not last (wild values?); it was not reported", 0,
-         std::numeric_limits<double>::quiet_NaN(), heard.rejected_alarms, 0});
   return facts;
 }
 
-std::vector<JointResidualSummary> residual_table(const Heard& heard) {
+std::vector<JointResidualSummary> residual_table(const std::vector<JointResidual>& residuals) {
   std::vector<JointResidualSummary> table;
-  for (std::size_t j = 0; j < heard.residuals.size(); ++j) {
-    const JointResidual& r = heard.residuals[j];
+  for (std::size_t j = 0; j < residuals.size(); ++j) {
+    const JointResidual& r = residuals[j];
     table.push_back(
         {static_cast<int>(j) + 1, r.velocity_rms, r.velocity_peak, r.velocity_peak_s, r.position_rms});
   }
@@ -89,7 +85,7 @@ std::vector<std::string> blind_spots(const Model& model, bool has_velocity) {
   return spots;
 }
 
-void settle_verdict(Diagnosis& diagnosis, const Heard& heard) {
+void settle_verdict(Diagnosis& diagnosis, const LogTally& tally) {
   order_faults(diagnosis);
   if (!diagnosis.faults.empty()) {
     diagnosis.verdict = Verdict::faulty;
@@ -98,31 +94,64 @@ void settle_verdict(Diagnosis& diagnosis, const Heard& heard) {
     return;
   }
   const double judgeable =
-      heard.rows > 0 ? static_cast<double>(heard.judgeable_rows) / static_cast<double>(heard.rows) : 0.0;
+      tally.rows > 0 ? static_cast<double>(tally.judgeable_rows) / static_cast<double>(tally.rows) : 0.0;
   diagnosis.verdict =
-      judgeable < kFewestJudgeable || heard.rows < kFewestRows ? Verdict::inconclusive : Verdict::healthy;
+      judgeable < kFewestJudgeable || tally.rows < kFewestRows ? Verdict::inconclusive : Verdict::healthy;
   diagnosis.verdict_reason = diagnosis.verdict == Verdict::healthy
                                  ? "the identified robot explains the whole log"
                                  : fmt::format(
                                        "only {} of {} rows have position and torque of every joint; at least "
                                        "{} rows are needed to judge",
-                                       heard.judgeable_rows, heard.rows, kFewestRows);
+                                       tally.judgeable_rows, tally.rows, kFewestRows);
+}
+
+void note_rejected(Issues& issues, int count) {
+  if (count > 0)
+    issues.add({"short_disturbance", "", Severity::note,
+                "a disturbance looked like a fault but did not last (wild values?); it was not reported", 0,
+                std::numeric_limits<double>::quiet_NaN(), count, 0});
+}
+
+/// What both ways of telling faults have in common.
+struct Findings {
+  LogTally tally;
+  std::vector<JointResidual> residuals;
+  std::vector<FaultFinding> faults;
+  int rejected_alarms = 0;
+};
+
+Findings find_by_evidence(LogSource& log, const Model& model, const CaseBase& cases) {
+  const Heard heard = listen(log, model);
+  Findings found{heard.tally, heard.residuals, {}, heard.rejected_alarms};
+  for (std::size_t i = 0; i < heard.episodes.size(); ++i)
+    found.faults.push_back(decide_episode(heard.episodes[i], heard.episode_residuals[i], model, cases));
+  merge_continued(found.faults);
+  return found;
+}
+
+Findings find_by_samples(LogSource& log, const Model& model, const DiagnoseOptions& options) {
+  CriterionOptions criterion =
+      options.criterion == CriterionKind::consecutive ? model.samples.consecutive : model.samples.log_odds;
+  if (options.g > 0) criterion.g = options.g;
+  HeardSamples heard = listen_to_samples(log, model, criterion);
+  return {heard.tally, heard.residuals, std::move(heard.faults), 0};
 }
 
 }  // namespace
 
-Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases) {
-  const Heard heard = listen(log, model);
+Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
+                   const DiagnoseOptions& options) {
+  Findings found = options.mode == ClassifyMode::evidence ? find_by_evidence(log, model, cases)
+                                                          : find_by_samples(log, model, options);
   Diagnosis diagnosis;
-  diagnosis.log = log_facts(log, heard, model.robot.joints());
+  diagnosis.log = log_facts(log, found.tally, model.robot.joints());
+  note_rejected(diagnosis.log.issues, found.rejected_alarms);
   diagnosis.model = {model.name, model.sha256, cases.sha256()};
   diagnosis.program_version = program_version();
-  diagnosis.residuals = residual_table(heard);
-  for (std::size_t i = 0; i < heard.episodes.size(); ++i)
-    diagnosis.faults.push_back(decide_episode(heard.episodes[i], heard.episode_residuals[i], model, cases));
-  merge_continued(diagnosis.faults);
-  diagnosis.cannot_see = blind_spots(model, heard.has_velocity);
-  settle_verdict(diagnosis, heard);
+  diagnosis.residuals = residual_table(found.residuals);
+  diagnosis.faults = std::move(found.faults);
+  diagnosis.cannot_see = blind_spots(model, found.tally.has_velocity);
+  settle_verdict(diagnosis, found.tally);
   return diagnosis;
 }
 

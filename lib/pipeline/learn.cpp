@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
 #include "lib/pipeline/decide_episode.hpp"
+#include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/twin_study.hpp"
 
 namespace faultline {
@@ -16,10 +17,13 @@ namespace {
 
 constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
 constexpr double kMostRaised = 2.0;
+constexpr int kSampleRunsPerLabel = 6;  // of the paper's classifiers, two thirds for training
+constexpr int kHealthySampleRuns = 24;
 
 // Streams of seeds that never meet.
 constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthySeeds = 2'000'000,
-                        kHealthyValidationSeeds = 3'000'000, kSeedBlock = 10'000'000;
+                        kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
+                        kSeedBlock = 10'000'000;
 
 /// Shares of the whole work, for one progress bar.
 Progress part(const Progress& progress, double from, double to) {
@@ -123,8 +127,9 @@ CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model, co
   return cases;
 }
 
-/// Raises the threshold above what simulated healthy runs reach, but not to where it would hide faults because a
-/// controller of the twin went astray; the false alarms of the validation tell whether that was enough.
+/// Raises the threshold above what simulated healthy runs reach, but not to where it would hide faults
+/// because a controller of the twin went astray; the false alarms of the validation tell whether that was
+/// enough.
 void calibrate_on_twin(Model& model, const std::vector<HeardRun>& healthy) {
   double largest = 0.0;
   for (const HeardRun& run : healthy) {
@@ -183,6 +188,13 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   judging.seed = options.seed;
   model.judges = train_judges(training.episodes, judging);
   out.cases = fill_case_base(training, model, judging);
+  std::vector<FaultLabel> sample_labels = labels_to_simulate(model.bank, kSampleRunsPerLabel);
+  // A bias or a drift shows in the residual of its first sample only: after it, their samples look healthy.
+  std::erase_if(sample_labels, [](const FaultLabel& label) {
+    return label.kind == FaultKind::sensor_bias || label.kind == FaultKind::sensor_drift;
+  });
+  sample_labels.insert(sample_labels.end(), kHealthySampleRuns, FaultLabel{});
+  model.samples = learn_sample_mode(twin, model, sample_labels, seed + kSampleSeeds, options.threads);
   model.validation =
       validate(hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.validation_per_label),
                               seed + kValidationSeeds, options.threads, part(progress, 0.85, 1.0)),

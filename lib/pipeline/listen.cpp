@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 
-#include "lib/core/error.hpp"
 #include "lib/evidence/listener.hpp"
 #include "lib/residual/residuals.hpp"
 
@@ -34,32 +33,6 @@ class RecentResiduals {
   std::deque<Residuals> kept_;
 };
 
-void check_channels(const Log& segment, const LogSource& log, const Model& model) {
-  const int joints = model.robot.joints();
-  if (segment.joints() != joints)
-    throw Error(ErrorCode::input, log.identity().path,
-                "is a log of another robot: it has " + std::to_string(segment.joints()) +
-                    " joints, the model \"" + model.name + "\" has " + std::to_string(joints));
-  if (static_cast<int>(segment.tau.size()) != joints)
-    throw Error(
-        ErrorCode::input, log.identity().path,
-        "has no torque (tau1..tau" + std::to_string(joints) +
-            "), without which no fault can be judged; map the columns in [log.columns] of the robot file");
-}
-
-void count_rows(const Log& segment, Heard& heard) {
-  if (heard.rows == 0 && segment.rows() > 0) heard.start_s = segment.time.front();
-  if (segment.rows() > 0) heard.end_s = segment.time.back();
-  heard.has_velocity = !segment.dq.empty();
-  heard.rows += segment.rows();
-  for (int k = 0; k < segment.rows(); ++k) {
-    bool complete = true;
-    for (int j = 0; j < segment.joints(); ++j)
-      complete = complete && std::isfinite(segment.q[j][k]) && std::isfinite(segment.tau[j][k]);
-    heard.judgeable_rows += complete;
-  }
-}
-
 }  // namespace
 
 Heard listen(LogSource& log, const Model& model) {
@@ -75,8 +48,7 @@ Heard listen(LogSource& log, const Model& model) {
     }
   };
   for (Log segment; log.next(segment);) {
-    check_channels(segment, log, model);
-    count_rows(segment, heard);
+    heard.tally.take(segment, log, model);
     Residuals residuals = compute_residuals(model.residual, segment, residual_state);
     whole.add(residuals);
     recent.add(std::move(residuals));

@@ -6,6 +6,7 @@
 
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/log/log_source.hpp"
+#include "lib/pipeline/log_tally.hpp"
 #include "lib/pipeline/model.hpp"
 #include "lib/residual/residual_summary.hpp"
 
@@ -13,11 +14,7 @@ namespace faultline {
 
 /// What one pass over a log gives before anything is decided.
 struct Heard {
-  std::int64_t rows = 0;
-  double start_s = std::numeric_limits<double>::quiet_NaN();
-  double end_s = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t judgeable_rows = 0;  ///< rows with a position for every joint and a torque
-  bool has_velocity = false;
+  LogTally tally;
   std::vector<EpisodeEvidence> episodes;
   std::vector<std::vector<JointResidual>>
       episode_residuals;                 ///< of the MLP, an entry an episode, from onset on

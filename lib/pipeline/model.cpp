@@ -65,6 +65,29 @@ nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
   return list;
 }
 
+nlohmann::json criterion_to_json(const CriterionOptions& options) {
+  return {{"g", options.g}, {"threshold", options.threshold}, {"sample_cap", options.sample_cap}};
+}
+
+CriterionOptions criterion_from_json(CriterionKind kind, const nlohmann::json& json) {
+  return {kind, json.at("g").get<int>(), json.at("threshold").get<double>(),
+          json.at("sample_cap").get<double>()};
+}
+
+nlohmann::json samples_to_json(const SampleMode& samples) {
+  nlohmann::json classifier;
+  to_json(classifier, samples.classifier);
+  return {{"classifier", classifier},
+          {"consecutive", criterion_to_json(samples.consecutive)},
+          {"log_odds", criterion_to_json(samples.log_odds)}};
+}
+
+SampleMode samples_from_json(const nlohmann::json& json, const std::string& where) {
+  return {sample_classifier_from_json(json.at("classifier"), where),
+          criterion_from_json(CriterionKind::consecutive, json.at("consecutive")),
+          criterion_from_json(CriterionKind::log_odds, json.at("log_odds"))};
+}
+
 nlohmann::json parse(const std::string& text, const std::string& where) {
   nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded())
@@ -95,6 +118,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
   model.judges = judges_from_json(json.at("judges"), where);
+  model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
   for (const auto& source : json.at("sources"))
     model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
@@ -121,6 +145,7 @@ std::string model_to_json(const Model& model) {
   json["motion"] = motion;
   json["residual"] = residual;
   json["judges"] = judges;
+  json["samples"] = samples_to_json(model.samples);
   return json.dump(1) + "\n";
 }
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/classify/fault_criterion.hpp"
 #include "lib/classify/judges.hpp"
+#include "lib/classify/sample_classifier.hpp"
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
 #include "lib/residual/residual_generator.hpp"
@@ -42,6 +44,13 @@ struct ModelSource {
   std::string fault;  ///< "none" or the label it came with
 };
 
+/// The paper's way: both networks over the residuals of each sample, and the fault criterion, as tuned.
+struct SampleMode {
+  SampleClassifier classifier;
+  CriterionOptions consecutive{.kind = CriterionKind::consecutive};
+  CriterionOptions log_odds{.kind = CriterionKind::log_odds};
+};
+
 /// All that is known of one healthy robot: what `learn` makes and `diagnose` needs besides the case base.
 struct Model {
   std::string name;
@@ -53,6 +62,7 @@ struct Model {
   std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
   ResidualGenerator residual;
   Judges judges;
+  SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;
   std::string sha256;  ///< of the file it was read from

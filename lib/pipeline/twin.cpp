@@ -143,6 +143,7 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
   if (label.kind != FaultKind::none) {
     run.onset_s = random.uniform(0.25, 0.7) * spec.duration_s;
     spec.faults.push_back(fault_event(twin, label, run.onset_s, random));
+    run.end_s = spec.faults.front().end_s;
     if (label.kind == FaultKind::collision) push_another_joint(motion, spec.faults, random);
   }
   run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lib/evidence/motion_model.hpp"
@@ -23,6 +24,7 @@ struct TwinRun {
   Log log;
   FaultLabel label;
   double onset_s = 0.0;
+  double end_s = std::numeric_limits<double>::infinity();  ///< of a fault that passes
 };
 
 /// Length of a run: long enough for a few moves after any onset.
