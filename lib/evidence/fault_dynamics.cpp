@@ -10,6 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr int kMostSubsteps = 40;
+constexpr double kCoarseSubstep_s = 0.025;
 constexpr double kStiff = 1.0;  // friction rate times step from which explicit rules need shorter steps
 
 using Map = Eigen::Map<const Eigen::VectorXd>;
@@ -168,6 +169,22 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
   return out;
 }
 
+void FaultDynamics::midpoint_step(double* q, double* dq, const Acceleration& start, const double* torque,
+                                  double h, const Hypothesis* hypothesis, const double* sizes,
+                                  Acceleration* middle) const {
+  JointArray q_mid, dq_mid;
+  for (int j = 0; j < joints_; ++j) {
+    dq_mid[j] = dq[j] + 0.5 * h * start.value[j];
+    q_mid[j] = q[j] + 0.5 * h * dq[j];
+  }
+  const Acceleration at = evaluate(q_mid.data(), dq_mid.data(), torque, hypothesis, sizes);
+  for (int j = 0; j < joints_; ++j) {
+    q[j] += h * dq_mid[j];
+    dq[j] += h * at.value[j];
+  }
+  if (middle) *middle = at;
+}
+
 void FaultDynamics::implicit_step(double* q, double* dq, const Acceleration& at, double h) const {
   const int n = joints_;
   JointSquare system;  // (1 + h/2 M^-1 D) dv = h a, D the friction slope: second order, stable however stiff
@@ -221,25 +238,15 @@ void FaultDynamics::runge_kutta_step(double* q, double* dq, const double* torque
 }
 
 Acceleration FaultDynamics::integrate(double* q, double* dq, const double* torque, double dt,
-                                      const Hypothesis* hypothesis, const double* sizes,
-                                      double longest_substep_s) const {
-  const int n = joints_;
+                                      const Hypothesis* hypothesis, const double* sizes) const {
   const Acceleration first = evaluate(q, dq, torque, hypothesis, sizes);
   const bool stiff = first.stiffness * dt > kStiff;
   if (dt <= kShortStep_s && !stiff) {
-    JointArray q_mid, dq_mid;
-    for (int j = 0; j < n; ++j) {
-      dq_mid[j] = dq[j] + 0.5 * dt * first.value[j];
-      q_mid[j] = q[j] + 0.5 * dt * dq[j];
-    }
-    const Acceleration middle = evaluate(q_mid.data(), dq_mid.data(), torque, hypothesis, sizes);
-    for (int j = 0; j < n; ++j) {
-      q[j] += dt * dq_mid[j];
-      dq[j] += dt * middle.value[j];
-    }
+    Acceleration middle;
+    midpoint_step(q, dq, first, torque, dt, hypothesis, sizes, &middle);
     return middle;
   }
-  const double wanted = std::max(dt / longest_substep_s, first.stiffness * dt / kStiff);
+  const double wanted = std::max(dt / kLongestSubstep_s, first.stiffness * dt / kStiff);
   const int steps = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   const double h = dt / steps;
   if (first.stiffness * h <= kStiff) {
@@ -250,6 +257,21 @@ Acceleration FaultDynamics::integrate(double* q, double* dq, const double* torqu
       implicit_step(q, dq, evaluate(q, dq, torque, hypothesis, sizes), h);
   }
   return first;
+}
+
+void FaultDynamics::integrate_coarsely(double* q, double* dq, const double* torque, double dt,
+                                       const Hypothesis* hypothesis, const double* sizes) const {
+  Acceleration at = evaluate(q, dq, torque, hypothesis, sizes);
+  const double wanted = std::max(dt / kCoarseSubstep_s, at.stiffness * dt / kStiff);
+  const int steps = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
+  const double h = dt / steps;
+  for (int step = 0; step < steps; ++step) {
+    if (step > 0) at = evaluate(q, dq, torque, hypothesis, sizes);
+    if (at.stiffness * h <= kStiff)
+      midpoint_step(q, dq, at, torque, h, hypothesis, sizes, nullptr);
+    else
+      implicit_step(q, dq, at, h);
+  }
 }
 
 JointArray FaultDynamics::stopping_impulse(const double* q_in, const double* dq, int j) const {

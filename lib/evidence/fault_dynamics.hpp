@@ -38,14 +38,20 @@ class FaultDynamics {
   Acceleration evaluate(const double* q, const double* dq, const double* torque, const Hypothesis* hypothesis,
                         const double* sizes) const;
   /// Integrates q and dq in place over dt under a constant torque: the midpoint rule for short steps, else
-  /// Runge-Kutta with substeps of at most `longest_substep_s`; linearly implicit where friction is stiff.
+  /// Runge-Kutta with substeps of at most 5 ms; linearly implicit where friction is stiff.
   /// Returns the accelerations at the middle of the step (short) or its start (long).
   Acceleration integrate(double* q, double* dq, const double* torque, double dt, const Hypothesis* hypothesis,
-                         const double* sizes, double longest_substep_s = kLongestSubstep_s) const;
+                         const double* sizes) const;
+  /// The same by the midpoint rule with substeps of about 25 ms where friction allows: for derivatives, which
+  /// bear the coarseness.
+  void integrate_coarsely(double* q, double* dq, const double* torque, double dt,
+                          const Hypothesis* hypothesis, const double* sizes) const;
   /// Change of velocity when joint j is stopped at once by a torque on that joint alone.
   JointArray stopping_impulse(const double* q, const double* dq, int j) const;
 
  private:
+  void midpoint_step(double* q, double* dq, const Acceleration& start, const double* torque, double h,
+                     const Hypothesis* hypothesis, const double* sizes, Acceleration* middle) const;
   void implicit_step(double* q, double* dq, const Acceleration& at, double h) const;
   void runge_kutta_step(double* q, double* dq, const double* torque, double h, const Hypothesis* hypothesis,
                         const double* sizes) const;

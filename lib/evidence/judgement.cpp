@@ -11,10 +11,12 @@ namespace {
 
 /// How far back faults are tried to have begun, in samples before the trigger.
 constexpr std::array<int, 16> kOffsets = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256};
-constexpr int kSlowOffset = 16;      // farther back only faults that creep are tried
-constexpr double kLookBack_s = 2.5;  // and never farther than this
-constexpr int kFirstPrune = 12;      // samples after the trigger: two onsets a hypothesis stay
-constexpr int kSecondPrune = 40;     // one onset stays, and only hypotheses within kHopeless of the best
+constexpr int kSlowOffset = 16;        // farther back only faults that creep are tried
+constexpr double kLookBack_s = 2.5;    // and never farther than this
+constexpr int kFirstPrune = 12;        // samples after the trigger: two onsets a hypothesis stay
+constexpr int kFewestBeforePrune = 4;  // at low rates, when this many samples take this long
+constexpr double kFirstPrune_s = 0.25;
+constexpr int kSecondPrune = 40;  // one onset stays, and only hypotheses within kHopeless of the best
 constexpr double kHopeless = 60.0;
 constexpr double kWorthRefining = 25.0;
 constexpr int kMostRefined = 6;
@@ -62,8 +64,10 @@ void Judgement::advance() {
   ++now_;
   for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
   update();
-  if (now_ - trigger_ == kFirstPrune || (now_ - trigger_ >= kSecondPrune && (now_ - trigger_) % 20 == 0))
-    prune();
+  const std::int64_t since = now_ - trigger_;
+  const bool slow = history_[now_].time - history_[trigger_].time >= kFirstPrune_s;
+  const bool first_time = !pruned_ && (since >= kFirstPrune || (slow && since >= kFewestBeforePrune));
+  if (first_time || (since >= kSecondPrune && since % 20 == 0)) prune();
 }
 
 void Judgement::update() {
@@ -75,6 +79,7 @@ void Judgement::update() {
 }
 
 void Judgement::prune() {
+  pruned_ = true;
   const bool second = now_ - trigger_ >= kSecondPrune;
   const std::size_t keep = second ? 1 : 2;
   std::stable_sort(running_.begin(), running_.end(), [](const auto& a, const auto& b) {

@@ -44,6 +44,7 @@ class Judgement {
   std::int64_t trigger_;
   std::int64_t now_;
   std::int64_t alarm_ = -1;
+  bool pruned_ = false;
   double best_ratio_ = 0.0;
   double largest_ratio_ = 0.0;
   std::vector<RunningHypothesis> running_;

@@ -10,7 +10,6 @@ namespace {
 using Transition = std::array<double, kMaxStates * kMaxStates>;
 
 constexpr double kRestWidths = 3.0;  // friction is uncertain within this many widths of zero velocity
-constexpr double kDerivativeSubstep_s = 0.02;
 constexpr double kUnknownTorqueTime_s = 0.1;  // an unknown disturbance changes by its scale in this time
 
 JointArray mean_torque(const MotionModel& model, const Step& step) {
@@ -139,7 +138,7 @@ Transition numeric_transition(const GaussianState& before, const MotionModel& mo
   const int n = model.joints(), size = before.size;
   std::fill_n(a.begin(), size * size, 0.0);
   auto integrate = [&](std::array<double, kMaxStates>& x) {
-    dynamics.integrate(&x[0], &x[n], torque.data(), dt, hypothesis, &x[2 * n], kDerivativeSubstep_s);
+    dynamics.integrate_coarsely(&x[0], &x[n], torque.data(), dt, hypothesis, &x[2 * n]);
   };
   std::array<double, kMaxStates> base = before.mean;
   integrate(base);
