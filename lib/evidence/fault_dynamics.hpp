@@ -4,12 +4,10 @@
 #include <array>
 
 #include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/small_inverse.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
-
-using JointArray = std::array<double, kMaxJoints>;
-using JointSquare = std::array<double, kMaxJoints * kMaxJoints>;  ///< row by row, n numbers each
 
 /// Steps up to this long are short: one midpoint step, with a transition matrix from the friction slope.
 inline constexpr double kShortStep_s = 0.004;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/evidence/process_noise.hpp"
+#include "lib/evidence/transition.hpp"
+
 namespace faultline {
 namespace {
 
-using Transition = std::array<double, kMaxStates * kMaxStates>;
-
-constexpr double kRestWidths = 3.0;  // friction is uncertain within this many widths of zero velocity
 constexpr double kUnknownTorqueTime_s = 0.1;  // an unknown disturbance changes by its scale in this time
 
 JointArray mean_torque(const MotionModel& model, const Step& step) {
@@ -17,140 +17,6 @@ JointArray mean_torque(const MotionModel& model, const Step& step) {
   for (int j = 0; j < model.joints(); ++j)
     torque[j] = step.torque[j] + model.torque_phi * (step.next_torque[j] - step.torque[j]);
   return torque;
-}
-
-/// Variance of the torque impulse that the model misses at joint j over the step.
-double impulse_variance(const MotionModel& model, const Step& step, const GaussianState& state, int j) {
-  const ProcessNoise& noise = model.noise;
-  const int n = model.joints();
-  const double tau = std::max(std::abs(step.torque[j]), std::abs(step.next_torque[j]));
-  double variance = noise.floor[j] * noise.floor[j] + noise.torque_share * noise.torque_share * tau * tau;
-  const Friction<double>& friction = model.chain.friction[j];
-  if (std::abs(state.mean[n + j]) < kRestWidths * friction.width) {
-    const double rest = noise.rest_share * friction.coulomb;
-    variance += rest * rest;
-  }
-  const double jump = noise.step_share * (step.next_torque[j] - step.torque[j]);
-  variance = step.dt * noise.correlation_s * variance + step.dt * step.dt * jump * jump;
-  return variance;
-}
-
-/// A joint that an end stop may hold: its velocity may have been stopped or turned within the step.
-void allow_end_stops(GaussianState& state, const MotionModel& model, const Step& step) {
-  const int n = model.joints();
-  for (int j = 0; j < n; ++j) {
-    if (!step.pressed || !step.pressed[j]) continue;
-    const double push = model.torque_scale[j] * step.dt / model.inertia_scale[j];
-    const double variance = state.mean[n + j] * state.mean[n + j] + push * push;
-    state.p(n + j, n + j) += variance;
-    state.p(j, j) += step.dt * step.dt * variance / 3.0;
-    state.p(j, n + j) += 0.5 * step.dt * variance;
-    state.p(n + j, j) += 0.5 * step.dt * variance;
-  }
-}
-
-void add_process_noise(GaussianState& state, const Acceleration& at, const MotionModel& model,
-                       const Step& step) {
-  const int n = model.joints();
-  JointArray variance;
-  for (int j = 0; j < n; ++j) variance[j] = impulse_variance(model, step, state, j);
-  for (int i = 0; i < n; ++i) {
-    for (int k = i; k < n; ++k) {
-      double sum = 0.0;
-      for (int j = 0; j < n; ++j)
-        sum += at.inverse_inertia[i * n + j] * variance[j] * at.inverse_inertia[k * n + j];
-      const double half = 0.5 * step.dt * sum, third = step.dt * step.dt * sum / 3.0;
-      state.p(n + i, n + k) += sum;
-      state.p(i, n + k) += half;
-      state.p(n + i, k) += half;
-      state.p(i, k) += third;
-      if (i == k) continue;
-      state.p(n + k, n + i) += sum;
-      state.p(k, n + i) += half;
-      state.p(n + k, i) += half;
-      state.p(k, i) += third;
-    }
-  }
-}
-
-/// V = (1 + dt M^-1 D)^-1 with D the friction slope, by two terms of the series or Gauss-Jordan.
-JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
-  JointSquare x, v{};
-  double largest = 0.0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      x[i * n + j] = dt * at.inverse_inertia[i * n + j] * at.friction_slope[j];
-      largest = std::max(largest, std::abs(x[i * n + j]));
-    }
-  }
-  for (int i = 0; i < n; ++i) v[i * n + i] = 1.0;
-  if (largest < 0.01) {
-    for (int i = 0; i < n * n; ++i) v[i] -= x[i];
-    return v;
-  }
-  for (int i = 0; i < n; ++i) x[i * n + i] += 1.0;
-  for (int k = 0; k < n; ++k) {
-    const double scale = 1.0 / x[k * n + k];
-    for (int j = 0; j < n; ++j) {
-      x[k * n + j] *= scale;
-      v[k * n + j] *= scale;
-    }
-    for (int i = 0; i < n; ++i) {
-      if (i == k) continue;
-      const double factor = x[i * n + k];
-      for (int j = 0; j < n; ++j) {
-        x[i * n + j] -= factor * x[k * n + j];
-        v[i * n + j] -= factor * v[k * n + j];
-      }
-    }
-  }
-  return v;
-}
-
-Transition analytic_transition(const GaussianState& state, const Acceleration& at, int n, double dt,
-                               bool each_joint_has_a_size) {
-  Transition a;
-  const int size = state.size;
-  std::fill_n(a.begin(), size * size, 0.0);
-  for (int i = 0; i < size; ++i) a[i * size + i] = 1.0;
-  const JointSquare v = velocity_transition(at, n, dt);
-  for (int i = 0; i < n; ++i) {
-    a[i * size + n + i] = dt;
-    for (int j = 0; j < n; ++j) a[(n + i) * size + n + j] = v[i * n + j];
-    for (int s = 0; s < size - 2 * n; ++s) {
-      double slope = 0.0;
-      if (each_joint_has_a_size)
-        slope = at.inverse_inertia[i * n + s];
-      else
-        for (int j = 0; j < n; ++j) slope += at.inverse_inertia[i * n + j] * at.size_torque[s][j];
-      a[(n + i) * size + 2 * n + s] = dt * slope;
-      a[i * size + 2 * n + s] = 0.5 * dt * dt * slope;
-    }
-  }
-  return a;
-}
-
-/// By differences of an integration that is coarser than that of the mean, which a derivative can bear.
-Transition numeric_transition(const GaussianState& before, const MotionModel& model,
-                              const FaultDynamics& dynamics, const JointArray& torque, double dt,
-                              const Hypothesis* hypothesis) {
-  Transition a;
-  const int n = model.joints(), size = before.size;
-  std::fill_n(a.begin(), size * size, 0.0);
-  auto integrate = [&](std::array<double, kMaxStates>& x) {
-    dynamics.integrate_coarsely(&x[0], &x[n], torque.data(), dt, hypothesis, &x[2 * n]);
-  };
-  std::array<double, kMaxStates> base = before.mean;
-  integrate(base);
-  for (int column = 0; column < size; ++column) {
-    std::array<double, kMaxStates> moved = before.mean;
-    const double delta = 1e-6 * std::max(1.0, std::abs(moved[column]));
-    moved[column] += delta;
-    integrate(moved);
-    for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - base[row]) / delta;
-    if (column >= 2 * n) a[column * size + column] = 1.0;
-  }
-  return a;
 }
 
 /// Moves the mean and covariance over the step, without process noise.
