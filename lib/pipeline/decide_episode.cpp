@@ -79,18 +79,15 @@ void add_evidence_lines(FaultFinding& finding, const EpisodeEvidence& episode,
                         std::span<const JointResidual> residuals, const Model& model) {
   const double ratio = episode.hypotheses[episode.best].log_likelihood_ratio;
   finding.evidence.push_back(
-      {"log_likelihood_ratio", ratio, "",
-       fmt::format("the fault explains the log better than a healthy robot by {:.0f} nats "
-                   "(alarm from {:.0f} on)",
-                   ratio, model.evidence.threshold)});
+      {"log_likelihood_ratio", ratio, "nats",
+       fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)",
+                   model.evidence.threshold)});
   const std::string size = finding.label.joint > 0 ? size_text(episode, model, finding.label) : "";
   if (!size.empty()) finding.evidence.push_back({"size", std::numeric_limits<double>::quiet_NaN(), "", size});
   for (std::size_t j = 0; j < residuals.size(); ++j)
     if (std::isfinite(residuals[j].velocity_rms))
       finding.evidence.push_back({fmt::format("mlp_velocity_residual_{}", j + 1), residuals[j].velocity_rms,
-                                  "times healthy",
-                                  fmt::format("MLP residual of joint {}: {:.2f} times its healthy level",
-                                              j + 1, residuals[j].velocity_rms)});
+                                  "times healthy", fmt::format("MLP residual of joint {}", j + 1)});
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
 
@@ -25,7 +26,7 @@ std::string shown_path(const std::string& path) {
   return given.is_absolute() ? given.filename().string() : given.generic_string();
 }
 
-LogFacts log_facts(const LogSource& log, const LogTally& tally, int joints) {
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const LogQuality& quality, int joints) {
   LogFacts facts;
   facts.path = shown_path(log.identity().path);
   facts.sha256 = log.identity().sha256;
@@ -34,10 +35,10 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, int joints) {
   facts.rows_used = tally.rows;
   facts.start_s = tally.start_s;
   facts.end_s = tally.end_s;
-  if (tally.rows > 1)
-    facts.sample_period_s = (tally.end_s - tally.start_s) / static_cast<double>(tally.rows - 1);
+  facts.sample_period_s = quality.time.period_s;
   facts.joints = joints;
   facts.issues = log.issues();
+  facts.issues.merge(quality.issues);
   return facts;
 }
 
@@ -85,24 +86,36 @@ std::vector<std::string> blind_spots(const Model& model, bool has_velocity) {
   return spots;
 }
 
-void settle_verdict(Diagnosis& diagnosis, const LogTally& tally) {
-  order_faults(diagnosis);
-  if (!diagnosis.faults.empty()) {
-    diagnosis.verdict = Verdict::faulty;
-    diagnosis.verdict_reason =
-        fmt::format("{} fault{} found", diagnosis.faults.size(), diagnosis.faults.size() == 1 ? "" : "s");
+/// Why the log cannot be judged with this model; empty when it can.
+std::string why_inconclusive(const LogFacts& log, const LogTally& tally, const Model& model) {
+  const double ratio = log.sample_period_s / model.sample_period_s;
+  if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
+    return fmt::format(
+        "the log has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; learn "
+        "a model "
+        "from healthy logs of this rate",
+        log.sample_period_s, model.sample_period_s);
+  if (tally.rows < kFewestRows)
+    return fmt::format("the log has {} usable rows; at least {} are needed to judge", tally.rows,
+                       kFewestRows);
+  if (static_cast<double>(tally.judgeable_rows) < kFewestJudgeable * static_cast<double>(tally.rows))
+    return fmt::format("only {} of {} rows have position and torque of every joint", tally.judgeable_rows,
+                       tally.rows);
+  return "";
+}
+
+void settle_verdict(Diagnosis& diagnosis, const LogTally& tally, const Model& model) {
+  diagnosis.verdict_reason = why_inconclusive(diagnosis.log, tally, model);
+  if (!diagnosis.verdict_reason.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.faults.clear();
     return;
   }
-  const double judgeable =
-      tally.rows > 0 ? static_cast<double>(tally.judgeable_rows) / static_cast<double>(tally.rows) : 0.0;
-  diagnosis.verdict =
-      judgeable < kFewestJudgeable || tally.rows < kFewestRows ? Verdict::inconclusive : Verdict::healthy;
-  diagnosis.verdict_reason = diagnosis.verdict == Verdict::healthy
-                                 ? "the identified robot explains the whole log"
-                                 : fmt::format(
-                                       "only {} of {} rows have position and torque of every joint; at least "
-                                       "{} rows are needed to judge",
-                                       tally.judgeable_rows, tally.rows, kFewestRows);
+  order_faults(diagnosis);
+  const std::size_t count = diagnosis.faults.size();
+  diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
+  diagnosis.verdict_reason = count > 0 ? fmt::format("{} fault{} found", count, count == 1 ? "" : "s")
+                                       : "the identified robot explains the whole log";
 }
 
 void note_rejected(Issues& issues, int count) {
@@ -144,14 +157,14 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   Findings found = options.mode == ClassifyMode::evidence ? find_by_evidence(log, model, cases)
                                                           : find_by_samples(log, model, options);
   Diagnosis diagnosis;
-  diagnosis.log = log_facts(log, found.tally, model.robot.joints());
+  diagnosis.log = log_facts(log, found.tally, quality_of(found.tally.quality), model.robot.joints());
   note_rejected(diagnosis.log.issues, found.rejected_alarms);
   diagnosis.model = {model.name, model.sha256, cases.sha256()};
   diagnosis.program_version = program_version();
   diagnosis.residuals = residual_table(found.residuals);
   diagnosis.faults = std::move(found.faults);
   diagnosis.cannot_see = blind_spots(model, found.tally.has_velocity);
-  settle_verdict(diagnosis, found.tally);
+  settle_verdict(diagnosis, found.tally, model);
   return diagnosis;
 }
 

@@ -26,6 +26,7 @@ void check_channels(const Log& segment, const LogSource& log, const Model& model
 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
   check_channels(segment, log, model);
+  assess(segment, quality);
   if (rows == 0 && segment.rows() > 0) start_s = segment.time.front();
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/log/log_source.hpp"
+#include "lib/log/quality.hpp"
 #include "lib/pipeline/model.hpp"
 
 namespace faultline {
@@ -16,6 +17,7 @@ struct LogTally {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
   bool has_velocity = false;
+  QualityState quality;  ///< gaps, missing values, implausible units and the like
 
   /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or no
   /// torque.
