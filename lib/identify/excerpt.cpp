@@ -75,8 +75,11 @@ void Roughness::add(const Stretch& s) {
     sum_ = count_ = Eigen::VectorXd::Zero(2 * n);
     low_ = Eigen::VectorXd::Constant(2 * n, std::numeric_limits<double>::infinity());
     high_ = -low_;
+    first_ = s.q.col(0);
+    samples_ = mean_ = square_ = steps_ = step_square_ = Eigen::VectorXd::Zero(n);
   }
   has_dq_ = has_dq_ || s.has_dq;
+  add_steps(s);
   const bool smoothed = s.q_smooth != s.q;
   for (int c = 0; c < 2 * n; ++c) {
     const auto raw = c < n ? s.q.row(c) : s.dq.row(c - n);
@@ -90,6 +93,26 @@ void Roughness::add(const Stretch& s) {
       count_[c] += 1.0;
     }
   }
+}
+
+void Roughness::add_steps(const Stretch& s) {
+  for (int j = 0; j < s.joints(); ++j)
+    for (int k = 0; k < s.rows(); ++k) {
+      if (s.outlier(j, k)) continue;
+      const double x = s.q(j, k) - first_[j];
+      samples_[j] += 1.0;
+      mean_[j] += x;
+      square_[j] += x * x;
+      if (k == 0 || s.outlier(j, k - 1)) continue;
+      steps_[j] += 1.0;
+      step_square_[j] += (s.q(j, k) - s.q(j, k - 1)) * (s.q(j, k) - s.q(j, k - 1));
+    }
+}
+
+bool Roughness::still(int j, double least) const {
+  if (high_[j] - low_[j] < least) return true;
+  const double mean = mean_[j] / samples_[j], variance = square_[j] / samples_[j] - mean * mean;
+  return steps_[j] > 0.0 && step_square_[j] / steps_[j] > variance;  // 2 for noise, near 0 for motion
 }
 
 Eigen::VectorXd Roughness::std() const {

@@ -50,10 +50,17 @@ class Roughness {
   /// Largest minus smallest value of q (first) and dq by joint.
   Eigen::VectorXd range() const { return high_ - low_; }
   bool has_dq() const { return has_dq_; }
+  /// Whether a joint's position only jitters: neighbours differ as much as any two samples (von Neumann
+  /// 1941), or its range is below `least`.
+  bool still(int joint, double least) const;
 
  private:
+  void add_steps(const Stretch& stretch);
+
   bool has_dq_ = false;
   Eigen::VectorXd sum_, count_, low_, high_;
+  Eigen::VectorXd first_, samples_, mean_, square_, steps_,
+      step_square_;  ///< of q by joint, from its first value
 };
 
 }  // namespace faultline

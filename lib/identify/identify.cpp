@@ -2,45 +2,24 @@
 #include "lib/identify/identify.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include "lib/core/error.hpp"
-#include "lib/identify/excerpt.hpp"
+#include "lib/identify/gathered.hpp"
+#include "lib/identify/parameter_table.hpp"
+#include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/identify/shooting.hpp"
-#include "lib/identify/stretch.hpp"
+#include "lib/identify/start_fit.hpp"
 #include "lib/identify/weak_form.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kWidthDoubt = 1.15;    ///< of ln(width): a factor of about 3
-constexpr double kShowsWidth_s = 0.03;  ///< slower logs step over the velocities where friction bends
-constexpr double kStill = 20.0;         ///< times the noise of q: a joint that does not move
-constexpr double kClearlyWorse = 1.05;
-constexpr double kNormal95 = 1.959963984540054;
-
-/// Which parameters the robot file and the options leave to the logs.
-std::vector<bool> wanted_parameters(const ParameterSpace& space, const Robot& robot) {
-  std::vector<bool> wanted(space.count(), true);
-  const auto is_exact = [&](const std::string& name) {
-    const auto it = robot.known.find(name);
-    return it != robot.known.end() && it->second.std == 0.0;
-  };
-  for (int j = 0; j < space.joints(); ++j) {
-    const std::string number = std::to_string(j + 1);
-    if (is_exact("fv" + number)) wanted[space.viscous(j)] = false;
-    if (is_exact("fc" + number)) wanted[space.coulomb(j)] = false;
-    wanted[space.offset(j)] = false;
-  }
-  wanted[space.timing()] = robot.log.torque_between_samples == TorqueTiming::unknown;
-  return wanted;
-}
+constexpr double kWidthDoubt = 1.15;  ///< of ln(width): a factor of about 3
 
 double nominal_timing(const Robot& robot) {
   if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
@@ -66,47 +45,6 @@ void IdentifyOptions::check() const {
 
 namespace {
 
-/// What one pass over the logs gathers.
-struct Gathered {
-  WeakWindows windows;
-  Excerpts excerpts;
-  Roughness roughness;
-};
-
-void gather(std::span<LogSource* const> logs, const Progress& progress, Gathered& gathered,
-            Identification& id) {
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    if (progress) progress("reading", static_cast<double>(i) / static_cast<double>(logs.size()));
-    const int log = static_cast<int>(i);
-    const auto read = for_each_stretch(*logs[i], log, id.space.joints(), [&](const Stretch& s) {
-      gathered.windows.add(s);
-      gathered.excerpts.add(s);
-      gathered.roughness.add(s);
-    });
-    const LogIdentity& from = logs[i]->identity();
-    id.logs.push_back(
-        {from.path, from.sha256, read.rows, gathered.windows.rows_used(log), read.period_s, 0.0});
-    id.issues.merge(logs[i]->issues());
-  }
-  const std::size_t windows = gathered.windows.all().size();
-  if (windows < 10)
-    throw Error(
-        ErrorCode::input, logs.empty() ? "" : logs[0]->identity().path,
-        fmt::format("gives {} usable windows in all; identification needs at least 10: give longer logs of a "
-                    "moving robot",
-                    windows));
-}
-
-/// Least noise a channel can have: rounding of its digits.
-Eigen::VectorXd noise_floor(const Roughness& roughness) { return (1e-7 * roughness.range()).cwiseMax(1e-9); }
-
-Eigen::VectorXd first_noise(const Roughness& roughness) {
-  Eigen::VectorXd noise = roughness.std();
-  for (Eigen::Index c = 0; c < noise.size(); ++c)
-    if (std::isnan(noise[c])) noise[c] = 0.005 * roughness.range()[c];
-  return noise;
-}
-
 /// Facts with doubt about parameters of the space, and a wide one about every friction width.
 std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& robot) {
   std::vector<ParameterPrior> priors;
@@ -124,7 +62,7 @@ std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& 
 
 bool has_fast_log(const Identification& id) {
   return std::any_of(id.logs.begin(), id.logs.end(),
-                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsWidth_s; });
+                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsFriction_s; });
 }
 
 std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
@@ -163,60 +101,6 @@ bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
 }
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
-
-/// Joints whose position hardly changed against its noise in all logs.
-std::vector<int> still_joints(const Gathered& gathered, const std::vector<double>& q_noise) {
-  std::vector<int> still;
-  for (std::size_t j = 0; j < q_noise.size(); ++j)
-    if (gathered.roughness.range()[static_cast<Eigen::Index>(j)] < std::max(kStill * q_noise[j], 1e-4))
-      still.push_back(static_cast<int>(j) + 1);
-  return still;
-}
-
-std::string not_excited(const std::vector<int>& still) {
-  if (still.empty())
-    return "these motions do not tell it from the others; give a log in which every joint moves at changing "
-           "speed "
-           "and reverses";
-  return fmt::format("joint {} never moves; give a log in which it moves and reverses",
-                     fmt::join(still, ", "));
-}
-
-void list_base_parameters(const WeakFit& weak, const std::vector<int>& still, Identification& id) {
-  for (int p = 0; p < id.space.count(); ++p) {
-    const bool is_rigid = p<id.space.rigid(), is_width = p> id.space.timing();
-    const bool is_free = id.covariance(p, p) > 0.0;
-    const bool always = is_rigid || p < id.space.offset(0);
-    if (!is_free && !always) continue;
-    ParameterEstimate e;
-    e.name = id.space.name(p);
-    e.unit = id.space.unit(p);
-    e.value = is_width ? std::exp(id.estimate[p]) : id.estimate[p];
-    e.identifiable = is_free && (is_width || !weak.confounded[p]);
-    e.std = std::sqrt(id.covariance(p, p)) * (is_width ? e.value : 1.0);
-    if (!e.identifiable) e.why_not = not_excited(still);
-    if (!e.identifiable) e.std = std::numeric_limits<double>::quiet_NaN();
-    e.ci95 = {e.value - kNormal95 * e.std, e.value + kNormal95 * e.std};
-    if (is_rigid) e.meaning = id.space.base[p].meaning;
-    id.base_parameters.push_back(e);
-  }
-}
-
-/// A friction offset stays where it is far from zero and the fit is clearly worse without it.
-void drop_idle_offsets(const WeakFit& without, const WeakFit& with, const ParameterSpace& space,
-                       std::vector<bool>& wanted) {
-  for (int j = 0; j < space.joints(); ++j) {
-    const int p = space.offset(j);
-    const bool far = std::abs(with.parameters[p]) > 4.0 * std::sqrt(with.covariance(p, p));
-    wanted[p] = wanted[p] && far && without.residual_rms[j] > kClearlyWorse * with.residual_rms[j];
-  }
-}
-
-std::vector<bool> with_offsets(std::vector<bool> wanted, const ParameterSpace& space, const Robot& robot) {
-  for (int j = 0; j < space.joints(); ++j)
-    wanted[space.offset(j)] = robot.known.count(fmt::format("fo{}", j + 1)) == 0;
-  return wanted;
-}
 
 /// What is left after shooting is motion the model lacks, not noise: neighbours alike and far above
 /// roughness.
@@ -264,10 +148,8 @@ void smooth_friction(const Eigen::VectorXd& nominal, Identification& id) {
 }
 
 /// Masses and lengths; when all lengths are settled, the chain is rebuilt on them.
-void settle_physical(const WeakFit& weak, Identification& id) {
-  std::vector<bool> usable;
-  for (int p = 0; p < id.space.rigid(); ++p) usable.push_back(weak.free[p] && !weak.confounded[p]);
-  const PhysicalFit physical = physical_parameters(id.robot, id.space, id.estimate, id.covariance, usable);
+void settle_physical(std::span<const BaseEstimate> estimates, Identification& id) {
+  const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
   id.physical_parameters = physical.parameters;
   if (!physical.lengths) return;
   Robot sized = id.robot;
@@ -276,12 +158,27 @@ void settle_physical(const WeakFit& weak, Identification& id) {
   if (space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space)) id.space = space;
 }
 
-}  // namespace
+/// A mass or inertia that only joints at rest show is confounded with their stiction.
+void doubt_still_joints(const WeakWindows& windows, const std::vector<int>& still, WeakFit& weak) {
+  constexpr double kShown = 1e-6;  ///< share of the squared column that moving joints must carry
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(windows.space().joints(), windows.space().rigid());
+  for (const WeakWindow& w : windows.all()) square += w.base.cwiseAbs2();
+  const Eigen::RowVectorXd all = square.colwise().sum();
+  for (int joint : still) square.row(joint - 1).setZero();
+  for (int p = 0; p < windows.space().rigid(); ++p)
+    if (square.col(p).sum() <= kShown * all[p]) weak.confounded[p] = true;
+}
 
-Identification identify(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
-                        const Progress& progress) {
-  options.check();
+/// All but masses and lengths, of logs that carry the same payload.
+struct AlikeFit {
   Identification id;
+  std::vector<bool> usable;  ///< by base parameter
+};
+
+AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
+                   const Progress& progress) {
+  AlikeFit fit;
+  Identification& id = fit.id;
   id.robot = robot;
   id.space = parameter_space(robot);
   Gathered gathered{WeakWindows(id.space, options.window_s, options.max_windows),
@@ -289,16 +186,11 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
                     {}};
   gather(logs, progress, gathered, id);
 
+  const std::vector<int> still = still_joints(gathered.roughness);
   const Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
-  std::vector<bool> wanted = wanted_parameters(id.space, robot);
-  WeakFit weak = fit_weak_form(gathered.windows, nominal, wanted);
-  if (options.estimate_offset && has_fast_log(id)) {
-    const std::vector<bool> with = with_offsets(wanted, id.space, robot);
-    const WeakFit offsets = fit_weak_form(gathered.windows, nominal, with);
-    wanted = with;
-    drop_idle_offsets(weak, offsets, id.space, wanted);
-    weak = fit_weak_form(gathered.windows, nominal, wanted);
-  }
+  std::vector<bool> wanted = wanted_parameters(id.space, robot, still);
+  WeakFit weak =
+      start_fit(gathered.windows, nominal, options.estimate_offset && has_fast_log(id), robot, wanted);
 
   bool weak_is_final = options.method == IdentifyMethod::weak_form;
   if (!weak_is_final) {
@@ -317,20 +209,59 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
     take_weak_form(weak, gathered, id);
   }
 
+  doubt_still_joints(gathered.windows, still, weak);
   id.condition_number = weak.condition_number;
   judge_fit(gathered.windows, id);
   if (weak_is_final) smooth_friction(nominal, id);
-  const auto still = still_joints(gathered, id.q_noise);
-  list_base_parameters(weak, still, id);
-  const bool all_told = std::all_of(id.base_parameters.begin(), id.base_parameters.end(),
-                                    [](const ParameterEstimate& e) { return e.identifiable; });
-  if (!all_told && id.status == IdentificationStatus::converged) {
+  list_base_parameters(weak, {wanted, still, has_fast_log(id)}, id);
+  if (!all_told(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; " + not_excited(still);
   }
-  settle_physical(weak, id);
+  for (int p = 0; p < id.space.rigid(); ++p) fit.usable.push_back(weak.free[p] && !weak.confounded[p]);
+  return fit;
+}
+
+void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {
+  for (std::size_t k = 0; k < from.logs.size(); ++k) {
+    id.logs[group.index[k]] = from.logs[k];
+    id.logs[group.index[k]].payload_kg = group.payload.value;
+  }
+}
+
+Issue payload_issue(const Identification& loaded, double payload) {
+  Issue issue;
+  issue.code = "payload_logs";
+  issue.severity = Severity::note;
+  issue.message = fmt::format("the logs with {:g} kg at the tip are {}: {}", payload,
+                              to_string(loaded.status), loaded.reason);
+  return issue;
+}
+
+}  // namespace
+
+Identification identify(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
+                        const Progress& progress) {
+  options.check();
+  std::vector<PayloadGroup> groups = group_by_payload(logs, robot);
+  if (groups.empty()) groups.emplace_back();
+  AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);
+  Identification& id = unloaded.id;
+  std::vector<BaseEstimate> estimates = {{id.estimate, id.covariance, unloaded.usable, {}}};
+  const Identification first = id;
+  id.logs.resize(logs.size());
+  take_logs(first, groups[0], id);
+  for (std::size_t g = 1; g < groups.size(); ++g) {
+    const AlikeFit loaded = fit_alike(groups[g].logs, robot, options, progress);
+    estimates.push_back({loaded.id.estimate, loaded.id.covariance, loaded.usable, groups[g].payload});
+    take_logs(loaded.id, groups[g], id);
+    id.issues.merge(loaded.id.issues);
+    if (loaded.id.status != IdentificationStatus::converged)
+      id.issues.add(payload_issue(loaded.id, groups[g].payload.value));
+  }
+  settle_physical(estimates, id);
   id.robot = robot_with(id.robot, id.space, id.estimate);
-  return id;
+  return std::move(id);
 }
 
 }  // namespace faultline

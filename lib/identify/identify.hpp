@@ -27,9 +27,10 @@ struct IdentifyOptions {
 };
 
 /// Identifies `robot` from logs of healthy runs (physics.md section 5): a weak-form regression for a start,
-/// then output error by multiple shooting. Facts in robot.known are kept; a log whose file name is in
-/// robot.payloads carries that mass. Reads every log once from its start. Throws Error(input) when no log has
-/// enough usable rows, or a log has other joints than the robot.
+/// then output error by multiple shooting. Facts in robot.known are kept. Logs whose file name is in
+/// robot.payloads carry that mass: they settle masses and lengths, the identified robot is that without
+/// payload. Reads every log once from its start. Throws Error(input) when the logs have too few usable rows,
+/// every log carries a payload, or a log has other joints than the robot.
 Identification identify(std::span<LogSource* const> logs, const Robot& robot,
                         const IdentifyOptions& options = {}, const Progress& progress = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lib/identify/identification.hpp"
@@ -15,11 +16,18 @@ struct PhysicalFit {
   std::optional<std::vector<double>> lengths;
 };
 
+/// Base parameters as logs with the same payload give them.
+struct BaseEstimate {
+  Eigen::VectorXd estimate;    ///< all parameters of the space
+  Eigen::MatrixXd covariance;  ///< of `estimate`
+  std::vector<bool> usable;    ///< by base parameter: the logs determine it
+  KnownValue payload;          ///< kg at the tip; 0 for the robot itself
+};
+
 /// Solves the base parameters (weighted by their covariance) and the facts in robot.known for the masses and
-/// lengths of rods and points. What stays open names the facts that would close it. `usable` marks the base
-/// parameters that the logs determine.
+/// lengths of rods and points. The first of `estimates` is the robot without payload; others add what they
+/// carry. What stays open names the facts that would close it.
 PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
-                                const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance,
-                                const std::vector<bool>& usable);
+                                std::span<const BaseEstimate> estimates);
 
 }  // namespace faultline

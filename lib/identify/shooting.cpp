@@ -6,11 +6,11 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <thread>
 
+#include "lib/core/parallel.hpp"
 #include "lib/identify/segment_model.hpp"
 
 namespace faultline {
@@ -20,17 +20,6 @@ constexpr double kOutlierStd = 4.0;
 constexpr double kSettled = 0.03;  ///< relative change of a noise level below which rounds end
 constexpr double kBlock_s = 1.0;
 constexpr double kHuge = 1e6;  ///< residual that stands for a motion that diverged
-
-void parallel_for(int count, int threads, const std::function<void(int)>& work) {
-  std::atomic<int> next{0};
-  const auto loop = [&] {
-    for (int i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::thread> others;
-  for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(loop);
-  loop();
-  for (auto& thread : others) thread.join();
-}
 
 /// What one excerpt adds to the problem, reduced to a triangular factor: same cost, gradient and Gauss-Newton
 /// matrix as its thousands of rows.
@@ -52,9 +41,10 @@ class Evaluation : public ceres::EvaluationCallback {
         threads_(threads),
         parameters_(start),
         noise_(noise) {
-    values.resize(free.size());
-    for (std::size_t k = 0; k < free.size(); ++k) values[k] = start[free[k]];
-    for (const Excerpt& e : excerpts) states.push_back(e.start);
+    const Eigen::Index n2 = 2 * space.joints(), count = static_cast<Eigen::Index>(excerpts.size());
+    variables_.resize(n2 * count + static_cast<Eigen::Index>(free.size()));
+    for (Eigen::Index i = 0; i < count; ++i) variables_.segment(n2 * i, n2) = excerpts[i].start;
+    for (std::size_t k = 0; k < free.size(); ++k) values()[k] = start[free[k]];
     robust_.resize(excerpts.size());
     for (std::size_t i = 0; i < excerpts.size(); ++i) robust_[i] = excerpts[i].weight;
     reduced.resize(excerpts.size());
@@ -63,9 +53,14 @@ class Evaluation : public ceres::EvaluationCallback {
         std::min(0.01, std::max(0.0006, stable_step(chain, excerpts[0].start.head(space.joints()))));
   }
 
-  Eigen::VectorXd values;               ///< of the free parameters
-  std::vector<Eigen::VectorXd> states;  ///< start of each excerpt
   std::vector<Reduced> reduced;
+
+  /// Of the free parameters.
+  double* values() { return variables_.data() + variables_.size() - static_cast<Eigen::Index>(free_.size()); }
+  /// Start of excerpt i.
+  double* state(std::size_t i) { return variables_.data() + 2 * space_.joints() * i; }
+  std::size_t count() const { return excerpts_.size(); }
+  int free() const { return static_cast<int>(free_.size()); }
 
   /// Below it the integration would no longer follow the friction.
   double narrowest_width(int joint) const {
@@ -79,7 +74,7 @@ class Evaluation : public ceres::EvaluationCallback {
 
   Eigen::VectorXd parameters() const {
     Eigen::VectorXd p = parameters_;
-    for (std::size_t k = 0; k < free_.size(); ++k) p[free_[k]] = values[k];
+    for (std::size_t k = 0; k < free_.size(); ++k) p[free_[k]] = variables_.tail(free_.size())[k];
     return p;
   }
 
@@ -94,7 +89,7 @@ class Evaluation : public ceres::EvaluationCallback {
     const SegmentModel model(space_, parameters(), free_, longest_step_s_);
     parallel_for(static_cast<int>(excerpts_.size()), threads_, [&](int i) {
       SegmentMotion motion;
-      model.run(excerpts_[i], states[i], false, motion);
+      model.run(excerpts_[i], start_of(i), false, motion);
       out[i] = motion.state - excerpts_[i].measured;
       for (Eigen::Index k = 0; k < out[i].size(); ++k)
         if (excerpts_[i].weight(k) == 0.0) out[i](k) = std::numeric_limits<double>::quiet_NaN();
@@ -116,10 +111,14 @@ class Evaluation : public ceres::EvaluationCallback {
   const std::vector<Eigen::MatrixXd>& robust() const { return robust_; }
 
  private:
+  Eigen::VectorXd start_of(int i) const {
+    return variables_.segment(2 * space_.joints() * i, 2 * space_.joints());
+  }
+
   void evaluate(const SegmentModel& model, int i, bool jacobians) {
     const Excerpt& e = excerpts_[i];
     SegmentMotion motion;
-    model.run(e, states[i], jacobians, motion);
+    model.run(e, start_of(i), jacobians, motion);
     const int n2 = 2 * space_.joints(), width = n2 + static_cast<int>(free_.size());
     Eigen::MatrixXd stacked(n2 * e.rows(), jacobians ? width + 1 : 1);
     Eigen::Index used = 0;
@@ -160,6 +159,9 @@ class Evaluation : public ceres::EvaluationCallback {
   int threads_;
   double longest_step_s_ = 0.01;
   Eigen::VectorXd parameters_, noise_;
+  /// All starts, then the values, in one piece of memory: Ceres orders blocks by address, and another order
+  /// would round differently.
+  Eigen::VectorXd variables_;
   std::vector<Eigen::MatrixXd> robust_;
 };
 
@@ -209,11 +211,11 @@ class PriorCost : public ceres::CostFunction {
 
 void build(ceres::Problem& problem, Evaluation& evaluation, const ParameterSpace& space,
            const std::vector<int>& free, const std::vector<ParameterPrior>& priors) {
-  double* parameters = evaluation.values.data();
+  double* parameters = evaluation.values();
   const int count = static_cast<int>(free.size());
-  for (std::size_t i = 0; i < evaluation.states.size(); ++i)
+  for (std::size_t i = 0; i < evaluation.count(); ++i)
     problem.AddResidualBlock(new ExcerptCost(evaluation, static_cast<int>(i), 2 * space.joints(), count),
-                             nullptr, evaluation.states[i].data(), parameters);
+                             nullptr, evaluation.state(i), parameters);
   const auto index_of = [&](int p) {
     const auto it = std::find(free.begin(), free.end(), p);
     return it == free.end() ? -1 : static_cast<int>(it - free.begin());
@@ -234,11 +236,11 @@ void build(ceres::Problem& problem, Evaluation& evaluation, const ParameterSpace
 
 ceres::Solver::Summary solve(ceres::Problem& problem, Evaluation& evaluation, int max_iterations, bool last) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_SCHUR;
-  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  options.linear_solver_type = ceres::DENSE_SCHUR;  // what is left after the starts is small and full
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  for (auto& state : evaluation.states) options.linear_solver_ordering->AddElementToGroup(state.data(), 0);
-  options.linear_solver_ordering->AddElementToGroup(evaluation.values.data(), 1);
+  for (std::size_t i = 0; i < evaluation.count(); ++i)
+    options.linear_solver_ordering->AddElementToGroup(evaluation.state(i), 0);
+  options.linear_solver_ordering->AddElementToGroup(evaluation.values(), 1);
   options.max_num_iterations = max_iterations;
   options.function_tolerance = last ? 1e-9 : 1e-5;
   options.parameter_tolerance = 1e-10;
@@ -302,8 +304,8 @@ bool white_covariance(ceres::Problem& problem, Evaluation& evaluation, Eigen::Ma
   options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
   options.num_threads = 1;
   ceres::Covariance covariance(options);
-  const double* block = evaluation.values.data();
-  const int n = static_cast<int>(evaluation.values.size());
+  const double* block = evaluation.values();
+  const int n = evaluation.free();
   const std::vector<std::pair<const double*, const double*>> wanted = {{block, block}};
   if (!covariance.Compute(wanted, &problem)) return false;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);

@@ -40,8 +40,8 @@ struct ShootingFit {
 
 /// Output error by multiple shooting: parameters and the start of every excerpt that bring the integrated
 /// motion nearest to the measured one, each channel weighted by its own residual (iterated), samples beyond
-/// four standard deviations weighted down. Ceres, sparse Schur complement. `noise` is a first guess of the
-/// channels' standard deviations, `floor` the least they can be (rounding).
+/// four standard deviations weighted down. Ceres, Schur complement over the starts. `noise` is a first guess
+/// of the channels' standard deviations, `floor` the least they can be (rounding).
 ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>& excerpts,
                          const Eigen::VectorXd& start, const std::vector<int>& free,
                          const std::vector<ParameterPrior>& priors, const Eigen::VectorXd& noise,

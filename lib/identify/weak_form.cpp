@@ -261,10 +261,4 @@ WeakFit fit_weak_form_and_width(const WeakWindows& windows, const Eigen::VectorX
   return best;
 }
 
-Eigen::MatrixXd weak_residuals(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
-  const System s = assemble(windows, parameters);
-  const Eigen::VectorXd r = s.y - s.a * parameters.head(windows.space().linear());
-  return Eigen::Map<const Eigen::MatrixXd>(r.data(), s.joints, r.size() / s.joints).transpose();
-}
-
 }  // namespace faultline

@@ -76,7 +76,4 @@ WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
 WeakFit fit_weak_form_and_width(const WeakWindows& windows, const Eigen::VectorXd& start,
                                 const std::vector<bool>& wanted);
 
-/// Torque the parameters leave unexplained in every window: windows x joints.
-Eigen::MatrixXd weak_residuals(const WeakWindows& windows, const Eigen::VectorXd& parameters);
-
 }  // namespace faultline

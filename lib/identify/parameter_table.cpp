@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/parameter_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;
+
+bool is_given(const Identification& id, int p) {
+  std::string name = id.space.name(p);
+  std::erase(name, '_');
+  if (name.rfind("offset", 0) == 0) name.replace(0, 6, "fo");
+  const auto it = id.robot.known.find(name);
+  return p >= id.space.rigid() && it != id.robot.known.end() && it->second.std == 0.0;
+}
+
+/// Still joints that matter to a parameter: its own for friction, all for what they carry together.
+std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
+  if (p < id.space.rigid() || p == id.space.timing()) return still;
+  const int first = p > id.space.timing() ? id.space.log_width(0) : id.space.rigid();
+  const int joint = (p - first) % id.space.joints() + 1;
+  return std::count(still.begin(), still.end(), joint) > 0 ? std::vector<int>{joint} : std::vector<int>{};
+}
+
+std::string why_offset(const Identification& id, int p, const TableFacts& facts) {
+  return fmt::format("left at {1:g}: {0}",
+                     facts.fast ? "the logs do not ask for it"
+                                : fmt::format("no log is faster than {:g} s a sample", kShowsFriction_s),
+                     id.estimate[p]);
+}
+
+std::string why_width(const Identification& id, int p, const TableFacts& facts) {
+  const std::string reason =
+      id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
+      : !facts.fast ? fmt::format("no log is faster than {:g} s a sample", kShowsFriction_s)
+                    : "the logs do not tell this joint's Coulomb friction, or the options leave it";
+  return fmt::format("left at {:g}: {}", std::exp(id.estimate[p]), reason);
+}
+
+std::string why_not(const Identification& id, int p, const TableFacts& facts) {
+  const std::vector<int> still = still_for(id, p, facts.still);
+  if (!still.empty() && p != id.space.timing()) return not_excited(still);
+  if (p > id.space.timing()) return why_width(id, p, facts);
+  if (!facts.asked[p] && p == id.space.timing())
+    return fmt::format("left at {:g}: the robot file says how torque runs between samples", id.estimate[p]);
+  return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
+}
+
+ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Identification& id, int p) {
+  const bool is_width = p > id.space.timing(), is_free = id.covariance(p, p) > 0.0;
+  ParameterEstimate e;
+  e.name = id.space.name(p);
+  e.unit = id.space.unit(p);
+  e.value = is_width ? std::exp(id.estimate[p]) : id.estimate[p];
+  e.identifiable = is_given(id, p) || (is_free && (is_width || !weak.confounded[p]));
+  e.std = std::sqrt(id.covariance(p, p)) * (is_width ? e.value : 1.0);
+  if (!e.identifiable) e.why_not = why_not(id, p, facts);
+  if (!e.identifiable) e.std = std::numeric_limits<double>::quiet_NaN();
+  e.ci95 = {e.value - kNormal95 * e.std, e.value + kNormal95 * e.std};
+  if (p < id.space.rigid()) e.meaning = id.space.base[p].meaning;
+  return e;
+}
+
+}  // namespace
+
+std::string not_excited(const std::vector<int>& still) {
+  if (still.empty())
+    return "these motions do not tell it from the others; give a log in which every joint moves at changing "
+           "speed and reverses";
+  return fmt::format("joint {} never moves; give a log in which it moves and reverses",
+                     fmt::join(still, ", "));
+}
+
+void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id) {
+  for (int p = 0; p < id.space.count(); ++p) id.base_parameters.push_back(entry(weak, facts, id, p));
+}
+
+bool all_told(const Identification& id) {
+  return std::all_of(id.base_parameters.begin(), id.base_parameters.begin() + id.space.offset(0),
+                     [](const ParameterEstimate& e) { return e.identifiable; });
+}
+
+}  // namespace faultline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/identify/identification.hpp"
+#include "lib/identify/weak_form.hpp"
+
+namespace faultline {
+
+/// Logs at least this fast show the velocities where friction bends, and its offset.
+inline constexpr double kShowsFriction_s = 0.03;
+
+/// Why parameters were left out of the estimate.
+struct TableFacts {
+  std::vector<bool> asked;  ///< by parameter: the weak form was to estimate it
+  std::vector<int> still;   ///< joints that never move, from 1
+  bool fast = true;         ///< some log is faster than kShowsFriction_s
+};
+
+/// What to record so that the motion tells a parameter.
+std::string not_excited(const std::vector<int>& still);
+
+/// Fills id.base_parameters from id.estimate and id.covariance: every parameter of the space, those that
+/// were not identified with the reason.
+void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id);
+
+/// Whether the logs tell every mass, inertia and friction that they should.
+bool all_told(const Identification& id);
+
+}  // namespace faultline

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/identify/physical.hpp"
+
+namespace faultline {
+
+/// A mass, a length or a carried payload that the equations are solved for.
+struct PhysicalUnknown {
+  std::string name;
+  char kind = 'm';  ///< m, l, or p for the payload of group `index`
+  int index = 0;    ///< of the link or group
+  double value = 1.0;
+  double std = 0.0;    ///< of the fact about it; 0 = none
+  bool exact = false;  ///< given, not to be solved for
+};
+
+/// beta(masses, lengths, payload) = estimate for every group of logs with its own payload, in the logarithms
+/// of the open unknowns. A payload adds a point mass at the tip: on a SCARA da = l1^2 dm, db = l2^2 dm,
+/// dc = l1 l2 dm.
+class PhysicalEquations {
+ public:
+  PhysicalEquations(const Robot& robot, const ParameterSpace& space, std::span<const BaseEstimate> groups);
+
+  const std::vector<PhysicalUnknown>& unknowns() const { return unknowns_; }
+  int open() const;
+  /// Base parameters that can be used, over all groups.
+  int rows() const;
+  /// Largest absolute value of a base parameter.
+  double scale() const;
+
+  /// Share by which each base parameter of each group changes with each open unknown's logarithm.
+  Eigen::MatrixXd relative_slopes(const Eigen::VectorXd& log_open) const;
+  /// The same for the first group alone if it carried `payload` kg more.
+  Eigen::MatrixXd relative_slopes_loaded(const Eigen::VectorXd& log_open, double payload) const;
+  /// Whitened residual and, when wanted, slopes; facts with doubt below the base parameters.
+  void evaluate(const Eigen::VectorXd& log_open, Eigen::VectorXd& r, Eigen::MatrixXd* j) const;
+
+ private:
+  struct Group {
+    std::vector<int> parameters;
+    Eigen::VectorXd target;
+    Eigen::MatrixXd whitener;
+  };
+
+  bool belongs_to_general_link(int parameter) const;
+  void list_unknowns(std::span<const BaseEstimate> groups);
+  void add_group(const BaseEstimate& estimate);
+  Eigen::VectorXd base(const Eigen::VectorXd& log_open, int group, double more) const;
+  Eigen::MatrixXd slopes(const Eigen::VectorXd& log_open, int group, double more) const;
+  Eigen::MatrixXd relative(const Eigen::VectorXd& log_open, int group, double more) const;
+
+  const Robot& robot_;
+  const ParameterSpace& space_;
+  std::vector<PhysicalUnknown> unknowns_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace faultline
