@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lib/evidence/motion_model.hpp"
+#include "lib/log/memory_source.hpp"
+#include "lib/simulate/simulate.hpp"
+
+namespace faultline {
+
+/// A small RRP robot with friction, all of its parameters known.
+Robot known_rrp();
+
+/// A run of it at 100 Hz with the torque held over each sample and a little noise.
+SimulationSpec rrp_run(double duration_s);
+
+/// The same with one fault that stays, or that ends after `length_s`.
+SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double size = 0.0,
+                            double length_s = 1e9);
+
+/// A filter's model of `robot`, matched to healthy simulated runs of known_rrp(); the same object every time
+/// for the same `mass_factor`, by which the masses of the filter's robot differ from the true ones.
+const MotionModel& rrp_motion_model(double mass_factor = 1.0);
+
+/// Healthy runs of known_rrp() that rrp_motion_model() is matched to.
+std::vector<std::unique_ptr<MemorySource>> healthy_rrp_logs();
+
+}  // namespace faultline
