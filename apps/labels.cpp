@@ -2,6 +2,7 @@
 #include "apps/labels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -48,8 +49,16 @@ double number(const std::string& cell, const std::string& where) {
   } catch (const std::exception&) {
     used = 0;
   }
-  if (used != cell.size()) throw Error(ErrorCode::input, where, "\"" + cell + "\" is no number");
+  if (used != cell.size() || std::isinf(value))
+    throw Error(ErrorCode::input, where, "\"" + cell + "\" is no number");
   return value;
+}
+
+int joint_number(const std::string& cell, const std::string& where) {
+  const double value = number(cell, where);
+  if (!(value >= 0.0 && value <= 1000.0 && value == std::floor(value)))
+    throw Error(ErrorCode::input, where, "\"" + cell + "\" is no joint; joints count from 1, 0 is none");
+  return static_cast<int>(value);
 }
 
 LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& at, const std::string& where) {
@@ -62,7 +71,7 @@ LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& a
   } catch (const Error& error) {
     throw Error(ErrorCode::input, where + ", column fault", error.message());
   }
-  label.label.joint = static_cast<int>(number(cells[at.joint], where + ", column joint"));
+  label.label.joint = joint_number(cells[at.joint], where + ", column joint");
   label.onset_s = number(cells[at.onset], where + ", column onset_s");
   return label;
 }

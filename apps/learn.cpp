@@ -34,6 +34,13 @@ struct OpenLogs {
   std::vector<LabelledLog> labelled;
 };
 
+void check_joint(const LogLabel& label, const Robot& robot, const std::string& log) {
+  if (label.label.joint > robot.joints())
+    throw Error(ErrorCode::input, log,
+                fmt::format("is labelled with a fault of joint {}, but the robot has {} joint{}",
+                            label.label.joint, robot.joints(), robot.joints() == 1 ? "" : "s"));
+}
+
 OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   std::vector<LogLabel> labels;
   if (!arguments.labels.empty()) labels = read_labels(arguments.labels);
@@ -44,6 +51,7 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   for (const std::string& log : arguments.logs) {
     open.owners.push_back(open_log(log, options));
     const LogLabel* label = label_of(labels, log);
+    if (label) check_joint(*label, robot, log);
     if (label && label->label.kind != FaultKind::none)
       open.labelled.push_back({open.owners.back().get(), label->label, label->onset_s});
     else
@@ -123,13 +131,26 @@ std::string learned_json(const Learned& learned) {
   return json.dump(2) + "\n";
 }
 
+/// Fails before the work begins rather than after it.
+void check_writable(const LearnArguments& arguments) {
+  const AtomicFile model(arguments.model), cases(arguments.cases);
+}
+
+/// Both files or, when the disk is full, neither.
+void write_model(const Learned& learned, const LearnArguments& arguments) {
+  AtomicFile model(arguments.model);
+  model.write(model_to_json(learned.model));
+  write_case_base(arguments.cases, learned.cases);
+  model.commit();
+}
+
 int run_learn(const LearnArguments& arguments, ColorChoice color) {
   const Robot robot = load_robot_file(arguments.robot);
   const OpenLogs logs = open_logs(arguments, robot);
+  check_writable(arguments);
   ProgressBar bar(color);
   const Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
-  write_case_base(arguments.cases, learned.cases);
-  write_file(arguments.model, model_to_json(learned.model));
+  write_model(learned, arguments);
   if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned));
   if (arguments.json != "-") print(learned_text(learned, arguments));
   return kNothingFound;

@@ -93,7 +93,8 @@ nlohmann::json parse(const std::string& text, const std::string& where) {
   if (json.is_discarded())
     throw Error(ErrorCode::input, where,
                 "is no complete JSON file: truncated or not a model; a model is made by `faultline learn`");
-  const std::string schema = json.is_object() ? json.value("schema", "") : "";
+  const bool named = json.is_object() && json.contains("schema") && json["schema"].is_string();
+  const std::string schema = named ? json["schema"].get<std::string>() : "";
   if (schema.rfind(kSchemaName, 0) != 0)
     throw Error(ErrorCode::input, where,
                 "is JSON but no faultline model; a model is made by `faultline learn`");

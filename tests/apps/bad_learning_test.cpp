@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+const std::string kLog = "t,q1,dq1,tau1\n0,0,1,2\n0.01,0.01,1,2.5\n0.02,0.02,1,3\n0.03,0.03,1,2\n";
+
+class BadLearning : public testing::Test {
+ protected:
+  BadLearning() { robot_ = folder_.write("robot.toml", "axes = \"P\"\n"); }
+
+  ProgramRun learn(const std::string& log, const std::string& labels = "", const std::string& out = "") {
+    std::vector<std::string> arguments = {"learn",   folder_.write("log.csv", log),
+                                          "--robot", robot_,
+                                          "-o",      out.empty() ? folder_.file("robot.model") : out};
+    if (!labels.empty()) arguments.insert(arguments.end(), {"--labels", folder_.write("labels.csv", labels)});
+    return run_program(arguments);
+  }
+
+  void expect_refused(const ProgramRun& run, int status, const std::vector<std::string>& words) {
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_EQ(run.out, "");
+    for (const std::string& word : words)
+      EXPECT_NE(run.err.find(word), std::string::npos) << word << " in: " << run.err;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      EXPECT_EQ(entry.path().filename().string().find("robot.model"), std::string::npos) << entry.path();
+  }
+
+  TemporaryFolder folder_;
+  std::string robot_;
+};
+
+TEST_F(BadLearning, OneTinyLog) { expect_refused(learn(kLog), 3, {"log.csv"}); }
+
+TEST_F(BadLearning, OneRow) { expect_refused(learn("t,q1,dq1,tau1\n0,0,1,2\n"), 3, {"log.csv"}); }
+
+TEST_F(BadLearning, LogOfAnotherRobot) {
+  expect_refused(learn("t,q1,q2,tau1,tau2\n0,0,1,2,3\n1,0,1,2,3\n"), 3, {"log.csv", "2 joints"});
+}
+
+TEST_F(BadLearning, LogWithoutTorque) {
+  expect_refused(learn("t,q1,dq1\n0,0,1\n0.01,0,1\n"), 3, {"log.csv", "torque"});
+}
+
+TEST_F(BadLearning, LabelsWithoutAColumn) {
+  expect_refused(learn(kLog, "file,fault\nlog.csv,none\n"), 3, {"labels.csv", "\"joint\"", "onset_s"});
+}
+
+TEST_F(BadLearning, LabelsThatAreEmpty) { expect_refused(learn(kLog, "\n"), 3, {"labels.csv", "\"file\""}); }
+
+TEST_F(BadLearning, LabelsWithAnUnknownFault) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,broken,1,2\n"), 3,
+                 {"labels.csv", "row 2", "broken", "locked"});
+}
+
+TEST_F(BadLearning, LabelsWithTextForANumber) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,soon\n"), 3,
+                 {"labels.csv", "row 2, column onset_s", "\"soon\""});
+}
+
+TEST_F(BadLearning, LabelsWithAShortRow) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked\n"), 3, {"labels.csv", "row 2"});
+}
+
+TEST_F(BadLearning, LabelsWithAJointThatIsNoWholeNumber) {
+  for (const char* joint : {"1.5", "-1", "nan", "1e30"})
+    expect_refused(learn(kLog, std::string("file,fault,joint,onset_s\nlog.csv,locked,") + joint + ",2\n"), 3,
+                   {"labels.csv", "row 2, column joint", joint});
+}
+
+TEST_F(BadLearning, LabelsWithAJointThatTheRobotDoesNotHave) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,4,2\n"), 3,
+                 {"log.csv", "joint 4", "1 joint"});
+}
+
+TEST_F(BadLearning, NothingButFaults) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,0.02\n"), 2, {"healthy"});
+}
+
+TEST_F(BadLearning, OutputFolderThatIsMissingIsToldBeforeTheWork) {
+  expect_refused(learn(kLog, "", folder_.file("no/robot.model")), 3, {"no/robot.model", "cannot be created"});
+}
+
+}  // namespace
+}  // namespace faultline
