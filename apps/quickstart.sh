@@ -34,17 +34,22 @@ rm -rf "$out" && mkdir -p "$out"
 echo "Learning a model of $robot from ${#healthy[@]} healthy logs." >&2
 "$faultline" learn "${healthy[@]}" --robot "$samples/robot.toml" -o "$out/model.json"
 
+# The timeline alone; the report that it heads is in NAME.txt.
+timeline() { awk '/^(Fault 1|Residuals)/ {exit} /^(No|[0-9]+) fault/ {on = 1} on' "$1"; }
+
 found=0
 for log in "${bad[@]}"; do
   name=${log##*/}
   name=${name%.*}
-  printf '\n%s\n' "==== $log"
+  printf '\n%s\n' "$log"
   status=0
-  "$faultline" diagnose "$log" --model "$out/model.json" --json "$out/$name.json" --csv "$out/$name.csv" || status=$?
+  "$faultline" diagnose "$log" --model "$out/model.json" --json "$out/$name.json" --csv "$out/$name.csv" \
+    >"$out/$name.txt" || status=$?
   [ "$status" -le 1 ] || exit "$status"
+  timeline "$out/$name.txt"
   found=$((found + status))
 done
 
-printf '\nFaults were found in %d of %d bad runs. In %s:\n' "$found" "${#bad[@]}" "$out"
+printf 'Faults were found in %d of %d bad runs. In %s:\n' "$found" "${#bad[@]}" "$out"
+printf '  NAME.txt, NAME.json, NAME.csv     the report of each run: evidence, similar cases, what to check next\n'
 printf '  model.json, model.json.cases.db   what was learned\n'
-printf '  NAME.json, NAME.csv               a report for each run\n'
