@@ -37,6 +37,14 @@ TEST(LearnDiagnose, FindsFaultsAndKeepsSilentOtherwise) {
   }
 }
 
+TEST(LearnDiagnose, ThreadsAndSegmentBordersDoNotChangeTheModel) {
+  LearnOptions options = quick_learning();
+  options.threads = options.identify.threads = 1;
+  const std::string one = model_to_json(learn_small(options).model);
+  options.threads = options.identify.threads = 2;
+  EXPECT_TRUE(one == model_to_json(learn_small(options, 100).model));
+}
+
 TEST(LearnDiagnose, RoundTripAndSegmentBordersChangeNoByte) {
   const Learned learned = learn_small();
   const std::string text = model_to_json(learned.model);
