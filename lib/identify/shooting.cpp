@@ -4,171 +4,22 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
-#include "lib/core/parallel.hpp"
-#include "lib/identify/segment_model.hpp"
+#include "lib/identify/shooting_evaluation.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kOutlierStd = 4.0;
 constexpr double kSettled = 0.03;  ///< relative change of a noise level below which rounds end
 constexpr double kBlock_s = 1.0;
-constexpr double kHuge = 1e6;  ///< residual that stands for a motion that diverged
-
-/// What one excerpt adds to the problem, reduced to a triangular factor: same cost, gradient and Gauss-Newton
-/// matrix as its thousands of rows.
-struct Reduced {
-  Eigen::VectorXd residual;                                                         ///< 2n + free + 1
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_state;  ///< (2n + free + 1) x 2n
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_parameter;
-};
-
-/// The problem's variables and what they give, excerpt by excerpt in parallel, in an order that does not
-/// depend on the number of threads.
-class Evaluation : public ceres::EvaluationCallback {
- public:
-  Evaluation(const ParameterSpace& space, const std::vector<Excerpt>& excerpts, const Eigen::VectorXd& start,
-             const std::vector<int>& free, const Eigen::VectorXd& noise, int threads)
-      : space_(space),
-        excerpts_(excerpts),
-        free_(free),
-        threads_(threads),
-        parameters_(start),
-        noise_(noise) {
-    const Eigen::Index n2 = 2 * space.joints(), count = static_cast<Eigen::Index>(excerpts.size());
-    variables_.resize(n2 * count + static_cast<Eigen::Index>(free.size()));
-    for (Eigen::Index i = 0; i < count; ++i) variables_.segment(n2 * i, n2) = excerpts[i].start;
-    for (std::size_t k = 0; k < free.size(); ++k) values()[k] = start[free[k]];
-    robust_.resize(excerpts.size());
-    for (std::size_t i = 0; i < excerpts.size(); ++i) robust_[i] = excerpts[i].weight;
-    reduced.resize(excerpts.size());
-    const Chain<double> chain = chain_from(space, start);
-    longest_step_s_ =
-        std::min(0.01, std::max(0.0006, stable_step(chain, excerpts[0].start.head(space.joints()))));
-  }
-
-  std::vector<Reduced> reduced;
-
-  /// Of the free parameters.
-  double* values() { return variables_.data() + variables_.size() - static_cast<Eigen::Index>(free_.size()); }
-  /// Start of excerpt i.
-  double* state(std::size_t i) { return variables_.data() + 2 * space_.joints() * i; }
-  std::size_t count() const { return excerpts_.size(); }
-  int free() const { return static_cast<int>(free_.size()); }
-
-  /// Below it the integration would no longer follow the friction.
-  double narrowest_width(int joint) const {
-    const Chain<double> chain = chain_from(space_, parameters_);
-    return std::max(1e-4, 0.5 * chain.friction[joint].width * longest_step_s_ /
-                              stable_step(chain, excerpts_[0].start.head(space_.joints())));
-  }
-
-  int rows() const { return 2 * space_.joints() + static_cast<int>(free_.size()) + 1; }
-  const Eigen::VectorXd& noise() const { return noise_; }
-
-  Eigen::VectorXd parameters() const {
-    Eigen::VectorXd p = parameters_;
-    for (std::size_t k = 0; k < free_.size(); ++k) p[free_[k]] = variables_.tail(free_.size())[k];
-    return p;
-  }
-
-  void PrepareForEvaluation(bool jacobians, bool) override {
-    const SegmentModel model(space_, parameters(), free_, longest_step_s_);
-    parallel_for(static_cast<int>(excerpts_.size()), threads_, [&](int i) { evaluate(model, i, jacobians); });
-  }
-
-  /// Residuals of all excerpts in units of measurement: [excerpt](2n x rows); NaN where nothing was measured.
-  std::vector<Eigen::MatrixXd> residuals() const {
-    std::vector<Eigen::MatrixXd> out(excerpts_.size());
-    const SegmentModel model(space_, parameters(), free_, longest_step_s_);
-    parallel_for(static_cast<int>(excerpts_.size()), threads_, [&](int i) {
-      SegmentMotion motion;
-      model.run(excerpts_[i], start_of(i), false, motion);
-      out[i] = motion.state - excerpts_[i].measured;
-      for (Eigen::Index k = 0; k < out[i].size(); ++k)
-        if (excerpts_[i].weight(k) == 0.0) out[i](k) = std::numeric_limits<double>::quiet_NaN();
-    });
-    return out;
-  }
-
-  /// Weights every sample by its residual against `noise` from now on.
-  void reweight(const std::vector<Eigen::MatrixXd>& residuals, const Eigen::VectorXd& noise) {
-    noise_ = noise;
-    for (std::size_t i = 0; i < excerpts_.size(); ++i)
-      for (Eigen::Index k = 0; k < residuals[i].cols(); ++k)
-        for (Eigen::Index c = 0; c < residuals[i].rows(); ++c) {
-          const double u = std::abs(residuals[i](c, k)) / (kOutlierStd * noise[c]);
-          robust_[i](c, k) = excerpts_[i].weight(c, k) > 0.0 ? (u > 1.0 ? 1.0 / (u * u) : 1.0) : 0.0;
-        }
-  }
-
-  const std::vector<Eigen::MatrixXd>& robust() const { return robust_; }
-
- private:
-  Eigen::VectorXd start_of(int i) const {
-    return variables_.segment(2 * space_.joints() * i, 2 * space_.joints());
-  }
-
-  void evaluate(const SegmentModel& model, int i, bool jacobians) {
-    const Excerpt& e = excerpts_[i];
-    SegmentMotion motion;
-    model.run(e, start_of(i), jacobians, motion);
-    const int n2 = 2 * space_.joints(), width = n2 + static_cast<int>(free_.size());
-    Eigen::MatrixXd stacked(n2 * e.rows(), jacobians ? width + 1 : 1);
-    Eigen::Index used = 0;
-    for (int k = 0; k < e.rows(); ++k)
-      for (int c = 0; c < n2; ++c) {
-        const double weight = std::sqrt(robust_[i](c, k)) / noise_[c];
-        if (weight == 0.0) continue;
-        double r = weight * (motion.state(c, k) - e.measured(c, k));
-        if (!(std::abs(r) < kHuge)) r = kHuge;
-        stacked(used, stacked.cols() - 1) = r;
-        if (jacobians) stacked.row(used).head(width) = weight * motion.sensitivity.row(n2 * k + c);
-        ++used;
-      }
-    store(reduced[i], stacked.topRows(used), jacobians);
-  }
-
-  void store(Reduced& out, const Eigen::Ref<const Eigen::MatrixXd>& stacked, bool jacobians) const {
-    const int n2 = 2 * space_.joints();
-    out.residual.setZero(rows());
-    if (!jacobians) {
-      out.residual[0] = stacked.norm();
-      return;
-    }
-    Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(rows(), rows());
-    if (stacked.allFinite()) {
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
-      const Eigen::Index height = std::min<Eigen::Index>(rows(), stacked.rows());
-      factor.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
-    }
-    out.by_state = factor.leftCols(n2);
-    out.by_parameter = factor.middleCols(n2, factor.cols() - n2 - 1);
-    out.residual = factor.rightCols<1>();
-  }
-
-  const ParameterSpace& space_;
-  const std::vector<Excerpt>& excerpts_;
-  const std::vector<int>& free_;
-  int threads_;
-  double longest_step_s_ = 0.01;
-  Eigen::VectorXd parameters_, noise_;
-  /// All starts, then the values, in one piece of memory: Ceres orders blocks by address, and another order
-  /// would round differently.
-  Eigen::VectorXd variables_;
-  std::vector<Eigen::MatrixXd> robust_;
-};
 
 /// Hands Ceres what the evaluation has prepared.
 class ExcerptCost : public ceres::CostFunction {
  public:
-  ExcerptCost(const Evaluation& evaluation, int excerpt, int states, int free)
+  ExcerptCost(const ShootingEvaluation& evaluation, int excerpt, int states, int free)
       : evaluation_(evaluation), excerpt_(excerpt) {
     set_num_residuals(evaluation.rows());
     mutable_parameter_block_sizes()->push_back(states);
@@ -176,7 +27,7 @@ class ExcerptCost : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    const Reduced& r = evaluation_.reduced[excerpt_];
+    const ReducedExcerpt& r = evaluation_.reduced[excerpt_];
     std::copy_n(r.residual.data(), r.residual.size(), residuals);
     if (!jacobians) return true;
     if (jacobians[0]) std::copy_n(r.by_state.data(), r.by_state.size(), jacobians[0]);
@@ -185,7 +36,7 @@ class ExcerptCost : public ceres::CostFunction {
   }
 
  private:
-  const Evaluation& evaluation_;
+  const ShootingEvaluation& evaluation_;
   int excerpt_;
 };
 
@@ -209,7 +60,7 @@ class PriorCost : public ceres::CostFunction {
   double value_, std_;
 };
 
-void build(ceres::Problem& problem, Evaluation& evaluation, const ParameterSpace& space,
+void build(ceres::Problem& problem, ShootingEvaluation& evaluation, const ParameterSpace& space,
            const std::vector<int>& free, const std::vector<ParameterPrior>& priors) {
   double* parameters = evaluation.values();
   const int count = static_cast<int>(free.size());
@@ -234,7 +85,8 @@ void build(ceres::Problem& problem, Evaluation& evaluation, const ParameterSpace
     }
 }
 
-ceres::Solver::Summary solve(ceres::Problem& problem, Evaluation& evaluation, int max_iterations, bool last) {
+ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evaluation, int max_iterations,
+                             bool last) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;  // what is left after the starts is small and full
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
@@ -275,7 +127,7 @@ Eigen::VectorXd measure_noise(const std::vector<Eigen::MatrixXd>& residuals,
     if (s.empty()) continue;
     auto middle = s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2);
     std::nth_element(s.begin(), middle, s.end());
-    const double cut = kOutlierStd * std::max(1.4826 * *middle, floor[c]);
+    const double cut = kShootingOutlierStd * std::max(1.4826 * *middle, floor[c]);
     double sum = 0.0, count = 0.0;
     for (double v : s)
       if (v <= cut) sum += v * v, count += 1.0;
@@ -298,7 +150,7 @@ Eigen::VectorXd neighbour_correlation(const std::vector<Eigen::MatrixXd>& residu
 }
 
 /// Covariance of the free parameters when the residuals are white, by Ceres.
-bool white_covariance(ceres::Problem& problem, Evaluation& evaluation, Eigen::MatrixXd& out) {
+bool white_covariance(ceres::Problem& problem, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
   options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
@@ -315,7 +167,7 @@ bool white_covariance(ceres::Problem& problem, Evaluation& evaluation, Eigen::Ma
 }
 
 /// Sandwich over blocks of about a second: what the residuals' own correlation says of the spread.
-Eigen::MatrixXd sandwich(const Evaluation& evaluation, const std::vector<Excerpt>& excerpts,
+Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
                          const Eigen::MatrixXd& white) {
   const Eigen::Index m = white.rows();
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
@@ -358,7 +210,7 @@ ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>
   fit.noise = noise.cwiseMax(floor);
   fit.covariance.setZero(space.count(), space.count());
   fit.segments = static_cast<int>(excerpts.size());
-  Evaluation evaluation(space, excerpts, start, free, fit.noise, options.threads);
+  ShootingEvaluation evaluation(space, excerpts, start, free, fit.noise, options.threads);
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &evaluation;
   ceres::Problem problem(problem_options);
