@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
@@ -16,6 +17,7 @@
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -91,13 +93,15 @@ std::string validation_text(const Validation& validation) {
 
 std::string parameter_text(const Identification& identification) {
   std::string text;
+  std::set<std::string> seen;
   auto add = [&](const std::vector<ParameterEstimate>& parameters) {
     for (const ParameterEstimate& p : parameters) {
+      if (!seen.insert(p.name).second) continue;
       if (p.identifiable)
-        text += fmt::format("  {:<10} {:>12.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value, p.unit,
-                            p.ci95[0], p.ci95[1]);
+        text += fmt::format("  {:<6} {:>11.5g} +- {:<8.2g} {}\n", p.name, p.value,
+                            0.5 * (p.ci95[1] - p.ci95[0]), p.unit);
       else
-        text += fmt::format("  {:<10} not identifiable: {}\n", p.name, p.why_not);
+        text += fmt::format("  {:<6} not determined: {}\n", p.name, p.why_not);
     }
   };
   add(identification.physical_parameters);
@@ -108,14 +112,10 @@ std::string parameter_text(const Identification& identification) {
 std::string learned_text(const Learned& learned, const LearnArguments& arguments) {
   std::string text = fmt::format("Learned \"{}\" from {} logs at {:.4g} Hz.\n", learned.model.name,
                                  learned.model.sources.size(), 1.0 / learned.model.sample_period_s);
-  text += fmt::format("\nIdentified ({}; {}):\n{}", to_string(learned.identification.status),
-                      learned.identification.reason, parameter_text(learned.identification));
-  text += fmt::format(
-      "\nThe MLP foretells the healthy motion with a normalised mean square error of {:.3g} ({:.3g} if "
-      "nothing "
-      "changed).\n\nOn runs of the identified robot that nothing was trained on:\n{}",
-      learned.residual.normalised_mse, learned.residual.persistence_mse,
-      validation_text(learned.model.validation));
+  text += fmt::format("\nIdentified, with 95 % intervals ({}):\n{}", to_string(learned.identification.status),
+                      parameter_text(learned.identification));
+  text += fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
+                      validation_text(learned.model.validation));
   text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", arguments.model, arguments.cases,
                       learned.cases.cases().size());
   return text;
@@ -124,8 +124,10 @@ std::string learned_text(const Learned& learned, const LearnArguments& arguments
 std::string learned_json(const Learned& learned) {
   const nlohmann::ordered_json model = nlohmann::ordered_json::parse(model_to_json(learned.model));
   nlohmann::ordered_json json{{"schema", "faultline/learning/1"}, {"name", learned.model.name}};
-  json["identification"] = {{"status", to_string(learned.identification.status)},
-                            {"reason", learned.identification.reason}};
+  json["identification"] = to_json(learned.identification);
+  json["identification"].erase("state");
+  json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
+                 {"persistence_mse", learned.residual.persistence_mse}};
   for (const char* key : {"sample_period_s", "sources", "validation", "evidence"}) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();
   return json.dump(2) + "\n";

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ranges>
 
 #include "lib/diagnosis/fault_words.hpp"
 #include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kShownPrecedents = 3;
 
 const char* in_words(const FaultFinding& fault) {
   switch (fault.decided_by) {
@@ -101,12 +104,14 @@ class FaultBlock {
 
   std::string precedents() const {
     std::string text;
-    for (const Precedent& p : fault_.precedents) {
+    for (const Precedent& p : fault_.precedents | std::views::take(kShownPrecedents)) {
       const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
       text +=
           item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
                done);
     }
+    if (fault_.precedents.size() > kShownPrecedents)
+      text += item(fmt::format("{} more, less similar", fault_.precedents.size() - kShownPrecedents));
     return text.empty() ? "" : "  Similar cases\n" + text;
   }
 
