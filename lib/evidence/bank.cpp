@@ -10,6 +10,8 @@ namespace {
 
 /// A code that changes under the stuck hypothesis counts against it this much (natural logarithm).
 constexpr double kCodeChanged = -25.0;
+/// What it costs to call a row misread: about one row in a million is.
+constexpr double kMisread = 14.0;
 constexpr double kSmallestShare = 1e-4;
 
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
@@ -38,14 +40,27 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
   predict_onset(running.state, model_, dynamics_,
-                {at.dt, before.torque.data(), at.torque.data(), at.pressed.data()}, hypotheses_[hypothesis]);
-  judge(running, at);
+                step_to(at, before.torque.data(), before.torque_missing.data()), hypotheses_[hypothesis]);
+  if (is_misread(hypotheses_[hypothesis]))
+    pass_over(running, at);
+  else
+    judge(running, at);
   return running;
 }
 
+/// A misread row says nothing of the robot; that a row is misread at all costs kMisread.
+void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const {
+  GaussianState scratch = running.state;
+  running.log_likelihood_ratio -= kMisread;
+  for (int j = 0; j < model_.joints(); ++j) {
+    const JointObservation seen = observe_joint(scratch, model_, at, j);
+    if (!at.pressed[j])
+      running.log_likelihood_ratio += seen.log_likelihood + 0.5 * seen.chi_square - at.log_likelihood[j];
+  }
+}
+
 void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
-  predict(running.state, model_, dynamics_,
-          {at.dt, before.torque.data(), at.torque.data(), at.pressed.data()},
+  predict(running.state, model_, dynamics_, step_to(at, before.torque.data(), before.torque_missing.data()),
           &hypotheses_[running.hypothesis], before.time - running.onset_s);
   judge(running, at);
 }

@@ -34,6 +34,7 @@ class Bank {
   HypothesisEvidence evidence_of(const RunningHypothesis& running) const;
 
  private:
+  void pass_over(RunningHypothesis& running, const FollowedSample& at) const;
   void judge(RunningHypothesis& running, const FollowedSample& at) const;
 
   const MotionModel& model_;

@@ -41,6 +41,11 @@ JointObservation observe_joint(GaussianState& state, const MotionModel& model, c
   return out;
 }
 
+Step step_to(const FollowedSample& at, const double* torque_before, const bool* missing_before) {
+  return {at.dt,          torque_before,           at.torque.data(), at.pressed.data(),
+          missing_before, at.torque_missing.data()};
+}
+
 Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {
   for (int j = 0; j < model.joints(); ++j) {
     const double margin = kRangeMargin * (model.q_high[j] - model.q_low[j]);
@@ -72,7 +77,8 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
     out.q[j] = segment.q[j][row];
     out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
-    out.torque[j] = std::isfinite(torque) ? torque : last_torque_[j];
+    out.torque_missing[j] = !std::isfinite(torque);
+    out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
     out.repeats[j] = started_ && out.q[j] == last_q_[j] && (segment.dq.empty() || out.dq[j] == last_dq_[j]);
   }
 }
@@ -109,7 +115,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + 0.02 * (dt - usual_dt_) : dt;
     out.dt = dt;
     for (int j = 0; j < n; ++j) out.pressed[j] = is_pressed(out, j);
-    predict(state_, model_, dynamics_, {dt, last_torque_.data(), out.torque.data(), out.pressed.data()},
+    predict(state_, model_, dynamics_, step_to(out, last_torque_.data(), last_torque_missing_.data()),
             nullptr, 0.0);
     out.total_log_likelihood = 0.0;
     for (int j = 0; j < n; ++j) {
@@ -126,6 +132,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   last_q_ = out.q;
   last_dq_ = out.dq;
   last_torque_ = out.torque;
+  last_torque_missing_ = out.torque_missing;
 }
 
 }  // namespace faultline

@@ -15,7 +15,8 @@ struct FollowedSample {
   double dt = 0.0;    ///< s since the sample before; 0 where the filter started anew
   JointArray q;       ///< NaN where nothing was measured
   JointArray dq;
-  JointArray torque;                     ///< held over from the sample before where it is missing
+  JointArray torque;                            ///< held over from the sample before where it is missing
+  std::array<bool, kMaxJoints> torque_missing;  ///< nobody knows what the drive did around this sample
   std::array<bool, kMaxJoints> repeats;  ///< position and velocity equal the sample before, bit for bit
   /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
   /// may hold them, so their readings count for no hypothesis.
@@ -26,6 +27,9 @@ struct FollowedSample {
   double total_log_likelihood = 0.0;
   GaussianState posterior;
 };
+
+/// The step that ends at a sample.
+Step step_to(const FollowedSample& at, const double* torque_before, const bool* missing_before);
 
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
@@ -59,6 +63,8 @@ class Follower {
   void follow(const Log& segment, int row, FollowedSample& out);
   /// The robot is healthy at this sample, so where its joints are belongs to the healthy range.
   void learn_range(const FollowedSample& sample);
+  /// Goes on from another state at the last sample: of a filter that did not believe a wild value.
+  void restore(const GaussianState& state) { state_ = state; }
   const FaultDynamics& dynamics() const { return dynamics_; }
 
  private:
@@ -72,6 +78,7 @@ class Follower {
   bool started_ = false;
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
+  std::array<bool, kMaxJoints> last_torque_missing_{};
   JointArray last_q_{}, last_dq_{}, last_torque_{};
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };

@@ -33,6 +33,7 @@ std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
     if (joints > 1) bank.push_back({{FaultKind::collision, 0}, duration_s, false, joints});
   }
   each_joint(FaultKind::unknown, 1);
+  bank.push_back({{FaultKind::none, 0}, 0.0, false, 0});
   return bank;
 }
 

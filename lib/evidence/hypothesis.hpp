@@ -32,6 +32,9 @@ struct Hypothesis {
   int joint_index() const { return label.joint - 1; }
 };
 
+/// That nothing happened but one row read wrong: no fault, but what a wild value must be held against.
+inline bool is_misread(const Hypothesis& hypothesis) { return hypothesis.label.kind == FaultKind::none; }
+
 /// A collision that pushes all joints at once, as a contact at the tip or on an outer link does: joint 0, one
 /// size a joint.
 inline bool is_everywhere(const Hypothesis& hypothesis) {

@@ -123,6 +123,13 @@ double Judgement::margin() const {
   return top->log_likelihood_ratio - second;
 }
 
+const GaussianState* Judgement::misread() const {
+  const RunningHypothesis* best = nullptr;
+  for (const RunningHypothesis& running : running_)
+    if (!best || better(running, *best)) best = &running;
+  return best && is_misread(bank_.hypotheses()[best->hypothesis]) ? &best->state : nullptr;
+}
+
 bool Judgement::ready() const {
   if (now_ - trigger_ > history_.capacity() / 2) return true;
   if (!alarmed())

@@ -23,6 +23,9 @@ class Judgement {
   void advance();
   bool ready() const;
   bool alarmed() const { return alarm_ >= 0; }
+  /// The state now of the filter that passed over one misread row, if that explains the log better than any
+  /// fault; null otherwise.
+  const GaussianState* misread() const;
   double best_ratio() const { return best_ratio_; }
   double largest_ratio() const { return largest_ratio_; }
   /// The evidence so far, onsets refined for the hypotheses that matter.

@@ -78,7 +78,9 @@ class Listener::Impl {
 
   /// Names the fault, or lets the suspicion go when its evidence did not last.
   void conclude(double time_s, std::int64_t row, std::vector<EpisodeEvidence>& episodes) {
-    if (!judgement_->alarmed() || judgement_->best_ratio() < options_.threshold) {
+    const GaussianState* misread = judgement_->misread();
+    if (misread) follower_.restore(*misread);
+    if (misread || !judgement_->alarmed() || judgement_->best_ratio() < options_.threshold) {
       rejected_alarms += judgement_->alarmed();
       if (!judgement_->alarmed()) largest_ratio = std::max(largest_ratio, judgement_->largest_ratio());
       rearm_row_ = row + kRearm;

@@ -75,7 +75,7 @@ JointArray stopping(const double* mean, const FaultDynamics& dynamics, const Hyp
 }
 
 bool changes_motion(FaultKind kind) {
-  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
+  return kind != FaultKind::none && kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
          kind != FaultKind::stuck_encoder;
 }
 

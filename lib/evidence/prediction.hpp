@@ -8,10 +8,12 @@ namespace faultline {
 
 /// From one sample to the next.
 struct Step {
-  double dt = 0.0;                      ///< s
-  const double* torque = nullptr;       ///< logged at its start, n numbers
-  const double* next_torque = nullptr;  ///< logged at its end
-  const bool* pressed = nullptr;        ///< at its end: joints that an end stop may hold; null for none
+  double dt = 0.0;                            ///< s
+  const double* torque = nullptr;             ///< logged at its start, n numbers
+  const double* next_torque = nullptr;        ///< logged at its end
+  const bool* pressed = nullptr;              ///< at its end: joints that an end stop may hold; null for none
+  const bool* torque_missing = nullptr;       ///< at its start: torque held over because none was logged
+  const bool* next_torque_missing = nullptr;  ///< at its end
 };
 
 /// The Kalman prediction of q, dq (and fault sizes) over a step, healthy when `hypothesis` is null. `age_s`

@@ -7,6 +7,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kMissingShare =
+    0.5;                             // of the largest torque: what a torque that was not logged may be off by
 constexpr double kRestWidths = 3.0;  // friction is uncertain within this many widths of zero velocity
 
 /// Variance of the torque impulse that the model misses at joint j over the step.
@@ -19,6 +21,11 @@ double impulse_variance(const MotionModel& model, const Step& step, const Gaussi
   if (std::abs(state.mean[n + j]) < kRestWidths * friction.width) {
     const double rest = noise.rest_share * friction.coulomb;
     variance += rest * rest;
+  }
+  if ((step.torque_missing && step.torque_missing[j]) ||
+      (step.next_torque_missing && step.next_torque_missing[j])) {
+    const double guess = kMissingShare * model.torque_scale[j];
+    return step.dt * step.dt * guess * guess;
   }
   const double jump = noise.step_share * (step.next_torque[j] - step.torque[j]);
   variance = step.dt * noise.correlation_s * variance + step.dt * step.dt * jump * jump;

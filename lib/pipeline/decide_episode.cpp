@@ -75,6 +75,24 @@ std::string size_text(const EpisodeEvidence& episode, const Model& model, const 
   }
 }
 
+/// Where networks and cases leave a fault without a name, the likelihood gives one: if a network names it
+/// too, or nothing else comes near.
+bool prefer_evidence(CaseDecision& decision, const Episode& query,
+                     const std::vector<LabelEvidence>& evidence) {
+  if (decision.label.kind != FaultKind::unknown) return false;
+  const LabelEvidence likely = likeliest(evidence);
+  if (likely.label.kind == FaultKind::unknown) return false;
+  double second = -std::numeric_limits<double>::infinity();
+  for (const LabelEvidence& e : evidence)
+    if (e.label.kind != FaultKind::unknown && named_by_size(e.label, evidence) != likely.label)
+      second = std::max(second, e.log_likelihood_ratio);
+  const bool seconded = likely.label == query.mlp.label || likely.label == query.rbfn.label;
+  if (!seconded && likely.log_likelihood_ratio - second < kCloseRatio) return false;
+  decision.label = likely.label;
+  decision.why = "neither networks nor cases settle it; this fault explains the log best";
+  return true;
+}
+
 void add_evidence_lines(FaultFinding& finding, const EpisodeEvidence& episode,
                         std::span<const JointResidual> residuals, const Model& model) {
   const double ratio = episode.hypotheses[episode.best].log_likelihood_ratio;
@@ -115,7 +133,9 @@ FaultFinding decide_episode(const EpisodeEvidence& episode, std::span<const Join
   const std::vector<LabelEvidence> evidence = evidence_by_label(episode, model.bank, model.motion);
   CaseDecision decision = decide(query, cases);
   decision.label = named_by_size(decision.label, evidence);
+  const bool by_evidence = prefer_evidence(decision, query, evidence);
   apply_decision(finding, query, cases, decision);
+  if (by_evidence) finding.decided_by = DecidedBy::evidence;
   add_close_labels(finding, episode, evidence, model);
   add_evidence_lines(finding, episode, residuals, model);
   return finding;
