@@ -121,6 +121,26 @@ TEST(Listener, ALogThatBeginsWithMissingValuesIsFollowedAllTheSame) {
   EXPECT_TRUE(heard(log).empty());
 }
 
+TEST(Listener, AWildValueInOneRowIsNoFault) {
+  for (const double off : {0.05, -3.0, 1000.0}) {
+    Log log = healthy_log();
+    log.q[0][400] += off;
+    EXPECT_TRUE(heard(log).empty()) << "position off by " << off;
+  }
+  for (const double off : {1.0, -50.0}) {
+    Log log = healthy_log();
+    log.dq[1][600] += off;
+    EXPECT_TRUE(heard(log).empty()) << "velocity off by " << off;
+  }
+}
+
+TEST(Listener, MissingTorquesAreNoFault) {
+  Log log = healthy_log();
+  log.tau[0][300] = kNaN;
+  for (int k = 700; k < 720; ++k) log.tau[2][k] = kNaN;
+  EXPECT_TRUE(heard(log).empty());
+}
+
 TEST(Listener, NothingButMissingValuesIsNoFault) {
   Log log = healthy_log(3.0);
   for (JointSignals* signals : {&log.q, &log.dq, &log.tau})
