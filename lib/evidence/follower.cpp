@@ -16,10 +16,6 @@ constexpr double kGapPeriods = 5.5;    // a longer gap starts the filter anew
 
 }  // namespace
 
-double capped_log_density(const ScalarUpdate& update) {
-  return -0.5 * (std::min(update.chi_square(), kChiSquareCap) + std::log(update.variance) + kLogTwoPi);
-}
-
 JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
                                int j, const SensorError& error) {
   const int n = model.joints();

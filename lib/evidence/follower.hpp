@@ -34,9 +34,6 @@ Step step_to(const FollowedSample& at, const double* torque_before, const bool* 
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
 
-/// Log density of one scalar innovation with its chi-square capped.
-double capped_log_density(const ScalarUpdate& update);
-
 /// A fault size that falsifies what a joint's sensor reads.
 struct SensorError {
   int size_index = -1;  ///< in the state; -1 for none

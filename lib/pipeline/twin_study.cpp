@@ -2,7 +2,6 @@
 #include "lib/pipeline/twin_study.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <mutex>
 
