@@ -69,13 +69,6 @@ void add_noise(std::vector<double>& signal, double share, Random& random) {
 
 }  // namespace
 
-Robot bench_robot() {
-  Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
-  robot.identified = true;
-  return robot;
-}
-
 Log bench_log(const Robot& robot, const BenchMotion& options) {
   const FastDynamics dynamics(robot.chain);
   Motion motion(robot, options.seed);

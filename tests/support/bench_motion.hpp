@@ -4,12 +4,9 @@
 #include <cstdint>
 
 #include "lib/log/log.hpp"
-#include "lib/robot/robot.hpp"
+#include "lib/reproduce/protocol.hpp"
 
 namespace faultline {
-
-/// The bench robot of the paper's protocol: RRP, m = (1, 0.8, 0.5) kg, l = (1, 0.8) m, no friction.
-Robot bench_robot();
 
 struct BenchMotion {
   double duration_s = 60.0;
