@@ -38,8 +38,8 @@ Robot bench_robot_with_friction();
 struct HalfRanges {
   Eigen::VectorXd q, dq, tau;
 };
-/// Of healthy motion under this controller: of q as asked for, of dq and tau as found in 100 trajectories of 25
-/// samples, the size of the paper's training set.
+/// Of healthy motion under this controller: of q as asked for, of dq and tau as found in 100 trajectories of
+/// 25 samples, the size of the paper's training set.
 HalfRanges half_ranges(const Robot& robot, ControllerReading controller);
 
 /// A random move of 1.2 to 1.8 s between two points of the ranges (q1, q2 within 2 rad, q3 -0.35 to 0.05 m),

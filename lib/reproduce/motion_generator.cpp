@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/motion_generator.hpp"
+
+#include "lib/residual/fit_residual.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kSamples = 25;  // a trajectory, in the paper
+
+ResidualGenerator untrained(const Robot& robot, const GeneratorRecipe& recipe) {
+  ResidualGenerator generator;
+  generator.kind = recipe.fit.kind;
+  generator.target = recipe.fit.target;
+  generator.shape = one_sample(robot.joints(), recipe.next_torque ? 1.0 : 0.0);
+  generator.uses_mean_torque = recipe.next_torque;
+  generator.turns.assign(robot.joints(), 0);
+  generator.chain = recipe.assumed.value_or(robot.chain);
+  return generator;
+}
+
+}  // namespace
+
+std::vector<Log> healthy_trajectories(const Robot& robot, ControllerReading controller, int count,
+                                      double sigma, const HalfRanges& ranges, std::uint64_t seed,
+                                      SeedUse use) {
+  std::vector<Log> logs;
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t own = seed_of(seed, use, i);
+    logs.push_back(trajectory(robot, controller, kSamples, {}, own));
+    add_noise(logs.back(), ranges, sigma, own);
+  }
+  return logs;
+}
+
+TrainedGenerator train_generator(const Robot& robot, ControllerReading controller,
+                                 const GeneratorRecipe& recipe, const HalfRanges& ranges,
+                                 std::uint64_t seed) {
+  TrainedGenerator trained{untrained(robot, recipe), {}};
+  const double phi = trained.generator.shape.torque_phi;
+  const int check_count = recipe.trajectories / 5;
+  std::vector<Log> logs = healthy_trajectories(robot, controller, recipe.trajectories + check_count,
+                                               recipe.sigma, ranges, seed, SeedUse::generator_training);
+  const Transitions check = transitions_of({logs.begin() + recipe.trajectories, logs.end()}, phi);
+  logs.resize(recipe.trajectories);
+  ResidualOptions fit = recipe.fit;
+  fit.seed = seed_of(seed, SeedUse::generator_training, ~0ull);
+  trained.training = fit_residual_generator(trained.generator, transitions_of(logs, phi), {}, fit);
+  measure_healthy(trained.generator, check);
+  return trained;
+}
+
+Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
+                                         const HalfRanges& ranges) {
+  Eigen::VectorXd half(ranges.q.size() + ranges.dq.size());
+  half << ranges.q, ranges.dq;
+  const Eigen::MatrixXd error = measured_change(generator, test) - predicted_change(generator, test);
+  return (half.cwiseInverse().asDiagonal() * error).array().square().rowwise().mean();
+}
+
+double normalised_mse(const ResidualGenerator& generator, const Transitions& test, const HalfRanges& ranges) {
+  return normalised_mse_by_output(generator, test, ranges).mean();
+}
+
+}  // namespace faultline
