@@ -10,10 +10,10 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/folder.hpp"
 #include "apps/progress.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/core/error.hpp"
 #include "lib/simulate/spec_file.hpp"
 
 namespace faultline {
@@ -25,13 +25,6 @@ struct SimulateArguments {
   std::optional<std::uint64_t> seed;
   bool json = false;
 };
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw Error(ErrorCode::output, folder, "cannot be made into a folder for the logs; give another with -o");
-}
 
 nlohmann::ordered_json summary(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
   nlohmann::ordered_json faults = nlohmann::ordered_json::array();

@@ -10,4 +10,12 @@ namespace faultline {
 /// from two threads at once.
 using Progress = std::function<void(const std::string& what, double share)>;
 
+/// The same teller for a part of the work, whose shares 0 to 1 become `from` to `to` of the whole.
+inline Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [&progress, from, to](const std::string& what, double share) {
+    progress(what, from + (to - from) * share);
+  };
+}
+
 }  // namespace faultline

@@ -25,14 +25,6 @@ constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealt
                         kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
                         kSeedBlock = 10'000'000;
 
-/// Shares of the whole work, for one progress bar.
-Progress part(const Progress& progress, double from, double to) {
-  if (!progress) return {};
-  return [&progress, from, to](const std::string& what, double share) {
-    progress(what, from + (to - from) * share);
-  };
-}
-
 IdentifiedMotion identified_motion(const Identification& identification) {
   IdentifiedMotion motion;
   motion.chain = identification.robot.chain;
@@ -161,7 +153,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   options.check();
   Learned out;
   Model& model = out.model;
-  out.identification = identify(healthy, robot, options.identify, part(progress, 0.0, 0.25));
+  out.identification = identify(healthy, robot, options.identify, part_of(progress, 0.0, 0.25));
   model.robot = out.identification.robot;
   model.name = robot.name;
   model.sample_period_s = usual_period_s(out.identification);
@@ -169,7 +161,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
 
   out.residual = learn_residual_generator(healthy, model.robot, model.robot.torque_phi.value_or(0.0),
-                                          options.residual, part(progress, 0.25, 0.35));
+                                          options.residual, part_of(progress, 0.25, 0.35));
   model.residual = out.residual.generator;
   model.motion = learn_motion_model(healthy, identified_motion(out.identification), {});
   model.evidence = calibrate_thresholds(healthy, model.motion, model.bank, {});
@@ -180,7 +172,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   calibrate_on_twin(model, hear_twin_runs(twin, model, calm, seed + kHealthySeeds, options.threads, {}));
   std::vector<HeardRun> runs =
       hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.runs_per_label),
-                     seed + kTrainingSeeds, options.threads, part(progress, 0.4, 0.8));
+                     seed + kTrainingSeeds, options.threads, part_of(progress, 0.4, 0.8));
   for (HeardRun& run : hear_labelled(labelled, model)) runs.push_back(std::move(run));
 
   const TrainingEpisodes training = training_episodes(runs, model);
@@ -197,7 +189,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.samples = learn_sample_mode(twin, model, sample_labels, seed + kSampleSeeds, options.threads);
   model.validation =
       validate(hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.validation_per_label),
-                              seed + kValidationSeeds, options.threads, part(progress, 0.85, 1.0)),
+                              seed + kValidationSeeds, options.threads, part_of(progress, 0.85, 1.0)),
                hear_twin_runs(twin, model, calm, seed + kHealthyValidationSeeds, options.threads, {}), model,
                out.cases);
   model.sources = sources_of(out.identification, labelled);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace faultline {
+
+/// One curve. A NaN breaks it.
+struct PlotSeries {
+  std::string name;
+  std::vector<double> x, y;
+  bool points = false;  ///< marks at the samples besides the line
+  bool stairs = false;  ///< holds each value until the next sample
+};
+
+/// A vertical line with a word on it, such as the onset of a fault.
+struct PlotMark {
+  double x = 0.0;
+  std::string text;
+};
+
+struct PlotPanel {
+  std::string y_label;  ///< with its unit
+  std::vector<PlotSeries> series;
+  bool log_y = false;  ///< values that are not positive are left out
+  std::optional<std::pair<double, double>> y_range{};
+};
+
+/// Panels below each other over one x axis.
+struct LinePlot {
+  std::string title;
+  std::string x_label;  ///< with its unit
+  std::vector<PlotPanel> panels;
+  std::vector<PlotMark> marks;
+  int width = 760;         ///< px
+  int panel_height = 170;  ///< px
+};
+
+/// A picture that stands alone, for screen and print: white ground, colours that the colour-blind can tell
+/// apart and a line style of its own for each curve, title and description for screen readers. Curves are cut
+/// at the panel's edge.
+std::string render_svg(const LinePlot& plot);
+
+}  // namespace faultline

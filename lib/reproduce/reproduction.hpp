@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/core/progress.hpp"
+#include "lib/report/line_plot.hpp"
+#include "lib/reproduce/reproduce_options.hpp"
+#include "lib/reproduce/result_table.hpp"
+
+namespace faultline {
+
+/// A picture with its stable name, which is also its file's.
+struct Figure {
+  std::string id;       ///< such as "figure_3"
+  std::string caption;  ///< Markdown
+  LinePlot plot;
+};
+
+/// Every table and figure of the paper, beside what it printed, and what each departure from it buys.
+struct Reproduction {
+  ReproduceOptions options;
+  std::vector<ResultTable> tables;
+  std::vector<Figure> figures;
+  std::vector<Goal> goals;
+};
+
+/// Runs the whole reproduction; the same options but `threads` give the same numbers.
+Reproduction reproduce(const ReproduceOptions& options = {}, const Progress& progress = {});
+
+/// A page with all of it; pictures are taken from `<id>.svg` in `picture_folder` ("" or ending in "/").
+std::string reproduction_markdown(const Reproduction& reproduction, const std::string& picture_folder = "");
+/// Schema "faultline/reproduction/1".
+std::string reproduction_json(const Reproduction& reproduction);
+
+}  // namespace faultline
