@@ -114,8 +114,9 @@ Log trajectory(const Robot& robot, ControllerReading controller, int samples, co
 }
 
 Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
-                 double onset_s, std::uint64_t seed) {
+                 double onset_s, std::uint64_t seed, double sample_period_s) {
   SimulationSpec spec = spec_of(controller, duration_s);
+  spec.sample_period_s = sample_period_s;
   set_fault(spec, fault, onset_s);
   return simulate(robot, spec, seed).log;
 }

@@ -48,9 +48,9 @@ Log trajectory(const Robot& robot, ControllerReading controller, int samples, co
                std::uint64_t seed, double onset_s = 0.0);
 
 /// A run of such moves, each followed by a rest of up to 0.4 s, without noise. Ends early when a freed robot
-/// runs away.
+/// runs away. Readings whose torque changes every millisecond may be logged faster than the paper does.
 Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
-                 double onset_s, std::uint64_t seed);
+                 double onset_s, std::uint64_t seed, double sample_period_s = kSamplePeriod);
 
 /// Adds white noise of `sigma` half ranges to q and dq: measurement noise as in the paper's second test sets.
 /// The controller does not see it.
