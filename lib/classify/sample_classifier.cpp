@@ -28,6 +28,11 @@ MatrixXd features_of(SampleFeatures kind, const VectorXd& torque_rms, const Resi
     return ((torque.array().colwise() / torque_rms.array()).asinh()).matrix().eval();
   };
   MatrixXd features(3 * n, residuals.count());
+  if (kind == SampleFeatures::hypotheses) {
+    features << compressed(residuals.torque.cwiseAbs()),
+        compressed((residuals.torque + residuals.tau).cwiseAbs()), compressed(residuals.tau.cwiseAbs());
+    return features;
+  }
   features << compressed(residuals.torque), compressed(residuals.tau.cwiseAbs()),
       residuals.ratio.unaryExpr([](double ratio) { return std::clamp(ratio, -2.0, 2.0); });
   return features;
@@ -59,11 +64,12 @@ struct Samples {
       validation{&comes_before};
 };
 
-Samples sort_samples(std::span<const LabelledResiduals> runs) {
+Samples sort_samples(std::span<const LabelledResiduals> runs, int validate_every) {
   Samples samples;
   std::map<FaultLabel, int, decltype(&comes_before)> seen(&comes_before);
   for (int r = 0; r < static_cast<int>(runs.size()); ++r) {
-    auto& side = ++seen[runs[r].fault] % 5 == 0 ? samples.validation : samples.training;
+    const bool validates = ++seen[runs[r].fault] % std::max(validate_every, 1) == 0 && validate_every > 0;
+    auto& side = validates ? samples.validation : samples.training;
     for (int i = 0; i < runs[r].residuals.count(); ++i)
       if (runs[r].residuals.velocity.col(i).allFinite() && runs[r].residuals.torque.col(i).allFinite())
         side[label_at(runs[r], i)].push_back({r, i});
@@ -112,6 +118,29 @@ std::vector<FaultLabel> classes_of(const Samples& samples) {
   return classes;
 }
 
+SampleFeatures features_from(const std::string& name, const std::string& where) {
+  for (const auto kind : {SampleFeatures::velocity, SampleFeatures::torque_space, SampleFeatures::hypotheses})
+    if (name == to_string(kind)) return kind;
+  throw Error(ErrorCode::input, where,
+              "features: '" + name + "' is none of velocity, torque_space, hypotheses");
+}
+
+TrainedMlp train_mlp(const Patterns& training, const Patterns& validation,
+                     const SampleClassifierOptions& options, const Progress& progress) {
+  std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
+  sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
+  sizes.push_back(static_cast<int>(training.targets.rows()));
+  Mlp start = make_mlp(sizes, options.output, options.seed);
+  if (options.trainer == SampleTrainer::back_propagation) {
+    BackPropagationOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
+    trainer.stop.max_iterations = options.max_iterations;
+    return train_back_propagation(std::move(start), training, validation, trainer, progress);
+  }
+  QuasiNewtonOptions trainer{.weight_decay = options.weight_decay};
+  trainer.stop.max_iterations = options.max_iterations;
+  return train_quasi_newton(std::move(start), training, validation, trainer, progress);
+}
+
 std::vector<FaultLabel> classes_from_json(const json& in, const std::string& where) {
   if (!in.is_array() || in.empty()) throw Error(ErrorCode::input, where, "expected a list of faults");
   std::vector<FaultLabel> classes;
@@ -127,6 +156,12 @@ std::vector<FaultLabel> classes_from_json(const json& in, const std::string& whe
 }
 
 }  // namespace
+
+const char* to_string(SampleFeatures features) {
+  return features == SampleFeatures::velocity       ? "velocity"
+         : features == SampleFeatures::torque_space ? "torque_space"
+                                                    : "hypotheses";
+}
 
 SampleOutputs classify_samples(const SampleClassifier& classifier, const Residuals& residuals) {
   if (residuals.count() > 0 && residuals.joints() != classifier.joints())
@@ -144,7 +179,7 @@ TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResidual
                                                 const ResidualGenerator& generator,
                                                 const SampleClassifierOptions& options,
                                                 const Progress& progress) {
-  const Samples samples = sort_samples(runs);
+  const Samples samples = sort_samples(runs, options.validate_every);
   TrainedSampleClassifier trained;
   SampleClassifier& classifier = trained.classifier;
   classifier.features = options.features;
@@ -163,13 +198,7 @@ TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResidual
   training.inputs = classifier.scaler.apply(training.inputs);
   validation.inputs = classifier.scaler.apply(validation.inputs);
 
-  std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
-  sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
-  sizes.push_back(static_cast<int>(classifier.classes.size()));
-  QuasiNewtonOptions trainer{.weight_decay = options.weight_decay};
-  trainer.stop.max_iterations = options.max_iterations;
-  TrainedMlp mlp = train_quasi_newton(make_mlp(sizes, options.output, options.seed), training, validation,
-                                      trainer, progress);
+  TrainedMlp mlp = train_mlp(training, validation, options, progress);
   classifier.mlp = std::move(mlp.mlp);
   trained.mlp = std::move(mlp.summary);
   TrainedRbfn rbfn = train_rbfn(training, options.rbfn);
@@ -182,7 +211,7 @@ void to_json(json& out, const SampleClassifier& classifier) {
   json classes = json::array();
   for (const FaultLabel& label : classifier.classes)
     classes.push_back({{"fault", to_string(label.kind)}, {"joint", label.joint}});
-  out = {{"features", classifier.features == SampleFeatures::velocity ? "velocity" : "torque_space"},
+  out = {{"features", to_string(classifier.features)},
          {"classes", std::move(classes)},
          {"prior", vector_to_json(classifier.prior)},
          {"torque_rms", vector_to_json(classifier.torque_rms)},
@@ -193,10 +222,7 @@ void to_json(json& out, const SampleClassifier& classifier) {
 
 SampleClassifier sample_classifier_from_json(const json& in, const std::string& where) {
   SampleClassifier classifier;
-  const std::string features = text_from_json(in, "features", where);
-  if (features != "velocity" && features != "torque_space")
-    throw Error(ErrorCode::input, where, "features: '" + features + "' is none of velocity, torque_space");
-  classifier.features = features == "velocity" ? SampleFeatures::velocity : SampleFeatures::torque_space;
+  classifier.features = features_from(text_from_json(in, "features", where), where);
   classifier.classes = classes_from_json(member_of(in, "classes", where), where + ", classes");
   classifier.prior = vector_from_json(in, "prior", where);
   classifier.torque_rms = vector_from_json(in, "torque_rms", where);

@@ -23,7 +23,11 @@ enum class SampleFeatures {
   velocity,      ///< velocity residual of each joint, as in the paper
   torque_space,  ///< of each joint: torque-space residual and torque (both compressed by asinh, in healthy
                  ///< rms), and their ratio; separates joints that look alike in velocity (docs/residual.md)
+  hypotheses,  ///< of each joint, as magnitudes compressed by asinh in healthy rms: the torque-space residual
+               ///< (near 0 when it is healthy), that plus the torque (near 0 when it swings freely), and the
+               ///< torque
 };
+const char* to_string(SampleFeatures features);
 
 /// The paper's classifier: an MLP and an RBFN, each with an output a fault and a last one for fault-free
 /// operation.
@@ -60,14 +64,18 @@ struct LabelledResiduals {
   double end_s = std::numeric_limits<double>::infinity();
 };
 
+enum class SampleTrainer { quasi_newton, back_propagation };
+
 struct SampleClassifierOptions {
   SampleFeatures features = SampleFeatures::torque_space;
   std::vector<int> hidden = {20};
   /// Softmax trained by cross-entropy gives probabilities; linear trained on 1 and 0 is the paper's.
   OutputKind output = OutputKind::softmax;
+  SampleTrainer trainer = SampleTrainer::quasi_newton;  ///< of the MLP; back-propagation is the paper's
   RbfnOptions rbfn = {.map = {.rows = 10, .columns = 10}};
   int patterns_per_class = 400;  ///< drawn at random from all runs
-  int max_iterations = 300;      ///< of the MLP's trainer
+  int validate_every = 5;        ///< of each fault's runs, one in so many validates; 0: all of them train
+  int max_iterations = 300;      ///< of the MLP's trainer; epochs for back-propagation
   double weight_decay = 1e-4;
   std::uint64_t seed = 1;
 };
@@ -79,9 +87,8 @@ struct TrainedSampleClassifier {
   int patterns = 0;
 };
 
-/// Trains both networks on samples of labelled runs; every fifth run of each fault validates. Classes are the
-/// labels that occur, in the order of kind and joint, with `none` last. Throws Error(input) when there are no
-/// fault-free or no faulty samples.
+/// Trains both networks on samples of labelled runs. Classes are the labels that occur, in the order of kind
+/// and joint, with `none` last. Throws Error(input) when there are no fault-free or no faulty samples.
 TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
                                                 const ResidualGenerator& generator,
                                                 const SampleClassifierOptions& options = {},

@@ -11,7 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kControlPeriod = 0.001;     // s, of fast and pd
 constexpr double kIntegrationStep = 0.0074;  // s; the bench robot without friction is smooth
 constexpr double kPdBandwidth = 5.0;         // rad/s: settles within a move of 1.2 to 1.8 s
 
@@ -23,11 +22,8 @@ SimulationSpec spec_of(ControllerReading controller, double duration_s) {
   spec.max_step_s = kIntegrationStep;
   spec.motion.dwell_min_s = 0.0;
   spec.motion.dwell_max_s = 0.4;
-  if (controller == ControllerReading::pd) {
-    spec.motion.profile = MotionProfile::step;
-    spec.controller.kind = ControllerKind::pd_gravity;
-    spec.controller.bandwidth_rad_s = kPdBandwidth;
-  }
+  spec.controller = controller_spec(controller);
+  if (controller == ControllerReading::pd) spec.motion.profile = MotionProfile::step;
   return spec;
 }
 
@@ -61,6 +57,11 @@ const char* to_string(ControllerReading controller) {
       return "pd";
   }
   return "";
+}
+
+ControllerSpec controller_spec(ControllerReading controller) {
+  if (controller != ControllerReading::pd) return {};
+  return {.kind = ControllerKind::pd_gravity, .bandwidth_rad_s = kPdBandwidth};
 }
 
 Robot bench_robot() {

@@ -13,6 +13,8 @@
 
 namespace faultline {
 
+struct ControllerSpec;
+
 /// The controller that the paper does not state, in three readings.
 enum class ControllerReading {
   held,  ///< computed torque, quintic moves, the torque constant over each sample of 73 ms
@@ -27,7 +29,9 @@ const char* to_string(ControllerReading controller);
 /// position and velocity it may be 0.01 or, read as a variance, 0.1.
 inline constexpr double kNoiseReadings[] = {0.0, 0.01, 0.1};
 
-inline constexpr double kSamplePeriod = 0.073;  ///< s, the paper's
+inline constexpr double kSamplePeriod = 0.073;   ///< s, the paper's
+inline constexpr double kControlPeriod = 0.001;  ///< s, of fast and pd
+ControllerSpec controller_spec(ControllerReading controller);
 
 /// m = (1, 0.8, 0.5) kg, l = (1, 0.8) m, axes RRP: the paper gives no masses or lengths. Without friction, as
 /// in its simulation, or with some in every joint.

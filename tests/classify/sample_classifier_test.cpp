@@ -93,6 +93,21 @@ TEST(SampleClassifier, ThePapersFeaturesTrainToo) {
             0.18);  // 4 outputs, one of them 1: always saying a quarter leaves 0.1875
 }
 
+TEST(SampleClassifier, FeaturesOfBothHypothesesTellAFreeJointWithAllRunsTraining) {
+  const SampleClassifierOptions options{.features = SampleFeatures::hypotheses, .validate_every = 0};
+  const auto both = train_sample_classifier(runs(6, 100), generator(), options);
+  EXPECT_EQ(both.classifier.mlp.inputs(), 9);
+  EXPECT_LT(both.mlp.training_mse, 0.02) << both.mlp.text();
+  EXPECT_LT(both.rbfn.training_mse, 0.05);
+}
+
+TEST(SampleClassifier, BackPropagationTrainsToo) {
+  const SampleClassifierOptions options{
+      .output = OutputKind::linear, .trainer = SampleTrainer::back_propagation, .max_iterations = 50};
+  const auto trained = train_sample_classifier(runs(6, 100), generator(), options);
+  EXPECT_LT(trained.mlp.training_mse, 0.5 * trained.mlp.initial_mse) << trained.mlp.text();
+}
+
 TEST(SampleClassifier, MissingResidualsGiveMissingOutputs) {
   LabelledResiduals labelled = run(0, 3);
   for (auto* matrix : {&labelled.residuals.velocity, &labelled.residuals.torque, &labelled.residuals.ratio})
