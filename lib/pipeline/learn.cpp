@@ -54,11 +54,15 @@ std::vector<ModelSource> sources_of(const Identification& identification,
   return sources;
 }
 
-/// Every label the bank can name, `count` times.
-std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count) {
+/// Every label the bank can name `count` times: of the kinds asked for, all if none is; joint by joint.
+std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
+                                           const std::vector<FaultKind>& kinds) {
   std::vector<FaultLabel> labels;
-  for (const FaultLabel& label : labels_of(bank).labels)
-    if (label.kind != FaultKind::unknown && label.joint > 0) labels.insert(labels.end(), count, label);
+  for (const FaultLabel& label : labels_of(bank).labels) {
+    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), label.kind) != kinds.end();
+    if (wanted && label.kind != FaultKind::unknown && label.joint > 0)
+      labels.insert(labels.end(), count, label);
+  }
   return labels;
 }
 
@@ -171,7 +175,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
   calibrate_on_twin(model, hear_twin_runs(twin, model, calm, seed + kHealthySeeds, options.threads, {}));
   std::vector<HeardRun> runs =
-      hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.runs_per_label),
+      hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.runs_per_label, options.kinds),
                      seed + kTrainingSeeds, options.threads, part_of(progress, 0.4, 0.8));
   for (HeardRun& run : hear_labelled(labelled, model)) runs.push_back(std::move(run));
 
@@ -180,18 +184,18 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   judging.seed = options.seed;
   model.judges = train_judges(training.episodes, judging);
   out.cases = fill_case_base(training, model, judging);
-  std::vector<FaultLabel> sample_labels = labels_to_simulate(model.bank, kSampleRunsPerLabel);
+  std::vector<FaultLabel> sample_labels = labels_to_simulate(model.bank, kSampleRunsPerLabel, options.kinds);
   // A bias or a drift shows in the residual of its first sample only: after it, their samples look healthy.
   std::erase_if(sample_labels, [](const FaultLabel& label) {
     return label.kind == FaultKind::sensor_bias || label.kind == FaultKind::sensor_drift;
   });
   sample_labels.insert(sample_labels.end(), kHealthySampleRuns, FaultLabel{});
   model.samples = learn_sample_mode(twin, model, sample_labels, seed + kSampleSeeds, options.threads);
-  model.validation =
-      validate(hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.validation_per_label),
-                              seed + kValidationSeeds, options.threads, part_of(progress, 0.85, 1.0)),
-               hear_twin_runs(twin, model, calm, seed + kHealthyValidationSeeds, options.threads, {}), model,
-               out.cases);
+  model.validation = validate(
+      hear_twin_runs(twin, model, labels_to_simulate(model.bank, options.validation_per_label, options.kinds),
+                     seed + kValidationSeeds, options.threads, part_of(progress, 0.85, 1.0)),
+      hear_twin_runs(twin, model, calm, seed + kHealthyValidationSeeds, options.threads, {}), model,
+      out.cases);
   model.sources = sources_of(out.identification, labelled);
   return out;
 }

@@ -25,10 +25,11 @@ struct LabelledLog {
 struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
-  int runs_per_label = 14;       ///< simulated to train the judges and fill the case base
-  int validation_per_label = 5;  ///< simulated to measure the model, trained on by nothing
-  int healthy_runs = 40;         ///< simulated to calibrate thresholds; as many again measure false alarms
-  int threads = 0;               ///< 0 = one a core; changes no byte of the result
+  int runs_per_label = 14;         ///< simulated to train the judges and fill the case base
+  int validation_per_label = 5;    ///< simulated to measure the model, trained on by nothing
+  int healthy_runs = 40;           ///< simulated to calibrate thresholds; as many again measure false alarms
+  std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that the bank can name
+  int threads = 0;                 ///< 0 = one a core; changes no byte of the result
   std::uint64_t seed = 1;
 
   /// Throws Error(usage) naming the field, its value and its bound.
