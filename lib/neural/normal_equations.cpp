@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/neural/gram.hpp"
 #include "lib/neural/kernels.hpp"
 
 namespace faultline {
@@ -73,12 +74,13 @@ MatrixXd jacobian_columns(const Mlp& mlp, const std::vector<MatrixXd>& values, M
 MatrixXd two_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
   const MatrixXd& w2 = mlp.layers[1].weights;
   const Index hidden = w2.cols(), outputs = w2.rows(), ins = inputs.rows() + 1, first = hidden * ins;
-  MatrixXd gram = MatrixXd::Zero(first + hidden + 1, first + hidden + 1);
+  const Index padded = (first + hidden + kGramPanel) / kGramPanel * kGramPanel;
+  MatrixXd gram = MatrixXd::Zero(padded, padded);
   Mlp front{{mlp.layers[0]}, OutputKind::linear};
   for (Index at = 0; at < inputs.cols(); at += kChunk) {
     const Index count = std::min(kChunk, inputs.cols() - at);
     MatrixXd h = forward(front, inputs.middleCols(at, count));
-    MatrixXd features(gram.rows(), count);
+    MatrixXd features = MatrixXd::Zero(padded, count);
     for (Index n = 0; n < count; ++n) {
       for (Index k = 0; k < hidden; ++k) h(k, n) = std::tanh(h(k, n));
       const VectorXd slope = (1.0 - h.col(n).array().square()).matrix();
@@ -88,7 +90,7 @@ MatrixXd two_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inpu
       features.col(n).segment(first, hidden) = h.col(n);
       features(first + hidden, n) = 1.0;
     }
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(features);
+    add_gram(features, gram);
   }
   gram /= static_cast<double>(inputs.cols());
 
