@@ -21,7 +21,7 @@ struct GeneratorScale {
   int epochs = 1500;            ///< of back-propagation
   int iterations = 40;          ///< of Levenberg-Marquardt
   int many_iterations = 40;     ///< the same on the large set, in the first experiment only
-  int noisy_iterations = 15;    ///< the same on noisy patterns, where more only fits the noise
+  int noisy_iterations = 15;    ///< the same on patterns with noise of 0.1, where more only fits the noise
   LearningLogs slow_logs{};
   LearningLogs fast_logs{.count = 1, .duration_s = 20.0, .sample_period_s = 0.001, .max_rows = 6000};
 };
@@ -61,6 +61,7 @@ std::vector<GeneratorCandidate> friction_candidates(const GeneratorScale& scale)
 // Names by which goals and texts find their rows.
 inline constexpr const char* kBackPropagation = "MLP 9-49-6, back-propagation";
 inline constexpr const char* kLevenbergMarquardt = "MLP 9-49-6, Levenberg-Marquardt";
+inline constexpr const char* kTrainedWithNoise = "MLP 9-49-6, Levenberg-Marquardt, trained with noise 0.1";
 inline constexpr const char* kPhysicsTrue = "physics, true parameters";
 inline constexpr const char* kPhysicsIdentified = "physics, identified";
 inline constexpr const char* kHybrid = "hybrid: identified physics + MLP of 20 units";
