@@ -61,9 +61,20 @@ void Judgement::begin_at(std::int64_t onset, bool slow_only) {
 }
 
 void Judgement::advance() {
+  if (lost_) return;
+  const bool stands = alarmed() && now_ - alarm_ >= options_.fewest_samples;
+  std::vector<RunningHypothesis> before;
+  if (stands) before = running_;
   ++now_;
   for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
   update();
+  if (stands && !std::isfinite(best_ratio_)) {
+    lost_ = true;
+    --now_;
+    running_ = std::move(before);
+    update();
+    return;
+  }
   const std::int64_t since = now_ - trigger_;
   const bool slow = history_[now_].time - history_[trigger_].time >= kFirstPrune_s;
   const bool first_time = !pruned_ && (since >= kFirstPrune || (slow && since >= kFewestBeforePrune));
@@ -131,6 +142,7 @@ const GaussianState* Judgement::misread() const {
 }
 
 bool Judgement::ready() const {
+  if (lost_) return true;
   if (now_ - trigger_ > history_.capacity() / 2) return true;
   if (!alarmed())
     return now_ - trigger_ >= kFewestConfirm &&

@@ -48,6 +48,7 @@ class Judgement {
   std::int64_t now_;
   std::int64_t alarm_ = -1;
   bool pruned_ = false;
+  bool lost_ = false;  ///< after the alarm the robot ran away from every filter: judged by what came before
   double best_ratio_ = 0.0;
   double largest_ratio_ = 0.0;
   std::vector<RunningHypothesis> running_;

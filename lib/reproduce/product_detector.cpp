@@ -63,13 +63,11 @@ Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed
   LearnOptions options;
   options.threads = 1;
   options.identify = identify_options();
-  options.runs_per_label = quick ? 4 : 6;
+  options.runs_per_label = 4;
   options.validation_per_label = 0;
   options.healthy_runs = quick ? 4 : kHealthyRuns;
-  if (quick) {
-    options.kinds = {FaultKind::free_swinging, FaultKind::torque_loss, FaultKind::locked};
-    options.residual.max_iterations = 10;
-  }
+  options.residual.max_iterations = quick ? 8 : 30;
+  if (quick) options.kinds = {FaultKind::free_swinging, FaultKind::torque_loss, FaultKind::locked};
   options.seed = seed;
   const Sources sources(healthy);
   return learn(sources.all(), {}, healthy.robot, options);

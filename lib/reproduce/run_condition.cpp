@@ -88,15 +88,16 @@ ConditionResult run_condition(const Experiment& e, double sigma) {
                       runs, "best recipe", true, result);
 
   const auto tuning = some_of(runs.tuning, e.plan.filter_tuning_faulty, e.plan.filter_tuning_h);
-  const auto test = some_of(runs.test, e.plan.filter_faulty, e.plan.filter_fault_free_h);
   if (learns) {
+    const auto test = some_of(runs.test, e.plan.filter_faulty, e.plan.filter_fault_free_h);
     result.detectors.push_back(
         watch_with_filters(detector_name::kFilters, learned.model.motion, tuning, test));
     append(result.detectors, watch_with_product(learned, test));
   }
-  if (contains(e.plan.filtered_sigmas, sigma))
-    result.detectors.push_back(watch_with_filters(
-        detector_name::kReference, motion_model_of(e.robot.chain, healthy, e.ranges, sigma), tuning, test));
+  if (!contains(e.plan.filtered_sigmas, sigma)) return result;
+  const MotionModel known = motion_model_of(e.robot.chain, healthy, e.ranges, sigma);
+  const auto test = some_of(runs.test, e.plan.reference_faulty, e.plan.reference_h);
+  result.detectors.push_back(watch_with_filters(detector_name::kReference, known, tuning, test));
   return result;
 }
 
@@ -111,22 +112,23 @@ RunPlan run_plan(ControllerReading controller, bool quick) {
     plan.training.fault_free_h = 0.5;
     plan.tuning = {.faulty = 100, .fault_free_h = 3.0};
     plan.test = {.faulty = 60, .fault_free_h = 2.0};
-    plan.filter_fault_free_h = 1.0;
   }
   if (!quick) return plan;
   plan.training = {.faulty = 30, .fault_free_h = 0.05, .after_onset_s = 2.0};
   plan.tuning = plan.test = {.faulty = 18, .fault_free_h = 0.1, .hour_s = 360.0};
   if (!held) plan.sigmas = {0.01};
   plan.filter_faulty = 12;
-  plan.filter_fault_free_h = plan.filter_tuning_h = 0.1;
+  plan.filter_fault_free_h = plan.filter_tuning_h = plan.reference_h = 0.1;
+  plan.reference_faulty = 6;
   plan.filter_tuning_faulty = 6;
-  plan.healthy_log_s = 30.0;
+  plan.healthy_log_s = 20.0;
   plan.generator_trajectories = 30;
   plan.generator_iterations = 10;
-  plan.patterns_per_class = 300;
+  plan.patterns_per_class = 200;
   plan.learned_sigmas.clear();
   if (held) plan.learned_sigmas = {0.01};
-  plan.filtered_sigmas = {0.01};
+  plan.filtered_sigmas.clear();
+  if (held) plan.filtered_sigmas = {0.01};
   return plan;
 }
 

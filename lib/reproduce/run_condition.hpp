@@ -12,12 +12,14 @@ namespace faultline {
 /// How much is simulated for one controller and seed.
 struct RunPlan {
   RunSet training{.faulty = 150, .fault_free_h = 1.0, .after_onset_s = 2.0};
-  RunSet tuning{.faulty = 150};
+  RunSet tuning{.faulty = 150, .fault_free_h = 5.0};
   RunSet test{};
   int filter_faulty = 60;  ///< of the test runs: those that filters watch
   double filter_fault_free_h = 2.0;
-  int filter_tuning_faulty = 20;  ///< of the tuning runs, likewise
-  double filter_tuning_h = 1.0;
+  int filter_tuning_faulty = 15;  ///< of the tuning runs, likewise
+  double filter_tuning_h = 0.5;
+  int reference_faulty = 30;  ///< of the test runs: those that filters on the true robot watch
+  double reference_h = 0.5;
   double healthy_log_s = 120.0;      ///< of each of the three logs to learn from
   int generator_trajectories = 100;  ///< of the paper's generator
   int generator_iterations = 60;     ///< of its trainer

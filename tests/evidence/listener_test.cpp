@@ -168,6 +168,17 @@ TEST(Listener, AFaultAcrossAGapIsJudgedWithWhatThereIs) {
   EXPECT_LT(episodes.front().judged_s, log.time[row]);
 }
 
+TEST(Listener, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
+  Log log = faulty_log(FaultKind::free_swinging, 2);
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] > kOnset_s + 0.3) log.dq[0][k] = k % 2 ? 1e200 : -1e200;
+  const auto episodes = heard(log);
+  ASSERT_FALSE(episodes.empty());
+  EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 2");
+  EXPECT_GE(episodes.front().alarm_s, kOnset_s);
+  EXPECT_LT(episodes.front().judged_s, kOnset_s + 0.31);
+}
+
 TEST(Listener, WithoutVelocitiesFaultsAreFoundLater) {
   Log log = healthy_log();
   log.dq.clear();
