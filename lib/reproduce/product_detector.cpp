@@ -32,10 +32,10 @@ class Sources {
 };
 
 /// With noise of a tenth of the range shooting creeps on for long without a gain that the filters feel.
-IdentifyOptions identify_options() {
+IdentifyOptions identify_options(bool quick) {
   IdentifyOptions options;
   options.threads = 1;
-  options.max_iterations = 12;
+  options.max_iterations = quick ? 4 : 12;
   return options;
 }
 
@@ -62,20 +62,21 @@ HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, doubl
 Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed) {
   LearnOptions options;
   options.threads = 1;
-  options.identify = identify_options();
+  options.identify = identify_options(quick);
   options.runs_per_label = 4;
   options.validation_per_label = 0;
   options.healthy_runs = quick ? 4 : kHealthyRuns;
   options.residual.max_iterations = quick ? 8 : 30;
+  if (quick) options.residual.max_patterns = 600;
   if (quick) options.kinds = {FaultKind::free_swinging, FaultKind::torque_loss, FaultKind::locked};
   options.seed = seed;
   const Sources sources(healthy);
   return learn(sources.all(), {}, healthy.robot, options);
 }
 
-Identification identify_robot(const HealthyLogs& healthy) {
+Identification identify_robot(const HealthyLogs& healthy, bool quick) {
   const Sources sources(healthy);
-  return identify(sources.all(), healthy.robot, identify_options());
+  return identify(sources.all(), healthy.robot, identify_options(quick));
 }
 
 MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,

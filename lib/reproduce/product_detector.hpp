@@ -17,9 +17,10 @@ struct HealthyLogs {
 HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
                          const HalfRanges& ranges, double sigma, std::uint64_t seed);
 
-/// Learns on one thread. `quick`: from few simulated faults of three kinds, and a coarse residual network.
+/// Learns on one thread. `quick`: from few simulated faults of three kinds, a coarse
+/// residual network and few iterations of the identification.
 Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed);
-Identification identify_robot(const HealthyLogs& healthy);
+Identification identify_robot(const HealthyLogs& healthy, bool quick);
 /// The motion model of a known robot, its noise matched to these logs.
 MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,
                             double sigma);

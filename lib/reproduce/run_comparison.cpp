@@ -51,6 +51,11 @@ ResultRow row_of(const Pair& pair, double sigma, const AlarmScore& ours, const A
 
 }  // namespace
 
+Difference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs) {
+  return paired_difference(delays_of(pooled(results, sigma, kBestCases, kLogOdds), kMissed_s),
+                           delays_of(pooled(results, sigma, theirs, kLogOdds), kMissed_s));
+}
+
 ResultTable comparison_table(const ControllerResults& results) {
   const std::string name = to_string(results.controller);
   ResultTable table{"dual_" + name,

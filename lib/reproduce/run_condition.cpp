@@ -81,7 +81,7 @@ ConditionResult run_condition(const Experiment& e, double sigma) {
   Learned learned;
   if (learns) learned = learn_product(healthy, e.plan.quick, e.seed);
   const Chain<double> identified = learns ? learned.model.robot.chain
-                                   : held ? identify_robot(healthy).robot.chain
+                                   : held ? identify_robot(healthy, e.plan.quick).robot.chain
                                           : e.robot.chain;
   watch_with_networks(train_best_detector(best_generator(e, identified, sigma), runs.training,
                                           e.plan.patterns_per_class, e.seed),
@@ -116,7 +116,8 @@ RunPlan run_plan(ControllerReading controller, bool quick) {
   if (!quick) return plan;
   plan.training = {.faulty = 30, .fault_free_h = 0.05, .after_onset_s = 2.0};
   plan.tuning = plan.test = {.faulty = 18, .fault_free_h = 0.1, .hour_s = 360.0};
-  if (!held) plan.sigmas = {0.01};
+  plan.sigmas = {0.01};
+  if (held) plan.sigmas = {0.01, 0.1};
   plan.filter_faulty = 12;
   plan.filter_fault_free_h = plan.filter_tuning_h = plan.reference_h = 0.1;
   plan.reference_faulty = 6;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lib/reproduce/paired_bootstrap.hpp"
 #include "lib/reproduce/protocol.hpp"
 #include "lib/reproduce/result_table.hpp"
 #include "lib/reproduce/run_condition.hpp"
@@ -25,6 +26,10 @@ ResultTable detector_table(const ControllerResults& results);
 ResultTable trade_off_table(const ControllerResults& results, int sigma);
 /// Dual classification with cases against single networks and their average, with 95 % intervals.
 ResultTable comparison_table(const ControllerResults& results);
+
+/// Of the mean delay at the noise of index `sigma`: both networks and cases (best recipe, summed log odds)
+/// minus the detector `theirs`.
+Difference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs);
 
 /// The rows on detection at any time, held, and on dual classification.
 std::vector<Goal> run_goals(const ControllerResults& held);

@@ -29,8 +29,8 @@ double figure(const ResultTable& table, const std::vector<std::string>& labels, 
 }
 
 TEST(RunStudy, gives_a_table_a_controller_and_a_trade_off_a_noise) {
-  for (const char* id : {"runs_held", "runs_fast", "runs_pd", "dual_held", "trade_off_held_0",
-                         "trade_off_held_0.01", "trade_off_held_0.1", "trade_off_pd_0.01"})
+  for (const char* id : {"runs_held", "runs_fast", "runs_pd", "dual_held", "trade_off_held_0.01",
+                         "trade_off_held_0.1", "trade_off_pd_0.01"})
     EXPECT_TRUE(std::any_of(quick_study().tables.begin(), quick_study().tables.end(),
                             [&](const ResultTable& t) { return t.id == id; }))
         << id;
