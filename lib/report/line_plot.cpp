@@ -118,6 +118,14 @@ std::string marks(const LinePlot& plot, const Frame& f, const PlotAxis& x, bool 
   return svg;
 }
 
+/// Panels that show the same curves as the one above them need no legend of their own.
+bool needs_legend(const LinePlot& plot, std::size_t number) {
+  if (number == 0) return true;
+  const auto same = [](const PlotSeries& a, const PlotSeries& b) { return a.name == b.name; };
+  const auto &above = plot.panels[number - 1].series, &here = plot.panels[number].series;
+  return !std::equal(above.begin(), above.end(), here.begin(), here.end(), same);
+}
+
 std::string panel_svg(const LinePlot& plot, std::size_t number, const Frame& f, const PlotAxis& x) {
   const PlotPanel& panel = plot.panels[number];
   std::vector<const std::vector<double>*> values;
@@ -126,7 +134,7 @@ std::string panel_svg(const LinePlot& plot, std::size_t number, const Frame& f, 
   if (panel.y_range) std::tie(y.low, y.high) = *panel.y_range;
   y.from_px = f.bottom;
   y.to_px = f.top;
-  std::string svg = grid(f, x, y) + legend(panel, f);
+  std::string svg = grid(f, x, y) + (needs_legend(plot, number) ? legend(panel, f) : "");
   svg += fmt::format(
       "<clipPath id=\"panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
       "</clipPath>\n<g clip-path=\"url(#panel{0})\">\n",
@@ -159,6 +167,13 @@ PlotAxis shared_x(const LinePlot& plot) {
   return x;
 }
 
+/// Font size, px, at which the title fits above the panels.
+double title_size(const LinePlot& plot) {
+  constexpr double kUsual = 14.0, kWidthOfLetter = 0.58;  // of the font size, bold
+  const double room = plot.width - kLeft - kRight;
+  return std::min(kUsual, room / (kWidthOfLetter * std::max<double>(plot.title.size(), 1.0)));
+}
+
 std::string description(const LinePlot& plot) {
   std::string text;
   for (const PlotPanel& panel : plot.panels) {
@@ -181,8 +196,9 @@ std::string render_svg(const LinePlot& plot) {
       "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" "
       "fill=\"#1b1f24\">\n<title>{2}"
       "</title>\n<desc>{3}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n<text x=\"{4}\" "
-      "y=\"20\" font-size=\"14\" font-weight=\"bold\">{2}</text>\n",
-      plot.width, height, escaped_markup(plot.title), escaped_markup(description(plot)), kLeft);
+      "y=\"20\" font-size=\"{5:.1f}\" font-weight=\"bold\">{2}</text>\n",
+      plot.width, height, escaped_markup(plot.title), escaped_markup(description(plot)), kLeft,
+      title_size(plot));
   const PlotAxis x = shared_x(plot);
   Frame frame{kLeft, plot.width - kRight, kTop + kLegend, 0.0};
   for (std::size_t i = 0; i < plot.panels.size(); ++i, frame.top += step) {

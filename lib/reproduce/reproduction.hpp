@@ -29,8 +29,8 @@ struct Reproduction {
 /// Runs the whole reproduction; the same options but `threads` give the same numbers.
 Reproduction reproduce(const ReproduceOptions& options = {}, const Progress& progress = {});
 
-/// A page with all of it; pictures are taken from `<id>.svg` in `picture_folder` ("" or ending in "/").
-std::string reproduction_markdown(const Reproduction& reproduction, const std::string& picture_folder = "");
+/// A page with all of it; pictures are taken from `<id>.svg` beside it.
+std::string reproduction_markdown(const Reproduction& reproduction);
 /// Schema "faultline/reproduction/1".
 std::string reproduction_json(const Reproduction& reproduction);
 

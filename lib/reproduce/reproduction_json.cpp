@@ -18,19 +18,19 @@ Json measured_json(const Measured& measured) {
   return {{"mean", number(measured.mean())}, {"spread", number(measured.spread())}, {"by_seed", by_seed}};
 }
 
-Json row_json(const ResultTable& table, const ResultRow& row) {
-  Json json;
-  for (std::size_t i = 0; i < row.labels.size(); ++i) json[table.label_columns[i]] = row.labels[i];
-  for (std::size_t i = 0; i < row.figures.size(); ++i)
-    json[table.figure_columns[i].name] = row.figures[i] ? measured_json(*row.figures[i]) : Json(nullptr);
-  return json;
+/// Labels and figures in the order of the table's columns.
+Json row_json(const ResultRow& row) {
+  Json figures = Json::array();
+  for (const std::optional<Measured>& figure : row.figures)
+    figures.push_back(figure ? measured_json(*figure) : Json(nullptr));
+  return {{"labels", row.labels}, {"figures", figures}};
 }
 
 Json table_json(const ResultTable& table) {
   Json columns = Json::array(), rows = Json::array();
   for (const FigureColumn& column : table.figure_columns)
     columns.push_back({{"name", column.name}, {"unit", column.unit}});
-  for (const ResultRow& row : table.rows) rows.push_back(row_json(table, row));
+  for (const ResultRow& row : table.rows) rows.push_back(row_json(row));
   return {{"id", table.id},     {"title", table.title}, {"text", table.text}, {"labels", table.label_columns},
           {"figures", columns}, {"rows", rows}};
 }

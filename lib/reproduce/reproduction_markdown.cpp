@@ -6,6 +6,7 @@
 #include "lib/core/version.hpp"
 #include "lib/reproduce/paper_text.hpp"
 #include "lib/reproduce/reproduction.hpp"
+#include "lib/reproduce/trade_off_figures.hpp"
 
 namespace faultline {
 namespace {
@@ -83,8 +84,8 @@ std::string goals_text(const std::vector<Goal>& goals) {
   return text + (notes.empty() ? "" : "\n" + notes) + "\n";
 }
 
-std::string figure_text(const Figure& figure, const std::string& folder) {
-  return fmt::format("![{}]({}{}.svg)\n\n{}\n\n", figure.plot.title, folder, figure.id, figure.caption);
+std::string figure_text(const Figure& figure) {
+  return fmt::format("![{}]({}.svg)\n\n{}\n\n", figure.plot.title, figure.id, figure.caption);
 }
 
 std::string how_made(const ReproduceOptions& options) {
@@ -99,13 +100,14 @@ std::string how_made(const ReproduceOptions& options) {
 
 }  // namespace
 
-std::string reproduction_markdown(const Reproduction& reproduction, const std::string& picture_folder) {
+std::string reproduction_markdown(const Reproduction& reproduction) {
   std::string text = "# The paper, reproduced\n\n" + how_made(reproduction.options) + paper_introduction();
   text += "## What was to be reached\n\n" + goals_text(reproduction.goals);
   text += "## Tables\n\n";
-  for (const ResultTable& table : reproduction.tables) text += table_text(table);
+  for (const ResultTable& table : reproduction.tables)
+    if (!is_trade_off(table)) text += table_text(table);
   text += "## Figures\n\n";
-  for (const Figure& figure : reproduction.figures) text += figure_text(figure, picture_folder);
+  for (const Figure& figure : reproduction.figures) text += figure_text(figure);
   return text + paper_errata();
 }
 

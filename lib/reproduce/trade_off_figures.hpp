@@ -7,8 +7,11 @@
 
 namespace faultline {
 
-/// A picture of each table whose id begins with "trade_off_": its figure columns over g, a panel each, a curve a
-/// detector. Such tables have the label columns detector and g.
+/// Whether pictures stand for this table on a page: how the criterion's g trades false alarms for delay.
+bool is_trade_off(const ResultTable& table);
+
+/// Pictures of the trade-off tables, whose label columns are detector ("recipe, network") and g: one a
+/// recipe, the figure columns over g in a panel each, a curve a network.
 std::vector<Figure> trade_off_figures(const std::vector<ResultTable>& tables);
 
 }  // namespace faultline

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/folder.hpp"
+#include "apps/progress.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/reproduce/reproduction.hpp"
+
+namespace faultline {
+namespace {
+
+struct ReproduceArguments {
+  std::string folder = "reproduction";
+  bool json = false;
+  ReproduceOptions options;
+};
+
+/// Pictures first, the pages that name them last.
+void write_reproduction(const std::filesystem::path& folder, const Reproduction& reproduction,
+                        const std::string& json) {
+  for (const Figure& figure : reproduction.figures)
+    write_file((folder / (figure.id + ".svg")).string(), render_svg(figure.plot));
+  write_file((folder / "index.md").string(), reproduction_markdown(reproduction));
+  write_file((folder / "index.json").string(), json);
+}
+
+std::string goals_text(const Reproduction& reproduction, const std::string& folder) {
+  std::string text;
+  int reached = 0;
+  for (const Goal& goal : reproduction.goals) {
+    reached += goal.reached() ? 1 : 0;
+    text += fmt::format("  {:<12} {} ({} {:.3g} {}, to reach {} {:.3g})\n",
+                        goal.reached() ? "reached" : "NOT reached", goal.what, "measured",
+                        goal.measured.mean(), goal.unit, goal.at_most ? "<=" : ">=", goal.bound);
+  }
+  return fmt::format(
+      "{} tables, {} figures; {} of {} numbers reached:\n{}Read {}/index.md; the numbers are in "
+      "index.json.\n",
+      reproduction.tables.size(), reproduction.figures.size(), reached, reproduction.goals.size(), text,
+      folder);
+}
+
+int run_reproduce(const ReproduceArguments& arguments, ColorChoice color) {
+  arguments.options.check();
+  make_folder(arguments.folder);
+  Reproduction reproduction;
+  {
+    ProgressBar bar(color);
+    reproduction = reproduce(arguments.options, bar.callback());
+  }
+  const std::string json = reproduction_json(reproduction);
+  write_reproduction(arguments.folder, reproduction, json);
+  print(arguments.json ? json : goals_text(reproduction, arguments.folder));
+  return kNothingFound;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<ReproduceArguments>();
+  ReproduceOptions& options = arguments->options;
+  CLI::App* command =
+      app.add_subcommand("reproduce", "Rebuild the tables and figures of the paper behind the method");
+  command->add_option("-o,--output", arguments->folder, "Folder for index.md, index.json and the pictures")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_flag("--quick", options.quick, "Orders of magnitude within a minute, from one experiment");
+  auto* seeds = command->add_option("--seeds", options.seeds, "Experiments; figures are their means")
+                    ->type_name("N")
+                    ->capture_default_str();
+  command->add_option("--seed", options.seed, "Of the first experiment")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--threads", options.threads, "0 = one a core; changes no byte")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "Print index.json instead of a summary");
+  command->footer(
+      "The full run takes some ten minutes on two cores.\nExample: faultline reproduce --quick -o "
+      "/tmp/paper");
+  command->callback([arguments, seeds, &program] {
+    if (arguments->options.quick && seeds->count() == 0) arguments->options.seeds = 1;
+    program.run = [arguments, &program] { return run_reproduce(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "lib/core/atomic_file.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+void expect_orders_of_magnitude(const Json& goals) {
+  EXPECT_GE(goals.size(), 12u);
+  for (const Json& goal : goals) {
+    const double measured = goal["measured"]["mean"], bound = goal["bound"];
+    if (goal["at_most"].get<bool>())
+      EXPECT_LE(measured, 10.0 * bound) << goal["what"];
+    else
+      EXPECT_GE(measured, 0.9 * bound) << goal["what"];
+  }
+}
+
+void expect_full_table(const Json& tables, const char* id) {
+  const auto table = std::find_if(tables.begin(), tables.end(), [&](const Json& t) { return t["id"] == id; });
+  ASSERT_NE(table, tables.end()) << id;
+  EXPECT_GT((*table)["rows"].size(), 2u) << id;
+  for (const Json& row : (*table)["rows"]) {
+    EXPECT_EQ(row["labels"].size(), (*table)["labels"].size()) << id;
+    EXPECT_EQ(row["figures"].size(), (*table)["figures"].size()) << id;
+  }
+}
+
+void expect_figures_3_to_8(const fs::path& folder, const std::string& page) {
+  for (int number = 3; number <= 8; ++number) {
+    const std::string file = "figure_" + std::to_string(number) + ".svg";
+    EXPECT_NE(page.find("](" + file + ")"), std::string::npos) << file;
+    const std::string picture = read_file((folder / file).string());
+    EXPECT_NE(picture.find(">fault</text>"), std::string::npos) << file << " does not mark the onset";
+    EXPECT_NE(picture.find(">time, s</text>"), std::string::npos) << file;
+  }
+  const std::regex shown(R"(\]\(([a-z0-9_.]+\.svg)\))");
+  for (auto i = std::sregex_iterator(page.begin(), page.end(), shown); i != std::sregex_iterator(); ++i)
+    EXPECT_TRUE(fs::exists(folder / (*i)[1].str())) << (*i)[1];
+}
+
+TEST(ReproduceCommand, quick_run_gives_tables_figures_and_the_orders_of_magnitude_to_be_reached) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "paper";
+  const ProgramRun run = run_program({"reproduce", "--quick", "-o", out.string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("index.md"), std::string::npos) << run.out;
+  const Json json = Json::parse(read_file((out / "index.json").string()));
+  expect_orders_of_magnitude(json["goals"]);
+  for (const char* id :
+       {"generator_mse", "table_1", "table_2", "runs_held", "runs_fast", "runs_pd", "dual_held"})
+    expect_full_table(json["tables"], id);
+  expect_figures_3_to_8(out, read_file((out / "index.md").string()));
+}
+
+TEST(ReproduceCommand, bad_options_and_places_are_named) {
+  EXPECT_EQ(run_program({"reproduce", "--seeds", "0"}).status, 2);
+  TemporaryFolder folder;
+  write_file((folder.path() / "file").string(), "x");
+  const ProgramRun result = run_program({"reproduce", "--quick", "-o", (folder.path() / "file/in").string()});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("-o"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace faultline
