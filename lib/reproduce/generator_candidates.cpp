@@ -136,7 +136,7 @@ std::vector<GeneratorCandidate> friction_candidates(const GeneratorScale& scale)
        {.fast = 2.1e-2},
        [](const IdentifiedBench& on) { return physics_errors(wrong_chain(), middle(on), on); }},
       mlp(kLevenbergMarquardt, mlp_recipe(scale.trajectories, scale.iterations), {.fast = 2e-4}),
-      {"that wrong physics + MLP of 20 units",
+      {kWrongAndMlp,
        patterns,
        {.fast = 8.1e-5},
        [scale](const IdentifiedBench& on) { return hybrid_errors(wrong_chain(), middle(on), scale, on); }},

@@ -64,6 +64,7 @@ inline constexpr const char* kLevenbergMarquardt = "MLP 9-49-6, Levenberg-Marqua
 inline constexpr const char* kTrainedWithNoise = "MLP 9-49-6, Levenberg-Marquardt, trained with noise 0.1";
 inline constexpr const char* kPhysicsTrue = "physics, true parameters";
 inline constexpr const char* kPhysicsIdentified = "physics, identified";
+inline constexpr const char* kWrongAndMlp = "that wrong physics + MLP of 20 units";
 inline constexpr const char* kHybrid = "hybrid: identified physics + MLP of 20 units";
 
 }  // namespace faultline
