@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/reproduce/fault_trajectories.hpp"
-#include "lib/reproduce/protocol.hpp"
-#include "lib/residual/residual_generator.hpp"
 
 namespace faultline {
 
@@ -33,6 +29,7 @@ struct ClassifierRecipe {
 enum RecipePlace {
   kPaperRecipe = 0,
   kBestCleanRecipe = 5,    ///< trained on 900 patterns without noise
+  kPaperManyRecipe = 7,    ///< on many patterns of sigma 0.01, with the paper's generator
   kBestNoisyRecipe = 8,    ///< trained on 900 patterns of sigma 0.01
   kBestManyRecipe = 9,     ///< and on many
   kBestCoarseRecipe = 10,  ///< on 900 of sigma 0.1
@@ -46,43 +43,5 @@ struct RecipeEffort {
 /// The paper's recipe and departures from it up to kBestCleanRecipe, each added to the one before; then those
 /// trained with noise.
 std::vector<ClassifierRecipe> classifier_recipes(const RecipeEffort& effort = {});
-
-/// Mean squared error over the four outputs against 0 and 1: training patterns, then test patterns without
-/// noise, with sigma 0.01 and with 0.1 (kNoiseReadings).
-struct NetworkErrors {
-  double training = 0.0;
-  std::array<double, 3> test{};
-};
-struct ClassifierErrors {
-  NetworkErrors mlp, rbfn;
-};
-
-/// What all recipes under one controller share: robot, scale, the paper's generator, and test patterns.
-class ClassifierBench {
- public:
-  ClassifierBench(ControllerReading controller, std::uint64_t seed, int generator_iterations,
-                  int test_trajectories);
-
-  ClassifierErrors measure(const ClassifierRecipe& recipe) const;
-  /// Root mean square velocity residual of each joint under the paper's generator, in rad/s or m/s.
-  Eigen::VectorXd velocity_residual(const Transitions& transitions) const;
-  FaultPatterns training_patterns(const ClassifierRecipe& recipe) const;
-
-  const Robot& robot() const { return robot_; }
-  const HalfRanges& ranges() const { return ranges_; }
-  /// Test patterns at one of kNoiseReadings, with the mean torque over each sample as for `physics`.
-  const FaultPatterns& test(int noise) const { return tests_[noise]; }
-
- private:
-  double torque_phi(RecipeGenerator kind) const;
-  ResidualGenerator generator(const ClassifierRecipe& recipe) const;
-
-  ControllerReading controller_;
-  std::uint64_t seed_;
-  Robot robot_;
-  HalfRanges ranges_;
-  ResidualGenerator paper_;
-  std::array<FaultPatterns, 3> tests_;
-};
 
 }  // namespace faultline

@@ -9,16 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
-constexpr int kFast = 1;
-
 const char* name_of(int controller) { return to_string(kControllerReadings[controller]); }
-
-std::string training_set(const ClassifierRecipe& recipe) {
-  const int patterns = recipe.trajectories * kPatternsPerTrajectory;
-  if (recipe.sigma == 0.0) return fmt::format("{} clean", patterns);
-  return fmt::format("{}, sigma {}", patterns, recipe.sigma);
-}
 
 std::string full_name(const ClassifierRecipe& recipe) {
   if (recipe.sigma == 0.0) return recipe.name;
@@ -46,16 +37,14 @@ ResultTable empty_table(const char* id, const char* title, std::string text) {
 
 }  // namespace
 
+std::string training_set(const ClassifierRecipe& recipe) {
+  const int patterns = recipe.trajectories * kPatternsPerTrajectory;
+  if (recipe.sigma == 0.0) return fmt::format("{} clean", patterns);
+  return fmt::format("{}, sigma {}", patterns, recipe.sigma);
+}
+
 ClassifierResults::ClassifierResults(std::vector<ClassifierRecipe> recipes, int seeds)
     : recipes_(std::move(recipes)), seeds_(seeds), findings_(kControllers * seeds) {}
-
-template <typename Pick>
-Measured ClassifierResults::measured(int controller, const Pick& pick) const {
-  Measured all;
-  for (int seed = 0; seed < seeds_; ++seed)
-    all.by_seed.push_back(pick(findings_[controller * seeds_ + seed]));
-  return all;
-}
 
 ResultRow ClassifierResults::recipe_row(int controller, int recipe) const {
   ResultRow row{{name_of(controller), full_name(recipes_[recipe]), training_set(recipes_[recipe])}, {}};
@@ -137,8 +126,10 @@ ResultTable ClassifierResults::table_2() const {
       "in "
       "ten: this alone leaves 1e-2, and no recipe can come near the paper's training error there. For fast "
       "the "
-      "torque between two samples is not in the log and is modelled as Gaussian with the mean and covariance "
-      "that it has in training patterns of each class; that is a yardstick, not a bound.\n\n"
+      "torque between two samples is not in the log; what it adds is taken as Gaussian, as learned from "
+      "similar "
+      "patterns of each class, which makes that row a yardstick and no bound. So are the rows with the next "
+      "torque, between which and the first the torque is taken to move straight.\n\n"
       "The torque of the next sample, which the best recipe also reads, tells more than the pattern itself: "
       "the "
       "controller of this protocol sees the state without noise, so its answer carries what the noisy "
@@ -177,48 +168,6 @@ ResultTable ClassifierResults::departures() const {
     for (int recipe = 0; recipe < kBestCoarseRecipe; ++recipe)
       table.rows.push_back(recipe_row(controller, recipe));
   return table;
-}
-
-std::vector<Goal> ClassifierResults::goals() const {
-  const auto mean = [&](int controller, auto network, int recipe, int test) {
-    return measured(controller, [&](const ClassifierFindings& f) {
-      const NetworkErrors& errors = f.by_recipe[recipe].*network;
-      return test < 0 ? errors.training : errors.test[test];
-    });
-  };
-  const auto others = [&](auto network, int recipe, int test) {
-    return fmt::format("held {:.1e}, pd {:.1e}", mean(0, network, recipe, test).mean(),
-                       mean(2, network, recipe, test).mean());
-  };
-  std::vector<Goal> goals;
-  const auto add = [&](const char* name, auto network, const char* what, int recipe, int test,
-                       const char* paper, const char* study, double bound, std::string note) {
-    goals.push_back(
-        {.what = fmt::format("{} classifier, {} ({}, fast)", name, what, training_set(recipes_[recipe])),
-         .paper = paper,
-         .study = study,
-         .bound = bound,
-         .measured = mean(kFast, network, recipe, test),
-         .note = others(network, recipe, test) + std::move(note)});
-  };
-  const auto few = [&](auto network) {
-    return fmt::format("; from 900 noisy patterns {:.1e}; without the next torque {:.1e} (fast), {:.1e} (pd)",
-                       mean(kFast, network, kBestNoisyRecipe, 1).mean(), mean(kFast, network, 7, 1).mean(),
-                       mean(2, network, 7, 1).mean());
-  };
-  const std::string floor = fmt::format(
-      "; held is bounded by {:.1e}, the posterior of the true model, because its first torque is zero",
-      measured(0, [](const ClassifierFindings& f) { return f.posterior[0]; }).mean());
-  constexpr auto mlp = &ClassifierErrors::mlp, rbfn = &ClassifierErrors::rbfn;
-  add("MLP", mlp, "training", kBestCleanRecipe, -1, "2.1e-3", "2.4e-5", 2.1e-3, floor);
-  add("MLP", mlp, "test 1", kBestCleanRecipe, 0, "1.9e-2", "3.4e-3", 3.4e-3, floor);
-  add("MLP", mlp, "test 2, sigma .01", kBestManyRecipe, 1, "2.8e-2", "1.1e-2", 1.5e-2, few(mlp));
-  add("MLP", mlp, "test 2, sigma .01, below the paper", kBestNoisyRecipe, 1, "2.8e-2", "3.0e-2", 2.8e-2, "");
-  add("RBFN", rbfn, "training", kBestCleanRecipe, -1, "2.1e-2", "1.0e-2", 2.1e-2, "");
-  add("RBFN", rbfn, "test 1", kBestCleanRecipe, 0, "3.9e-2", "2.1e-2", 2.0e-2, "");
-  add("RBFN", rbfn, "test 2, sigma .01", kBestManyRecipe, 1, "1.5e-1", "3.8e-2", 3.5e-2, few(rbfn));
-  add("RBFN", rbfn, "test 2, sigma .01, below the paper", kBestNoisyRecipe, 1, "1.5e-1", "-", 1.5e-1, "");
-  return goals;
 }
 
 StudyResult ClassifierResults::tables_and_goals() const {

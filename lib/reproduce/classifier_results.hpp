@@ -3,12 +3,19 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <iterator>
+#include <string>
 #include <vector>
 
-#include "lib/reproduce/classifier_recipe.hpp"
+#include "lib/reproduce/classifier_bench.hpp"
 #include "lib/reproduce/result_table.hpp"
 
 namespace faultline {
+
+inline constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
+
+/// "900 clean", or with its noise.
+std::string training_set(const ClassifierRecipe& recipe);
 
 /// What one experiment (seed) found under one controller.
 struct ClassifierFindings {
@@ -29,8 +36,13 @@ class ClassifierResults {
   StudyResult tables_and_goals() const;
 
  private:
-  template <typename Pick>
-  Measured measured(int controller, const Pick& pick) const;
+  template <typename Pick>  // from ClassifierFindings to a number
+  Measured measured(int controller, const Pick& pick) const {
+    Measured all;
+    for (int seed = 0; seed < seeds_; ++seed)
+      all.by_seed.push_back(pick(findings_[controller * seeds_ + seed]));
+    return all;
+  }
   ResultRow recipe_row(int controller, int recipe) const;
   ResultRow posterior_row(int controller, bool next_torque) const;
   ResultTable table_1() const;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/reproduce/classifier_study.hpp"
 
-#include <iterator>
 #include <limits>
 #include <mutex>
 
@@ -17,7 +16,7 @@ struct Effort {
   RecipeEffort recipes{};
   int generator_iterations = 60;
   int test_trajectories = 500;   ///< of ten patterns
-  int posterior_learning = 360;  ///< trajectories
+  int posterior_learning = 720;  ///< trajectories
   int posterior_test = 180;
 };
 
@@ -70,7 +69,6 @@ StudyResult classifier_study(const ReproduceOptions& options, const Progress& pr
   options.check();
   const Effort effort = effort_of(options);
   const std::vector<ClassifierRecipe> recipes = classifier_recipes(effort.recipes);
-  constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
   ClassifierResults results(recipes, options.seeds);
   const int items = kControllers * options.seeds;
   std::mutex telling;

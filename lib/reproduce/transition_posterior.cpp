@@ -37,14 +37,6 @@ Sample sample(const Transitions& transitions, int i) {
   return s;
 }
 
-VectorXd foretold(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
-  const auto n = state.size() / 2;
-  const JointState end = model.next({state.head(n), state.tail(n)}, s.tau, s.next_tau, output);
-  VectorXd later(2 * n);
-  later << end.q, end.dq;
-  return later;
-}
-
 /// From torque to the state a sample later: dt^2 M^-1 for q, dt M^-1 for dq.
 MatrixXd state_per_torque(const SampleModel& model, const VectorXd& state) {
   const auto n = state.size() / 2;
@@ -58,7 +50,32 @@ MatrixXd state_per_torque(const SampleModel& model, const VectorXd& state) {
   return both;
 }
 
-MatrixXd jacobian(const SampleModel& model, const Sample& s, const VectorXd& half, int output) {
+/// What the trend is linear in.
+VectorXd regressors(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
+  const auto n = state.size() / 2;
+  JointVector<double> applied = s.tau, ddq;
+  if (output < kFaultClasses - 1) applied[output] = 0.0;
+  model.dynamics().acceleration(state.head(n), state.tail(n), applied, ddq);
+  VectorXd all(1 + 3 * n);
+  all << 1.0, state.tail(n), s.tau, ddq;
+  return all;
+}
+
+VectorXd foretold(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
+  const auto n = state.size() / 2;
+  const JointState end = model.next({state.head(n), state.tail(n)}, s.tau, s.next_tau, output);
+  VectorXd later(2 * n);
+  later << end.q, end.dq;
+  return later;
+}
+
+VectorXd foretold(const TransitionModel& model, const Sample& s, const VectorXd& state, int output) {
+  return foretold(model.sample, s, state, output) +
+         state_per_torque(model.sample, state) *
+             mean_at(model.between[output], regressors(model.sample, s, state, output));
+}
+
+MatrixXd jacobian(const TransitionModel& model, const Sample& s, const VectorXd& half, int output) {
   MatrixXd slope(s.state.size(), s.state.size());
   for (Eigen::Index k = 0; k < s.state.size(); ++k) {
     VectorXd up = s.state, down = s.state;
@@ -74,11 +91,11 @@ double log_likelihood(const TransitionModel& model, const Sample& s, const Vecto
                       int output) {
   const MatrixXd noise = (sigma * sigma * half.cwiseAbs2()).asDiagonal();
   const MatrixXd effect = state_per_torque(model.sample, s.state);
-  const MatrixXd slope = sigma > 0.0 ? jacobian(model.sample, s, half, output) : MatrixXd::Zero(6, 6).eval();
-  MatrixXd covariance =
-      slope * noise * slope.transpose() + noise + effect * model.covariance[output] * effect.transpose();
+  const MatrixXd slope = sigma > 0.0 ? jacobian(model, s, half, output) : MatrixXd(0.0 * effect);
+  const MatrixXd between = covariance_at(model.between[output], regressors(model.sample, s, s.state, output));
+  MatrixXd covariance = slope * noise * slope.transpose() + noise + effect * between * effect.transpose();
   covariance.diagonal() += (kRounding * half).cwiseAbs2();
-  const VectorXd off = s.later - foretold(model.sample, s, s.state, output) - effect * model.mean[output];
+  const VectorXd off = s.later - foretold(model, s, s.state, output);
   // In half ranges, so that the factor is well conditioned.
   const MatrixXd scaled = half.cwiseInverse().asDiagonal() * covariance * half.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> factor(scaled);
@@ -89,18 +106,17 @@ double log_likelihood(const TransitionModel& model, const Sample& s, const Vecto
 }  // namespace
 
 TransitionModel learn_transition_model(SampleModel sample_model, const FaultPatterns& patterns) {
-  TransitionModel model{std::move(sample_model), {}, {}};
+  TransitionModel model{std::move(sample_model), {}};
   for (int output = 0; output < kFaultClasses; ++output) {
     const Transitions& known = patterns.of_class[output];
-    MatrixXd left(2 * known.q.rows(), known.count());
+    MatrixXd left(2 * known.q.rows(), known.count()), causes(1 + 3 * known.q.rows(), known.count());
     for (int i = 0; i < known.count(); ++i) {
       const Sample s = sample(known, i);
-      const MatrixXd effect = state_per_torque(model.sample, s.state);
-      left.col(i) = effect.inverse() * (s.later - foretold(model.sample, s, s.state, output));
+      const VectorXd error = s.later - foretold(model.sample, s, s.state, output);
+      left.col(i) = state_per_torque(model.sample, s.state).inverse() * error;
+      causes.col(i) = regressors(model.sample, s, s.state, output);
     }
-    model.mean[output] = left.rowwise().mean();
-    left.colwise() -= model.mean[output];
-    model.covariance[output] = left * left.transpose() / static_cast<double>(known.count());
+    model.between[output] = fit_local_gaussian(causes, left);
   }
   return model;
 }

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "lib/reproduce/fault_trajectories.hpp"
+#include "lib/reproduce/local_gaussian.hpp"
 #include "lib/reproduce/protocol.hpp"
 #include "lib/reproduce/sample_model.hpp"
 
@@ -13,11 +14,10 @@ namespace faultline {
 /// The true models of one sample with what they leave over, of each class.
 struct TransitionModel {
   SampleModel sample;
-  /// Mean and covariance, over known patterns of each class, of M(q) e / dt^2 (upper half) and M(q) de / dt
-  /// (lower half), with e and de the errors of the foretold q and dq: what the torque did between the samples
-  /// and the model does not know. N m or N.
-  std::array<Eigen::VectorXd, kFaultClasses> mean;
-  std::array<Eigen::MatrixXd, kFaultClasses> covariance;
+  /// What the torque does between the samples that the model does not know, of each class: M(q) e / dt^2
+  /// (upper half) and M(q) de / dt (lower half), with e and de the errors of the foretold q and dq, N m or N;
+  /// given (1, dq, tau, ddq), the last by the model at the sample's start.
+  std::array<LocalGaussian, kFaultClasses> between;
 };
 
 /// Learned from patterns without noise.

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lib/reproduce/classifier_recipe.hpp"
+#include "lib/reproduce/classifier_bench.hpp"
 
 namespace faultline {
 namespace {
