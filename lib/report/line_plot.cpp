@@ -171,7 +171,7 @@ PlotAxis shared_x(const LinePlot& plot) {
 double title_size(const LinePlot& plot) {
   constexpr double kUsual = 14.0, kWidthOfLetter = 0.58;  // of the font size, bold
   const double room = plot.width - kLeft - kRight;
-  return std::min(kUsual, room / (kWidthOfLetter * std::max<double>(plot.title.size(), 1.0)));
+  return std::min(kUsual, room / (kWidthOfLetter * std::max(static_cast<double>(plot.title.size()), 1.0)));
 }
 
 std::string description(const LinePlot& plot) {
