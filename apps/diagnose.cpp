@@ -10,27 +10,31 @@
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/prefetch.hpp"
+#include "lib/pipeline/report_details.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
+#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
 
 struct DiagnoseArguments {
-  std::string log, model, cases, json, csv, html, junit;
+  std::string log, model, cases, json, csv, html, md, junit;
   std::string mode = "evidence", criterion = "log_odds";
   int g = 0;
 
-  bool standard_output_is_taken() const { return json == "-" || csv == "-" || html == "-" || junit == "-"; }
+  bool standard_output_is_taken() const {
+    return json == "-" || csv == "-" || html == "-" || md == "-" || junit == "-";
+  }
 };
 
 void write_reports(const Diagnosis& diagnosis, const DiagnoseArguments& arguments) {
   if (!arguments.json.empty()) write_file(arguments.json, render_json(diagnosis));
   if (!arguments.csv.empty()) write_file(arguments.csv, render_csv(diagnosis));
-  if (!arguments.html.empty()) write_file(arguments.html, render_html(diagnosis));
+  if (!arguments.md.empty()) write_file(arguments.md, render_markdown(diagnosis));
   if (!arguments.junit.empty()) write_file(arguments.junit, render_junit(diagnosis));
 }
 
@@ -50,8 +54,11 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   options.columns = model.robot.log.columns;
   options.keep_extra = false;
   const auto log = prefetched(open_log(arguments.log, options));
-  const Diagnosis diagnosis = diagnose(*log, model, cases, diagnose_options(arguments));
+  const DiagnoseOptions how = diagnose_options(arguments);
+  const Diagnosis diagnosis = diagnose(*log, model, cases, how);
   write_reports(diagnosis, arguments);
+  if (!arguments.html.empty())
+    write_file(arguments.html, render_html(diagnosis, report_details(*log, model, diagnosis, how)));
   TimelineOptions timeline;
   timeline.color = use_color(color, stdout);
   if (!arguments.standard_output_is_taken()) print(render_text(diagnosis, timeline));
@@ -73,7 +80,8 @@ void add_diagnose(CLI::App& app, Program& program) {
   };
   report("--json", arguments->json, "Write the diagnosis as JSON");
   report("--csv", arguments->csv, "Write one row a fault as CSV");
-  report("--html", arguments->html, "Write a page to look at");
+  report("--html", arguments->html, "Write a page to look at: plots, evidence, similar cases, provenance");
+  report("--md", arguments->md, "Write Markdown for an issue tracker");
   report("--junit", arguments->junit, "Write JUnit XML for a CI server");
   command
       ->add_option("--classify", arguments->mode,

@@ -2,17 +2,31 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that faultline needs and that are missing. Asks nothing; works as root or
 # with sudo; does nothing, quickly and without root, when all are there.
+# Usage: bash apps/install.sh [--tests]     --tests: what only the tests need, too
 set -euo pipefail
+
+case ${1:-} in
+  "" | --tests) ;;
+  *)
+    echo "install: $1 is unknown; usage: bash apps/install.sh [--tests]" >&2
+    exit 2
+    ;;
+esac
 
 packages=(
   # to build
   g++ cmake ninja-build ccache pkg-config
   # the program
   libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev
-  libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev
-  # the tests
+  libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev libjs-dygraphs
+  # to configure the tests
   libgtest-dev
 )
+test_packages=(
+  # HTML reports are looked at in a browser
+  chromium fonts-dejavu-core
+)
+[ "${1:-}" = --tests ] && packages+=("${test_packages[@]}")
 
 if ! command -v apt-get >/dev/null; then
   echo "install: this is no Debian; install the packages of this list by other means: ${packages[*]}" >&2

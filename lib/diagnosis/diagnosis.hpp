@@ -9,6 +9,7 @@
 
 #include "lib/core/fault_kind.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/evidence/evidence_trace.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
 namespace faultline {
@@ -74,6 +75,7 @@ struct FaultFinding {
   std::vector<EvidenceItem> evidence;
   std::string next_check;  ///< what a technician should look at next
   EpisodeFacts episode;
+  EvidenceTrace trace;  ///< empty where no hypotheses were followed
 };
 
 struct LogFacts {
@@ -112,7 +114,7 @@ struct Diagnosis {
   Verdict verdict = Verdict::not_run;
   std::string verdict_reason;
   std::vector<JointResidualSummary> residuals;  ///< a joint each
-  std::vector<FaultFinding> faults;        ///< by onset
+  std::vector<FaultFinding> faults;             ///< by onset
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

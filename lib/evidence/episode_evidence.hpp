@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/evidence/evidence_trace.hpp"
 #include "lib/evidence/hypothesis.hpp"
 
 namespace faultline {
@@ -30,6 +31,7 @@ struct EpisodeEvidence {
   int samples = 0;                                             ///< from onset to judged_s
   int best = -1;                                               ///< index into `hypotheses`
   std::vector<HypothesisEvidence> hypotheses;                  ///< in the order of the bank
+  EvidenceTrace trace;
 };
 
 }  // namespace faultline

@@ -189,6 +189,7 @@ EpisodeEvidence Judgement::evidence() const {
   out.alarm_s = history_[alarm_].time;
   out.judged_s = history_[now_].time;
   out.samples = static_cast<int>(now_ - winner.onset + 1);
+  out.trace = trace_evidence(bank_, history_, best, now_);
   return out;
 }
 

@@ -96,7 +96,7 @@ Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const s
               fmt::format("\"{}\" is no status or method that this version knows", name));
 }
 
-Identification read(const Json& j, const std::string& where) {
+Identification read_summary(const Json& j, const std::string& where) {
   using Status = IdentificationStatus;
   using Method = IdentifyMethod;
   Identification id;
@@ -114,6 +114,11 @@ Identification read(const Json& j, const std::string& where) {
   id.residual_rms = numbers_from(j.at("residual_rms"));
   id.fit_r2 = numbers_from(j.at("fit_r2"));
   for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
+  return id;
+}
+
+Identification read(const Json& j, const std::string& where) {
+  Identification id = read_summary(j, where);
   const Json& state = j.at("state");
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
@@ -129,7 +134,7 @@ Identification read(const Json& j, const std::string& where) {
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const Identification& id) {
+nlohmann::ordered_json summary_to_json(const Identification& id) {
   return {{"schema", kSchema},
           {"status", to_string(id.status)},
           {"reason", id.reason},
@@ -141,19 +146,37 @@ nlohmann::ordered_json to_json(const Identification& id) {
           {"fit_r2", numbers(id.fit_r2)},
           {"q_noise", numbers(id.q_noise)},
           {"dq_noise", numbers(id.dq_noise)},
-          {"logs", array_of(id.logs, log_json)},
-          {"state", state_json(id)}};
+          {"logs", array_of(id.logs, log_json)}};
 }
 
-Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where) {
+nlohmann::ordered_json to_json(const Identification& id) {
+  nlohmann::ordered_json json = summary_to_json(id);
+  json["state"] = state_json(id);
+  return json;
+}
+
+namespace {
+
+template <typename Read>
+Identification checked(const Json& document, const std::string& where, Read read_document) {
   if (!document.is_object() || document.value("schema", "") != kSchema)
     throw Error(ErrorCode::input, where,
                 fmt::format("is no identification of schema {}; identify again", kSchema));
   try {
-    return read(document, where);
+    return read_document(document, where);
   } catch (const nlohmann::json::exception& e) {
     throw Error(ErrorCode::input, where, fmt::format("is incomplete ({}); identify again", e.what()));
   }
+}
+
+}  // namespace
+
+Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where) {
+  return checked(document, where, read);
+}
+
+Identification summary_from_json(const nlohmann::ordered_json& document, const std::string& where) {
+  return checked(document, where, read_summary);
 }
 
 }  // namespace faultline

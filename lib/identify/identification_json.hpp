@@ -15,4 +15,9 @@ nlohmann::ordered_json to_json(const Identification& identification);
 /// Throws Error(input) naming `where` when the document is not ours, of another schema or incomplete.
 Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where);
 
+/// The same without `state`: to be read, not to be gone on with. What comes back has no robot, estimate or
+/// covariance.
+nlohmann::ordered_json summary_to_json(const Identification& identification);
+Identification summary_from_json(const nlohmann::ordered_json& document, const std::string& where);
+
 }  // namespace faultline

@@ -129,6 +129,7 @@ FaultFinding decide_episode(const EpisodeEvidence& episode, std::span<const Join
   finding.onset_s = episode.onset_s;
   finding.alarm_s = episode.alarm_s;
   finding.end_s = episode.end_s;
+  finding.trace = episode.trace;
   const Episode query = episode_of(episode, residuals, model);
   const std::vector<LabelEvidence> evidence = evidence_by_label(episode, model.bank, model.motion);
   CaseDecision decision = decide(query, cases);

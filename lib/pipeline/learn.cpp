@@ -54,6 +54,16 @@ std::vector<ModelSource> sources_of(const Identification& identification,
   return sources;
 }
 
+/// What a model keeps of the identification for those who ask how good it is.
+Identification without_state(Identification identification) {
+  identification.robot = {};
+  identification.space = {};
+  identification.estimate = {};
+  identification.covariance = {};
+  identification.logs.clear();  // the model's sources name them
+  return identification;
+}
+
 /// Every label the bank can name `count` times: of the kinds asked for, all if none is; joint by joint.
 std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
                                            const std::vector<FaultKind>& kinds) {
@@ -159,6 +169,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   Model& model = out.model;
   out.identification = identify(healthy, robot, options.identify, part_of(progress, 0.0, 0.25));
   model.robot = out.identification.robot;
+  model.identification = without_state(out.identification);
   model.name = robot.name;
   model.sample_period_s = usual_period_s(out.identification);
   model.has_velocity = !out.identification.dq_noise.empty();

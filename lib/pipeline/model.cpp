@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/evidence/motion_model_json.hpp"
+#include "lib/identify/identification_json.hpp"
 #include "lib/neural/json_matrix.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -112,6 +113,8 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   Model model;
   model.name = json.at("name").get<std::string>();
   model.robot = robot_from_toml(json.at("robot").get<std::string>(), where + ", robot");
+  if (json.contains("identification"))
+    model.identification = summary_from_json(nlohmann::ordered_json(json["identification"]), where);
   model.sample_period_s = json.at("sample_period_s");
   model.has_velocity = json.at("has_velocity");
   model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
@@ -138,6 +141,8 @@ std::string model_to_json(const Model& model) {
   json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
   json["name"] = model.name;
   json["robot"] = robot_file_text(model.robot);
+  if (model.identification.status != IdentificationStatus::not_run)
+    json["identification"] = summary_to_json(model.identification);
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
   json["sources"] = sources_to_json(model.sources);

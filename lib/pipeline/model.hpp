@@ -10,6 +10,7 @@
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/identify/identification.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -54,7 +55,10 @@ struct SampleMode {
 /// All that is known of one healthy robot: what `learn` makes and `diagnose` needs besides the case base.
 struct Model {
   std::string name;
-  Robot robot;                   ///< identified
+  Robot robot;  ///< identified
+  /// How well, with intervals; without robot, estimate, covariance and logs. `not_run` in models of programs
+  /// that did not keep it.
+  Identification identification;
   double sample_period_s = 0.0;  ///< usual one of the logs it was learned from
   bool has_velocity = true;      ///< those logs have dq
   MotionModel motion;

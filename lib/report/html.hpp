@@ -4,11 +4,13 @@
 #include <string>
 
 #include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnosis/report_details.hpp"
 
 namespace faultline {
 
-/// One self-contained page (no script, nothing loaded from elsewhere) with the content of the text report;
-/// the timeline is an SVG. The same Diagnosis gives the same bytes.
-std::string render_html(const Diagnosis& diagnosis);
+/// One self-contained page: nothing is loaded from elsewhere, and its Content-Security-Policy forbids it.
+/// With `details` it has plots; they are pictures and tables without script and on paper. The same values
+/// give the same bytes.
+std::string render_html(const Diagnosis& diagnosis, const ReportDetails& details = {});
 
 }  // namespace faultline

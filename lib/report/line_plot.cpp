@@ -15,26 +15,21 @@ namespace faultline {
 namespace {
 
 /// Colours after Okabe and Ito (2008), told apart by colour-blind readers, each with its own dashes.
-struct Pen {
-  const char* colour;
-  const char* dashes;
-};
-constexpr std::array<Pen, 6> kPens = {{{"#0072b2", ""},
-                                       {"#d55e00", "7 3"},
-                                       {"#009e73", "2 2.5"},
-                                       {"#000000", "9 3 2 3"},
-                                       {"#cc79a7", "12 4"},
-                                       {"#8a6d00", "4 2 1 2"}}};
+constexpr std::array<PlotPen, 6> kPens = {{{"#0072b2", ""},
+                                           {"#d55e00", "7 3"},
+                                           {"#009e73", "2 2.5"},
+                                           {"#000000", "9 3 2 3"},
+                                           {"#cc79a7", "12 4"},
+                                           {"#8a6d00", "4 2 1 2"}}};
 
-constexpr double kLeft = 74.0, kRight = 14.0, kTop = 40.0, kBottom = 46.0, kLegend = 20.0, kGap = 14.0;
+constexpr double kLeft = 74.0, kRight = 14.0, kHeading = 32.0, kTop = 8.0, kBottom = 46.0, kLegend = 20.0,
+                 kNoLegend = 6.0, kGap = 14.0;
 
 struct Frame {
   double left, right, top, bottom;
 };
 
-const Pen& pen_of(std::size_t i) { return kPens[i % kPens.size()]; }
-
-std::string stroke(const Pen& pen) {
+std::string stroke(const PlotPen& pen) {
   const std::string dashes = *pen.dashes ? fmt::format(" stroke-dasharray=\"{}\"", pen.dashes) : "";
   return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}",
                      pen.colour, dashes);
@@ -65,7 +60,7 @@ std::string path_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis&
   return path;
 }
 
-std::string points_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis& y, const Pen& pen) {
+std::string points_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis& y, const PlotPen& pen) {
   std::string svg;
   for (std::size_t i = 0; i < series.x.size(); ++i)
     if (drawable(series.y[i], y) && std::isfinite(series.x[i]))
@@ -96,7 +91,7 @@ std::string legend(const PlotPanel& panel, const Frame& f) {
     svg += fmt::format(
         "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" {}/><text x=\"{:.1f}\" y=\"{:.1f}\">{}"
         "</text>\n",
-        at, at + 26.0, f.top - 8.0, f.top - 8.0, stroke(pen_of(i)), at + 31.0, f.top - 4.0,
+        at, at + 26.0, f.top - 8.0, f.top - 8.0, stroke(plot_pen(i)), at + 31.0, f.top - 4.0,
         escaped_markup(name));
     at += 46.0 + 6.6 * static_cast<double>(name.size());
   }
@@ -126,6 +121,8 @@ bool needs_legend(const LinePlot& plot, std::size_t number) {
   return !std::equal(above.begin(), above.end(), here.begin(), here.end(), same);
 }
 
+double legend_height(const LinePlot& plot) { return plot.captions ? kLegend : kNoLegend; }
+
 std::string panel_svg(const LinePlot& plot, std::size_t number, const Frame& f, const PlotAxis& x) {
   const PlotPanel& panel = plot.panels[number];
   std::vector<const std::vector<double>*> values;
@@ -134,14 +131,15 @@ std::string panel_svg(const LinePlot& plot, std::size_t number, const Frame& f, 
   if (panel.y_range) std::tie(y.low, y.high) = *panel.y_range;
   y.from_px = f.bottom;
   y.to_px = f.top;
-  std::string svg = grid(f, x, y) + (needs_legend(plot, number) ? legend(panel, f) : "");
+  std::string svg = grid(f, x, y);
+  if (plot.captions && needs_legend(plot, number)) svg += legend(panel, f);
   svg += fmt::format(
-      "<clipPath id=\"panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
-      "</clipPath>\n<g clip-path=\"url(#panel{0})\">\n",
-      number, f.left, f.top, f.right - f.left, f.bottom - f.top);
+      "<clipPath id=\"{5}panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
+      "</clipPath>\n<g clip-path=\"url(#{5}panel{0})\">\n",
+      number, f.left, f.top, f.right - f.left, f.bottom - f.top, plot.id);
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    svg += fmt::format("<path d=\"{}\" {}/>\n", path_of(panel.series[i], x, y), stroke(pen_of(i)));
-    if (panel.series[i].points) svg += points_of(panel.series[i], x, y, pen_of(i)) + "\n";
+    svg += fmt::format("<path d=\"{}\" {}/>\n", path_of(panel.series[i], x, y), stroke(plot_pen(i)));
+    if (panel.series[i].points) svg += points_of(panel.series[i], x, y, plot_pen(i)) + "\n";
   }
   svg += "</g>\n" + marks(plot, f, x, number == 0);
   svg +=
@@ -187,20 +185,24 @@ std::string description(const LinePlot& plot) {
 
 }  // namespace
 
+PlotPen plot_pen(std::size_t i) { return kPens[i % kPens.size()]; }
+
 std::string render_svg(const LinePlot& plot) {
-  const double step = plot.panel_height + kLegend + kGap;
-  const double height = kTop + step * static_cast<double>(plot.panels.size()) - kGap + kBottom;
+  const double step = plot.panel_height + legend_height(plot) + kGap;
+  const double top = kTop + (plot.captions ? kHeading : 0.0);
+  const double height = top + step * static_cast<double>(plot.panels.size()) - kGap + kBottom;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "
       "height=\"{1:.0f}\" "
       "role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" "
       "fill=\"#1b1f24\">\n<title>{2}"
-      "</title>\n<desc>{3}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n<text x=\"{4}\" "
-      "y=\"20\" font-size=\"{5:.1f}\" font-weight=\"bold\">{2}</text>\n",
-      plot.width, height, escaped_markup(plot.title), escaped_markup(description(plot)), kLeft,
-      title_size(plot));
+      "</title>\n<desc>{3}</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+      plot.width, height, escaped_markup(plot.title), escaped_markup(description(plot)));
+  if (plot.captions)
+    svg += fmt::format("<text x=\"{}\" y=\"20\" font-size=\"{:.1f}\" font-weight=\"bold\">{}</text>\n", kLeft,
+                       title_size(plot), escaped_markup(plot.title));
   const PlotAxis x = shared_x(plot);
-  Frame frame{kLeft, plot.width - kRight, kTop + kLegend, 0.0};
+  Frame frame{kLeft, plot.width - kRight, top + legend_height(plot), 0.0};
   for (std::size_t i = 0; i < plot.panels.size(); ++i, frame.top += step) {
     frame.bottom = frame.top + plot.panel_height;
     svg += panel_svg(plot, i, frame, x);

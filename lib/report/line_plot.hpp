@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,7 +38,16 @@ struct LinePlot {
   std::vector<PlotMark> marks;
   int width = 760;         ///< px
   int panel_height = 170;  ///< px
+  std::string id = "";     ///< of its own on a page that holds several plots
+  bool captions = true;    ///< show title and legend; false where the page shows them
 };
+
+/// Line `i` of a panel: a colour, and dashes as in stroke-dasharray (empty: solid).
+struct PlotPen {
+  const char* colour;
+  const char* dashes;
+};
+PlotPen plot_pen(std::size_t i);
 
 /// A picture that stands alone, for screen and print: white ground, colours that the colour-blind can tell
 /// apart and a line style of its own for each curve, title and description for screen readers. Curves are cut

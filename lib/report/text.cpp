@@ -7,29 +7,13 @@
 #include <ranges>
 
 #include "lib/diagnosis/fault_words.hpp"
+#include "lib/report/finding_words.hpp"
 #include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::size_t kShownPrecedents = 3;
-
-const char* in_words(const FaultFinding& fault) {
-  switch (fault.decided_by) {
-    case DecidedBy::agreement:
-      return "both networks agree";
-    case DecidedBy::cases:
-      return fault.precedents.empty() ? "the networks disagree and no similar case is known"
-                                      : "the networks disagree; similar cases decided";
-    case DecidedBy::evidence:
-      return "the physical evidence decided";
-    case DecidedBy::criterion:
-      return "the networks' fault criterion decided";
-    case DecidedBy::abstained:
-      return "not named: the evidence is too thin";
-  }
-  return "";
-}
 
 std::string sentence(const std::string& text) {
   std::string s = printable(text);
@@ -82,7 +66,7 @@ class FaultBlock {
   }
 
   std::string opinions() const {
-    return fmt::format("  confidence {:.0f} %: {}\n", 100.0 * fault_.confidence, in_words(fault_)) +
+    return fmt::format("  confidence {}: {}\n", percent_text(fault_.confidence), decided_words(fault_)) +
            opinion("MLP", fault_.mlp) + opinion("RBFN", fault_.rbfn);
   }
 
@@ -121,12 +105,6 @@ class FaultBlock {
     return text.empty() ? "" : "  Evidence\n" + text;
   }
 
-  static std::string evidence_line(const EvidenceItem& e) {
-    if (std::isnan(e.value)) return e.name == "decision" || e.text.empty() ? e.text : e.name + ": " + e.text;
-    const std::string value = value_text(e.value) + (e.unit.empty() ? "" : " " + e.unit);
-    return (e.text.empty() ? e.name : e.text) + ": " + value;
-  }
-
   std::string next_check() const {
     if (fault_.next_check.empty()) return "";
     return "  Check next\n" + wrapped(printable(fault_.next_check), "    ", options_.width);
@@ -146,15 +124,6 @@ std::string residuals(const Diagnosis& d) {
                         value_text(r.velocity_peak), time_text(r.peak_s, d.log.sample_period_s),
                         value_text(r.position_rms));
   return text + "\n";
-}
-
-std::string issue_line(const Issue& issue) {
-  std::string where = issue.channel.empty() ? "" : " in " + issue.channel;
-  if (issue.first_row > 0) where += fmt::format(", first in row {}", issue.first_row);
-  const std::string dropped =
-      issue.rows_dropped > 0 ? fmt::format(", {} rows left out", issue.rows_dropped) : "";
-  return fmt::format("{} ({}, {} times{}{}): {}", to_string(issue.severity), issue.code, issue.count, where,
-                     dropped, issue.message);
 }
 
 std::string bullets(const char* title, const std::vector<std::string>& lines, int width) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/finding_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/report/layout.hpp"
+
+namespace faultline {
+
+const char* decided_words(const FaultFinding& fault) {
+  switch (fault.decided_by) {
+    case DecidedBy::agreement:
+      return "both networks agree";
+    case DecidedBy::cases:
+      return fault.precedents.empty() ? "the networks disagree and no similar case is known"
+                                      : "the networks disagree; similar cases decided";
+    case DecidedBy::evidence:
+      return "the physical evidence decided";
+    case DecidedBy::criterion:
+      return "the networks' fault criterion decided";
+    case DecidedBy::abstained:
+      return "not named: the evidence is too thin";
+  }
+  return "";
+}
+
+std::string evidence_line(const EvidenceItem& e) {
+  if (std::isnan(e.value)) return e.name == "decision" || e.text.empty() ? e.text : e.name + ": " + e.text;
+  const std::string value = value_text(e.value) + (e.unit.empty() ? "" : " " + e.unit);
+  return (e.text.empty() ? e.name : e.text) + ": " + value;
+}
+
+std::string issue_line(const Issue& issue) {
+  std::string where = issue.channel.empty() ? "" : " in " + issue.channel;
+  if (issue.first_row > 0) where += fmt::format(", first in row {}", issue.first_row);
+  const std::string dropped =
+      issue.rows_dropped > 0 ? fmt::format(", {} rows left out", issue.rows_dropped) : "";
+  return fmt::format("{} ({}, {} times{}{}): {}", to_string(issue.severity), issue.code, issue.count, where,
+                     dropped, issue.message);
+}
+
+std::string percent_text(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+}  // namespace faultline

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/diagnosis/diagnosis.hpp"
+
+/// Sentences that every report for people uses, so that none of them says something else.
+namespace faultline {
+
+/// Who settled what the fault is, such as "both networks agree".
+const char* decided_words(const FaultFinding& fault);
+
+/// "MLP residual of joint 2: 41.5 times healthy".
+std::string evidence_line(const EvidenceItem& item);
+
+/// "warning (time_backward, 2 times in t, first in row 17, 2 rows left out): ...".
+std::string issue_line(const Issue& issue);
+
+/// "96 %".
+std::string percent_text(double share);
+
+}  // namespace faultline

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/report/html_elements.hpp"
+#include "lib/report/layout.hpp"
+#include "lib/report/markup.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kPictureSamples = 480;  // about one a pixel of paper
+constexpr std::size_t kTableRows = 20;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  bool empty() const { return !(low <= high); }
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+Range range_of(const FigureCurve& curve, std::size_t begin, std::size_t end) {
+  Range range;
+  for (std::size_t i = begin; i < end; ++i) range.add(curve.value(i));
+  return range;
+}
+
+/// The curve with at most kPictureSamples samples; of each group its extremes stay, in their order.
+PlotSeries thinned(const FigureCurve& curve, bool largest_only) {
+  PlotSeries series;
+  series.name = curve.name;
+  const std::size_t count = curve.count(), group = 2 * ((count + kPictureSamples - 1) / kPictureSamples);
+  auto put = [&](std::size_t i) {
+    series.x.push_back(curve.time_s(i));
+    series.y.push_back(curve.value(i));
+  };
+  for (std::size_t begin = 0; begin < count; begin += group) {
+    const std::size_t end = std::min(begin + group, count);
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (curve.value(i) < curve.value(low) || std::isnan(curve.value(low))) low = i;
+      if (curve.value(i) > curve.value(high) || std::isnan(curve.value(high))) high = i;
+    }
+    if (largest_only || low == high)
+      put(high);
+    else
+      put(std::min(low, high)), put(std::max(low, high));
+  }
+  return series;
+}
+
+std::string picture(const Figure& figure) {
+  LinePlot plot;
+  plot.title = figure.caption;
+  plot.x_label = "time, s";
+  plot.marks = figure.marks;
+  plot.id = figure.id + "-";
+  plot.captions = false;
+  PlotPanel panel{.y_label = figure.y_label, .series = {}, .log_y = figure.log_y};
+  for (const FigureCurve& curve : figure.curves) panel.series.push_back(thinned(curve, figure.log_y));
+  for (const FigureLimit& limit : figure.limits)
+    panel.series.push_back({limit.name, {figure.from_s, figure.to_s}, {limit.value, limit.value}});
+  plot.panels = {std::move(panel)};
+  return render_svg(plot);
+}
+
+std::string legend(const Figure& figure) {
+  std::string text = "<ul class=\"legend\">";
+  auto item = [&](std::size_t i, const std::string& name) {
+    const PlotPen pen = plot_pen(i);
+    text += fmt::format(
+        "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" x2=\"28\" y1=\"4\" y2=\"4\" "
+        "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{} <b></b></li>",
+        pen.colour, pen.dashes, escaped_markup(name));
+  };
+  std::size_t i = 0;
+  for (const FigureCurve& curve : figure.curves) item(i++, curve.name);
+  for (const FigureLimit& limit : figure.limits)
+    item(i++, fmt::format("{}: {}", limit.name, value_text(limit.value)));
+  return text + "</ul>";
+}
+
+std::string range_text(const Range& range, bool largest_only) {
+  if (range.empty()) return "-";
+  const std::string high = value_text(range.high);
+  return largest_only || range.low == range.high ? high : value_text(range.low) + " to " + high;
+}
+
+std::string table(const Figure& figure, double sample_period_s) {
+  const std::size_t count = figure.curves.front().count(), rows = std::min(count, kTableRows);
+  HtmlRow head = {"from", "to"};
+  for (const FigureCurve& curve : figure.curves) head.push_back(curve.name);
+  std::vector<HtmlRow> cells;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const std::size_t begin = r * count / rows, end = (r + 1) * count / rows;
+    const FigureCurve& first = figure.curves.front();
+    HtmlRow row = {time_text(first.time_s(begin), sample_period_s),
+                   time_text(first.time_s(end - 1), sample_period_s)};
+    for (const FigureCurve& curve : figure.curves)
+      row.push_back(range_text(range_of(curve, begin, end), figure.log_y));
+    cells.push_back(std::move(row));
+  }
+  return html_table(head, cells);
+}
+
+}  // namespace
+
+std::string html_figure(const Figure& figure, double sample_period_s) {
+  const std::string caption = escaped_markup(figure.caption);
+  return fmt::format(
+             "<figure id=\"{}\"><figcaption>{} <small>({})</small></figcaption>\n{}\n<div class=\"live\" "
+             "tabindex=\"0\" role=\"group\" aria-roledescription=\"plot\" aria-label=\"{}. A table of it "
+             "follows.\"></div>\n<div class=\"still\">",
+             figure.id, caption, escaped_markup(figure.y_label), legend(figure), caption) +
+         picture(figure) + "</div>\n<details><summary>Table: " + caption + "</summary>\n" +
+         table(figure, sample_period_s) + "</details></figure>\n";
+}
+
+}  // namespace faultline

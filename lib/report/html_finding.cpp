@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html_finding.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/diagnosis/fault_words.hpp"
+#include "lib/report/finding_words.hpp"
+#include "lib/report/html_elements.hpp"
+#include "lib/report/html_figure.hpp"
+#include "lib/report/layout.hpp"
+#include "lib/report/markup.hpp"
+
+namespace faultline {
+namespace {
+
+std::string times(const FaultFinding& f, double period_s) {
+  return html_table({"onset", "alarm", "end", "confidence", "decided by"},
+                    {{time_text(f.onset_s, period_s), time_text(f.alarm_s, period_s),
+                      time_text(f.end_s, period_s), percent_text(f.confidence), decided_words(f)}});
+}
+
+std::string opinions(const FaultFinding& f) {
+  return html_table({"network", "says", "confidence"},
+                    {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
+                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
+}
+
+std::string alternatives(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const Alternative& a : f.could_also_be) lines.push_back(plain_words(a.label) + ": " + a.why);
+  return html_list(lines);
+}
+
+std::string precedents(const FaultFinding& f) {
+  std::vector<HtmlRow> rows;
+  for (const Precedent& p : f.precedents)
+    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
+                    p.what_was_done.empty() ? "-" : p.what_was_done});
+  return html_table({"case", "similarity", "what it was", "what was done then"}, rows);
+}
+
+std::string evidence(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const EvidenceItem& item : f.evidence) lines.push_back(evidence_line(item));
+  return html_list(lines);
+}
+
+std::string column(const std::string& content) {
+  return content.empty() ? "" : "<div>\n" + content + "</div>\n";
+}
+
+}  // namespace
+
+std::string html_plots(const std::vector<Figure>& figures, int fault_id, double sample_period_s) {
+  if (figures.empty()) return "";
+  std::string text =
+      fmt::format("<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
+  for (const Figure& figure : figures) text += html_figure(figure, sample_period_s);
+  return text + "</div>\n";
+}
+
+std::string html_finding(const FaultFinding& f, const std::vector<Figure>& figures, double period_s) {
+  std::string text = fmt::format("<section class=\"finding\" id=\"fault-{0}\">\n<h2>Fault {0}: {1}</h2>\n",
+                                 f.id, escaped_markup(plain_words(f.label)));
+  text += times(f, period_s);
+  if (!f.next_check.empty())
+    text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
+  text += html_plots(figures, f.id, period_s);
+  text += "<div class=\"columns\">\n";
+  text += column(html_part("It could also be", alternatives(f)));
+  text += column(html_part("Similar cases", precedents(f)));
+  text += column(html_part("Evidence", evidence(f)));
+  text += column(html_part("What both networks said", opinions(f)));
+  return text + "</div>\n</section>\n";
+}
+
+std::string html_fault_table(const Diagnosis& d) {
+  std::vector<HtmlRow> rows;
+  const double period = d.log.sample_period_s;
+  for (const FaultFinding& f : d.faults)
+    rows.push_back({std::to_string(f.id), plain_words(f.label), time_text(f.onset_s, period),
+                    time_text(f.alarm_s, period), time_text(f.end_s, period), percent_text(f.confidence)});
+  return html_table({"fault", "what", "onset", "alarm", "end", "confidence"}, rows);
+}
+
+}  // namespace faultline

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/diagnosis/diagnosis.hpp"
+
+namespace faultline {
+
+/// The run from left to right as SVG, a lane a joint; each fault is a link to "#fault-ID" that names its kind
+/// and times. Empty when the log has no span of time.
+std::string html_timeline(const Diagnosis& diagnosis);
+
+}  // namespace faultline

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/chromium.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::json;
+constexpr int kTimeout_ms = 60000;  // machines that test are busy
+
+std::string from_base64(const std::string& text) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char* at = std::char_traits<char>::find(digits, 64, c);
+    if (!at) break;
+    bits = bits << 6 | static_cast<std::uint32_t>(at - digits);
+    if ((count += 6) >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
+  }
+  return bytes;
+}
+
+/// In the child: the browser reads commands from descriptor 3 and answers on 4.
+[[noreturn]] void become_browser(const std::vector<std::string>& arguments, int commands, int answers) {
+  const int in = fcntl(commands, F_DUPFD, 10), out = fcntl(answers, F_DUPFD, 10);
+  dup2(in, 3);
+  dup2(out, 4);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (const int stream : {0, 1, 2}) dup2(nowhere, stream);
+  setpgid(0, 0);
+  std::vector<char*> words;
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  execv(words[0], words.data());
+  _exit(127);
+}
+
+}  // namespace
+
+std::string chromium_program() {
+  for (const char* path : {"/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"})
+    if (std::filesystem::exists(path)) return path;
+  return "";
+}
+
+BrowserPage::BrowserPage(const BrowserOptions& options) {
+  start(options);
+  const Json target = call("Target.createTarget", {{"url", "about:blank"}});
+  session_ = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
+                 .at("sessionId")
+                 .get<std::string>();
+  for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable", "Network.enable"}) call(domain);
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", options.width}, {"height", options.height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+  call("Emulation.setScriptExecutionDisabled", {{"value", !options.script}});
+  call("Emulation.setEmulatedMedia",
+       {{"features",
+         Json::array({{{"name", "prefers-color-scheme"}, {"value", options.dark ? "dark" : "light"}}})}});
+}
+
+void BrowserPage::start(const BrowserOptions& options) {
+  std::array<int, 2> commands{}, answers{};
+  if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe");
+  const std::string size =
+      "--window-size=" + std::to_string(options.width) + "," + std::to_string(options.height);
+  const std::vector<std::string> arguments = {chromium_program(),
+                                              "--headless=new",
+                                              "--no-sandbox",
+                                              "--disable-gpu",
+                                              "--no-first-run",
+                                              "--hide-scrollbars",
+                                              "--disable-background-networking",
+                                              "--disable-extensions",
+                                              "--disable-dev-shm-usage",
+                                              "--remote-debugging-pipe",
+                                              size,
+                                              "--user-data-dir=" + profile_.path().string()};
+  process_ = fork();
+  if (process_ == 0) become_browser(arguments, commands[0], answers[1]);
+  close(commands[0]);
+  close(answers[1]);
+  to_browser_ = commands[1];
+  from_browser_ = answers[0];
+}
+
+BrowserPage::~BrowserPage() {
+  close(to_browser_);  // the browser ends when its pipe does
+  close(from_browser_);
+  int status = 0;
+  for (int i = 0; i < 100 && waitpid(process_, &status, WNOHANG) == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  kill(-process_, SIGKILL);
+  waitpid(process_, &status, 0);
+}
+
+Json BrowserPage::read_message() {
+  for (std::size_t end; (end = unread_.find('\0')) == std::string::npos;) {
+    pollfd waiting{from_browser_, POLLIN, 0};
+    if (poll(&waiting, 1, kTimeout_ms) <= 0) throw std::runtime_error("Chromium does not answer");
+    std::array<char, 65536> buffer{};
+    const ssize_t count = read(from_browser_, buffer.data(), buffer.size());
+    if (count <= 0) throw std::runtime_error("Chromium ended");
+    unread_.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  const std::size_t end = unread_.find('\0');
+  Json message = Json::parse(unread_.substr(0, end));
+  unread_.erase(0, end + 1);
+  return message;
+}
+
+void BrowserPage::take_event(const Json& message) {
+  const std::string method = message.value("method", "");
+  const Json& parameters = message.value("params", Json::object());
+  if (method == "Page.loadEventFired") loaded_ = true;
+  if (method == "Runtime.consoleAPICalled") complaints_.push_back(parameters.at("args").dump());
+  if (method == "Runtime.exceptionThrown") complaints_.push_back(parameters.at("exceptionDetails").dump());
+  if (method == "Log.entryAdded") complaints_.push_back(parameters.at("entry").at("text").get<std::string>());
+  if (method == "Network.requestWillBeSent")
+    requests_.push_back(parameters.at("request").at("url").get<std::string>());
+}
+
+Json BrowserPage::call(const std::string& method, const Json& parameters) {
+  Json command = {{"id", ++last_id_}, {"method", method}, {"params", parameters}};
+  if (!session_.empty()) command["sessionId"] = session_;
+  const std::string text = command.dump() + '\0';
+  for (std::size_t sent = 0; sent < text.size();) {
+    const ssize_t count = write(to_browser_, text.data() + sent, text.size() - sent);
+    if (count <= 0) throw std::runtime_error("Chromium ended");
+    sent += static_cast<std::size_t>(count);
+  }
+  for (;;) {
+    Json message = read_message();
+    if (message.value("id", 0) != last_id_) {
+      take_event(message);
+      continue;
+    }
+    if (message.contains("error")) throw std::runtime_error(method + ": " + message["error"].dump());
+    return message.at("result");
+  }
+}
+
+void BrowserPage::open(const std::string& path) {
+  loaded_ = false;
+  call("Page.navigate", {{"url", "file://" + path}});
+  while (!loaded_) take_event(read_message());
+}
+
+Json BrowserPage::evaluate(const std::string& expression) {
+  const Json result =
+      call("Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
+  if (result.contains("exceptionDetails")) throw std::runtime_error(result["exceptionDetails"].dump());
+  return result.at("result").value("value", Json());
+}
+
+void BrowserPage::mouse(const char* type, double x, double y, int buttons) {
+  call("Input.dispatchMouseEvent", {{"type", type},
+                                    {"x", x},
+                                    {"y", y},
+                                    {"button", buttons ? "left" : "none"},
+                                    {"buttons", std::string(type) == "mouseReleased" ? 0 : buttons},
+                                    {"clickCount", buttons ? 1 : 0}});
+}
+
+void BrowserPage::move_mouse(double x, double y) { mouse("mouseMoved", x, y, 0); }
+
+void BrowserPage::click(double x, double y) {
+  move_mouse(x, y);
+  mouse("mousePressed", x, y, 1);
+  mouse("mouseReleased", x, y, 1);
+}
+
+void BrowserPage::drag(double from_x, double to_x, double y) {
+  move_mouse(from_x, y);
+  mouse("mousePressed", from_x, y, 1);
+  mouse("mouseMoved", 0.5 * (from_x + to_x), y, 1);
+  mouse("mouseMoved", to_x, y, 1);
+  mouse("mouseReleased", to_x, y, 1);
+}
+
+void BrowserPage::press(const std::string& key) {
+  Json event = {{"type", "keyDown"}, {"key", key}};
+  if (key.size() == 1) event["text"] = key;
+  call("Input.dispatchKeyEvent", event);
+  call("Input.dispatchKeyEvent", {{"type", "keyUp"}, {"key", key}});
+}
+
+void BrowserPage::emulate_print() { call("Emulation.setEmulatedMedia", {{"media", "print"}}); }
+
+std::string BrowserPage::screenshot() {
+  return from_base64(call("Page.captureScreenshot", {{"format", "png"}}).at("data").get<std::string>());
+}
+
+std::string BrowserPage::print() {
+  const Json options = {{"preferCSSPageSize", true}, {"printBackground", true}};
+  return from_base64(call("Page.printToPDF", options).at("data").get<std::string>());
+}
+
+}  // namespace faultline

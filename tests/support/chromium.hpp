@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+
+/// The installed Chromium; empty when there is none.
+std::string chromium_program();
+
+struct BrowserOptions {
+  int width = 1200, height = 900;  ///< px
+  bool script = true;              ///< false: as for a reader who has switched it off
+  bool dark = false;               ///< prefers-color-scheme
+};
+
+/// A page in a headless Chromium of its own, driven over a pipe by the DevTools protocol. Throws
+/// std::runtime_error when the browser does not answer.
+class BrowserPage {
+ public:
+  explicit BrowserPage(const BrowserOptions& options = {});
+  ~BrowserPage();
+  BrowserPage(const BrowserPage&) = delete;
+  BrowserPage& operator=(const BrowserPage&) = delete;
+
+  /// Loads a file and waits until it is there.
+  void open(const std::string& path);
+  /// Value of an expression in the page; a promise is waited for.
+  nlohmann::json evaluate(const std::string& expression);
+  void move_mouse(double x, double y);
+  void click(double x, double y);
+  void drag(double from_x, double to_x, double y);
+  /// A key by its DOM name, such as "ArrowLeft" or "+".
+  void press(const std::string& key);
+  void emulate_print();
+  std::string screenshot();  ///< PNG
+  std::string print();       ///< PDF on A4
+
+  /// Console messages, exceptions and violations of the page's policy since it was opened.
+  const std::vector<std::string>& complaints() const { return complaints_; }
+  /// Addresses that the page asked for, itself among them.
+  const std::vector<std::string>& requests() const { return requests_; }
+
+ private:
+  nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
+  nlohmann::json read_message();
+  void take_event(const nlohmann::json& message);
+  void mouse(const char* type, double x, double y, int buttons);
+  void start(const BrowserOptions& options);
+
+  TemporaryFolder profile_;
+  int process_ = -1;
+  int to_browser_ = -1, from_browser_ = -1;
+  int last_id_ = 0;
+  bool loaded_ = false;
+  std::string session_;
+  std::string unread_;
+  std::vector<std::string> complaints_, requests_;
+};
+
+}  // namespace faultline
