@@ -36,9 +36,11 @@ FactTable validation_table(const Validation& validation) {
                   {"fault", "runs", "found", "right joint", "right", "right or named", "median delay"},
                   {}};
   for (const ValidationRow& row : validation.rows)
-    table.rows.push_back({to_string(row.kind), std::to_string(row.runs), std::to_string(row.detected),
-                          std::to_string(row.right_joint), std::to_string(row.right_kind_and_joint),
-                          std::to_string(row.right_or_named), number(row.median_delay_s, "s")});
+    table.rows.push_back(
+        {to_string(row.kind), std::to_string(row.runs), std::to_string(row.detected),
+         std::to_string(row.right_joint), std::to_string(row.right_kind_and_joint),
+         std::to_string(row.right_or_named),
+         std::isfinite(row.median_delay_s) ? fmt::format("{:.3f} s", row.median_delay_s) : "-"});
   table.rows.push_back({"none (false alarms)", fmt::format("{:.2f} h", validation.healthy_hours),
                         std::to_string(validation.false_alarms), "", "", "", ""});
   return table;

@@ -54,6 +54,11 @@ int WindowCurves::bin_of(double time_s) const {
   return std::min(static_cast<int>((time_s - window_.start_s) * bins_per_s_), window_.bins - 1);
 }
 
+int WindowCurves::first_bin_of(int bin, double time_s, const Reached& last) const {
+  const bool follows = last.bin >= 0 && time_s - last.time_s <= held_s_;
+  return follows ? std::min(last.bin + 1, bin) : bin;
+}
+
 void WindowCurves::take(const Log& segment, const Residuals& residuals) {
   if (segment.rows() == 0 || segment.time.front() > window_.end_s || segment.time.back() < window_.start_s)
     return;
@@ -80,11 +85,9 @@ void WindowCurves::take_predictions(const Log& segment, const Residuals& residua
     const int bin = bin_of(time);
     if (bin < 0) continue;
     const int row = static_cast<int>(residuals.row[i] - segment.first_row);
-    const bool follows = last_bin_ >= 0 && time - last_s_ <= held_s_;
-    for (int b = follows ? std::min(last_bin_ + 1, bin) : bin; b <= bin; ++b)
+    for (int b = first_bin_of(bin, time, predicted_); b <= bin; ++b)
       take_prediction(segment, row, residuals, i, b);
-    last_bin_ = bin;
-    last_s_ = time;
+    predicted_ = {bin, time};
   }
 }
 
@@ -109,10 +112,12 @@ void WindowCurves::take_outputs(const Residuals& residuals) {
   for (Eigen::Index i = 0; i < outputs.time.size(); ++i) {
     const int bin = bin_of(outputs.time[i]);
     if (bin < 0) continue;
-    for (Network& network : networks_) {
-      network.mlp.add(bin, outputs.mlp(network.output, i));
-      network.rbfn.add(bin, outputs.rbfn(network.output, i));
-    }
+    for (Network& network : networks_)
+      for (int b = first_bin_of(bin, outputs.time[i], classified_); b <= bin; ++b) {
+        network.mlp.add(b, outputs.mlp(network.output, i));
+        network.rbfn.add(b, outputs.rbfn(network.output, i));
+      }
+    classified_ = {bin, outputs.time[i]};
   }
 }
 

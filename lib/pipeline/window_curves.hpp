@@ -32,7 +32,14 @@ class WindowCurves {
     EnvelopeBuilder mlp, rbfn;
   };
 
+  /// Where predictions were put last. One stands for the bins since the one before it, too.
+  struct Reached {
+    int bin = -1;
+    double time_s = 0.0;
+  };
+
   int bin_of(double time_s) const;
+  int first_bin_of(int bin, double time_s, const Reached& last) const;
   void take_rows(const Log& segment);
   void take_predictions(const Log& segment, const Residuals& residuals);
   void take_prediction(const Log& segment, int row, const Residuals& residuals, int i, int bin);
@@ -41,9 +48,8 @@ class WindowCurves {
   CurveWindow window_;
   const Model& model_;
   double bins_per_s_;
-  double held_s_;      ///< a prediction stands for the rows up to the next one
-  int last_bin_ = -1;  ///< of the last prediction
-  double last_s_ = 0.0;
+  double held_s_;  ///< longest time between two predictions without a gap in the log
+  Reached predicted_, classified_;
   std::vector<Joint> joints_;
   std::vector<Network> networks_;
 };

@@ -67,7 +67,7 @@ std::string top(const Diagnosis& d) {
   if (d.verdict == Verdict::healthy || !d.faults.empty()) text += html_timeline(d);
   if (!d.faults.empty())
     text +=
-        "<p class=\"key\">Light: onset to alarm; dark: from the alarm to the end. Click a fault to see "
+        "<p class=\"key\">Pale: onset to alarm; full: alarm to end. Click a fault to see "
         "it.</p>\n";
   return text + html_fault_table(d) + "</header>\n";
 }

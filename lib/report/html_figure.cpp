@@ -10,6 +10,7 @@
 #include "lib/report/html_elements.hpp"
 #include "lib/report/layout.hpp"
 #include "lib/report/markup.hpp"
+#include "lib/report/plot_axis.hpp"
 
 namespace faultline {
 namespace {
@@ -59,6 +60,14 @@ PlotSeries thinned(const FigureCurve& curve, bool largest_only) {
   return series;
 }
 
+/// That of the panel, cut at the least value of interest.
+std::pair<double, double> y_range(const Figure& figure, const PlotPanel& panel) {
+  std::vector<const std::vector<double>*> values;
+  for (const PlotSeries& series : panel.series) values.push_back(&series.y);
+  const PlotAxis axis = axis_over(values, panel.log_y);
+  return {std::min(std::max(axis.low, figure.least_y), 0.5 * axis.high), axis.high};
+}
+
 std::string picture(const Figure& figure) {
   LinePlot plot;
   plot.title = figure.caption;
@@ -66,10 +75,12 @@ std::string picture(const Figure& figure) {
   plot.marks = figure.marks;
   plot.id = figure.id + "-";
   plot.captions = false;
-  PlotPanel panel{.y_label = figure.y_label, .series = {}, .log_y = figure.log_y};
+  plot.panel_height = 130;
+  PlotPanel panel{.y_label = "", .series = {}, .log_y = figure.log_y};
   for (const FigureCurve& curve : figure.curves) panel.series.push_back(thinned(curve, figure.log_y));
   for (const FigureLimit& limit : figure.limits)
     panel.series.push_back({limit.name, {figure.from_s, figure.to_s}, {limit.value, limit.value}});
+  if (std::isfinite(figure.least_y)) panel.y_range = y_range(figure, panel);
   plot.panels = {std::move(panel)};
   return render_svg(plot);
 }

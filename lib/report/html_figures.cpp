@@ -32,6 +32,7 @@ Figure residual_figure(const CurveWindow& window, const RunCurves& curves,
   figure.caption = "Velocity residual of each joint";
   figure.y_label = "largest magnitude, times healthy";
   figure.log_y = true;
+  figure.least_y = 0.1;
   for (std::size_t j = 0; j < window.joints.size(); ++j)
     add_curve(figure, window, fmt::format("joint {}", j + 1), fmt::format("r{}", j + 1),
               window.joints[j].residual);
@@ -73,6 +74,10 @@ Figure evidence_figure(const FaultFinding& fault, const CurveWindow& window, con
                              &fault.trace.time, &curve.ratio});
   }
   figure.limits = {{"alarm threshold", curves.alarm_ratio}};
+  double largest = curves.alarm_ratio;
+  for (const EvidenceCurve& curve : fault.trace.curves)
+    for (const double ratio : curve.ratio) largest = std::fmax(largest, ratio);
+  figure.least_y = -0.15 * largest;
   return figure;
 }
 

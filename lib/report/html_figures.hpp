@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct Figure {
   std::vector<FigureLimit> limits;
   std::vector<PlotMark> marks;
   double from_s = 0.0, to_s = 0.0;  ///< shown at first
+  /// What lies below is of no interest and would squeeze the rest.
+  double least_y = -std::numeric_limits<double>::infinity();
 };
 
 /// The plots of the whole run: residuals, then position, velocity and torque of each joint. They refer to

@@ -84,8 +84,9 @@ Json figure_json(const Figure& figure) {
   for (const FigureCurve& curve : figure.curves) curves.push_back({valid_utf8(curve.name), curve.key});
   for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
   for (const PlotMark& mark : figure.marks) marks.push_back(Json::array({mark.x, mark.text}));
+  const Json least = std::isfinite(figure.least_y) ? Json(figure.least_y) : Json(nullptr);
   return {{"id", figure.id},       {"fault", figure.fault_id}, {"log", figure.log_y},
-          {"from", figure.from_s}, {"to", figure.to_s},        {"y", figure.y_label},
+          {"from", figure.from_s}, {"to", figure.to_s},        {"least", least},
           {"curves", curves},      {"limits", limits},         {"marks", marks}};
 }
 

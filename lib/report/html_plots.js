@@ -158,13 +158,15 @@
         }
       for (const limit of this.figure.limits) low = Math.min(low, limit), high = Math.max(high, limit);
       if (!(low <= high)) return this.figure.log ? [0.1, 10] : [-1, 1];
-      if (this.figure.log) return [Math.max(low, high * 1e-6) * 0.8, high * 1.4];
+      if (this.figure.least !== null) low = Math.min(Math.max(low, this.figure.least), high);
+      if (this.figure.log) return [low * 0.8, high * 1.4];
       const margin = (high - low) * 0.06 || Math.abs(high) * 0.1 || 1;
       return [low - margin, high + margin];
     }
 
     colours() {
       return {colors: this.figure.curves.map((c, i) => colour('--pen' + i % 6)), gridLineColor: colour('--grid'),
+              axisLabelColor: colour('--soft'),
               axisLineColor: colour('--line')};
     }
 
