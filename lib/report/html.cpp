@@ -117,7 +117,8 @@ std::string provenance(const Diagnosis& d, const ReportDetails& details) {
          tables(details.provenance);
 }
 
-std::string scripts(const Diagnosis& d, const ReportDetails& details, const std::vector<Figure>& figures) {
+std::string scripts(const Diagnosis& d, const ReportDetails& details,
+                    const std::vector<PageFigure>& figures) {
   return fmt::format(
       "<script type=\"application/json\" id=\"plot-data\">{}</script>\n<script>{}</script>\n<script>{}"
       "</script>\n",
@@ -127,12 +128,12 @@ std::string scripts(const Diagnosis& d, const ReportDetails& details, const std:
 }  // namespace
 
 std::string render_html(const Diagnosis& d, const ReportDetails& details) {
-  const std::vector<Figure> whole = run_figures(d, details.curves);
+  const std::vector<PageFigure> whole = run_figures(d, details.curves);
   const double period = d.log.sample_period_s;
   std::string text = head(d, !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
-  std::vector<Figure> all = whole;
+  std::vector<PageFigure> all = whole;
   for (std::size_t i = 0; i < d.faults.size() && i < kFullFindings; ++i) {
-    const std::vector<Figure> figures = fault_figures(d.faults[i], details.curves);
+    const std::vector<PageFigure> figures = fault_figures(d.faults[i], details.curves);
     text += html_finding(d.faults[i], figures, period);
     all.insert(all.end(), figures.begin(), figures.end());
   }

@@ -61,14 +61,14 @@ PlotSeries thinned(const FigureCurve& curve, bool largest_only) {
 }
 
 /// That of the panel, cut at the least value of interest.
-std::pair<double, double> y_range(const Figure& figure, const PlotPanel& panel) {
+std::pair<double, double> y_range(const PageFigure& figure, const PlotPanel& panel) {
   std::vector<const std::vector<double>*> values;
   for (const PlotSeries& series : panel.series) values.push_back(&series.y);
   const PlotAxis axis = axis_over(values, panel.log_y);
   return {std::min(std::max(axis.low, figure.least_y), 0.5 * axis.high), axis.high};
 }
 
-std::string picture(const Figure& figure) {
+std::string picture(const PageFigure& figure) {
   LinePlot plot;
   plot.title = figure.caption;
   plot.x_label = "time, s";
@@ -85,7 +85,7 @@ std::string picture(const Figure& figure) {
   return render_svg(plot);
 }
 
-std::string legend(const Figure& figure) {
+std::string legend(const PageFigure& figure) {
   std::string text = "<ul class=\"legend\">";
   auto item = [&](std::size_t i, const std::string& name) {
     const PlotPen pen = plot_pen(i);
@@ -107,7 +107,7 @@ std::string range_text(const Range& range, bool largest_only) {
   return largest_only || range.low == range.high ? high : value_text(range.low) + " to " + high;
 }
 
-std::string table(const Figure& figure, double sample_period_s) {
+std::string table(const PageFigure& figure, double sample_period_s) {
   const std::size_t count = figure.curves.front().count(), rows = std::min(count, kTableRows);
   HtmlRow head = {"from", "to"};
   for (const FigureCurve& curve : figure.curves) head.push_back(curve.name);
@@ -126,7 +126,7 @@ std::string table(const Figure& figure, double sample_period_s) {
 
 }  // namespace
 
-std::string html_figure(const Figure& figure, double sample_period_s) {
+std::string html_figure(const PageFigure& figure, double sample_period_s) {
   const std::string caption = escaped_markup(figure.caption);
   return fmt::format(
              "<figure id=\"{}\"><figcaption>{} <small>({})</small></figcaption>\n{}\n<div class=\"live\" "

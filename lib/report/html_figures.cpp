@@ -11,8 +11,8 @@
 namespace faultline {
 namespace {
 
-Figure figure_over(const CurveWindow& window, const std::string& id, const std::vector<PlotMark>& marks) {
-  Figure figure;
+PageFigure figure_over(const CurveWindow& window, const std::string& id, const std::vector<PlotMark>& marks) {
+  PageFigure figure;
   figure.id = (window.fault_id > 0 ? fmt::format("plot-{}-", window.fault_id) : "plot-run-") + id;
   figure.fault_id = window.fault_id;
   figure.marks = marks;
@@ -21,14 +21,14 @@ Figure figure_over(const CurveWindow& window, const std::string& id, const std::
   return figure;
 }
 
-void add_curve(Figure& figure, const CurveWindow& window, const std::string& name, const std::string& key,
+void add_curve(PageFigure& figure, const CurveWindow& window, const std::string& name, const std::string& key,
                const std::vector<float>& values) {
   if (!values.empty()) figure.curves.push_back({name, key, &window, &values});
 }
 
-Figure residual_figure(const CurveWindow& window, const RunCurves& curves,
-                       const std::vector<PlotMark>& marks) {
-  Figure figure = figure_over(window, "residual", marks);
+PageFigure residual_figure(const CurveWindow& window, const RunCurves& curves,
+                           const std::vector<PlotMark>& marks) {
+  PageFigure figure = figure_over(window, "residual", marks);
   figure.caption = "Velocity residual of each joint";
   figure.y_label = "largest magnitude, times healthy";
   figure.log_y = true;
@@ -43,14 +43,14 @@ Figure residual_figure(const CurveWindow& window, const RunCurves& curves,
 }
 
 /// Position, velocity and torque of joint j (from 0): measured, and as the healthy robot has it.
-std::vector<Figure> joint_figures(const CurveWindow& window, const RunCurves& curves, std::size_t j,
-                                  const std::vector<PlotMark>& marks) {
+std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves& curves, std::size_t j,
+                                      const std::vector<PlotMark>& marks) {
   const JointCurves& joint = window.joints[j];
   const bool turns = j < curves.turns.size() && curves.turns[j];
   const std::string n = std::to_string(j + 1);
   auto pair = [&](const char* id, const char* what, const char* unit, const Envelope& measured,
                   const Envelope& healthy, const char* healthy_name) {
-    Figure figure = figure_over(window, id + n, marks);
+    PageFigure figure = figure_over(window, id + n, marks);
     figure.caption = fmt::format("Joint {}: {}", n, what);
     figure.y_label = unit;
     add_curve(figure, window, "measured", id + n, measured.values);
@@ -63,9 +63,9 @@ std::vector<Figure> joint_figures(const CurveWindow& window, const RunCurves& cu
                "needed by the healthy robot")};
 }
 
-Figure evidence_figure(const FaultFinding& fault, const CurveWindow& window, const RunCurves& curves,
-                       const std::vector<PlotMark>& marks) {
-  Figure figure = figure_over(window, "evidence", marks);
+PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window, const RunCurves& curves,
+                           const std::vector<PlotMark>& marks) {
+  PageFigure figure = figure_over(window, "evidence", marks);
   figure.caption = "Evidence accumulating";
   figure.y_label = "log likelihood over a healthy robot, nats";
   for (std::size_t i = 0; i < fault.trace.curves.size(); ++i) {
@@ -81,8 +81,8 @@ Figure evidence_figure(const FaultFinding& fault, const CurveWindow& window, con
   return figure;
 }
 
-Figure network_figure(const CurveWindow& window, const std::vector<PlotMark>& marks) {
-  Figure figure = figure_over(window, "networks", marks);
+PageFigure network_figure(const CurveWindow& window, const std::vector<PlotMark>& marks) {
+  PageFigure figure = figure_over(window, "networks", marks);
   figure.caption = "What both networks say of each single sample";
   figure.y_label = "output, 1: it is there";
   for (std::size_t i = 0; i < window.networks.size(); ++i) {
@@ -96,8 +96,8 @@ Figure network_figure(const CurveWindow& window, const std::vector<PlotMark>& ma
   return figure;
 }
 
-void keep_drawable(std::vector<Figure>& figures) {
-  std::erase_if(figures, [](const Figure& figure) { return figure.curves.empty(); });
+void keep_drawable(std::vector<PageFigure>& figures) {
+  std::erase_if(figures, [](const PageFigure& figure) { return figure.curves.empty(); });
 }
 
 /// The joint to look at: the fault's own, else the one with the largest residual.
@@ -115,20 +115,21 @@ std::size_t joint_of(const FaultFinding& fault, const CurveWindow& window) {
 
 }  // namespace
 
-std::vector<Figure> run_figures(const Diagnosis& d, const RunCurves& curves) {
+std::vector<PageFigure> run_figures(const Diagnosis& d, const RunCurves& curves) {
   if (curves.empty()) return {};
   std::vector<PlotMark> marks;
   for (const FaultFinding& fault : d.faults)
     if (std::isfinite(fault.onset_s)) marks.push_back({fault.onset_s, fmt::format("fault {}", fault.id)});
   if (marks.size() > 30) marks.clear();  // the timeline shows them better
-  std::vector<Figure> figures = {residual_figure(curves.whole, curves, marks)};
+  std::vector<PageFigure> figures = {residual_figure(curves.whole, curves, marks)};
   for (std::size_t j = 0; j < curves.whole.joints.size(); ++j)
-    for (Figure& figure : joint_figures(curves.whole, curves, j, marks)) figures.push_back(std::move(figure));
+    for (PageFigure& figure : joint_figures(curves.whole, curves, j, marks))
+      figures.push_back(std::move(figure));
   keep_drawable(figures);
   return figures;
 }
 
-std::vector<Figure> fault_figures(const FaultFinding& fault, const RunCurves& curves) {
+std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves) {
   const auto window = std::find_if(curves.details.begin(), curves.details.end(),
                                    [&](const CurveWindow& w) { return w.fault_id == fault.id; });
   if (window == curves.details.end()) return {};
@@ -136,10 +137,10 @@ std::vector<Figure> fault_figures(const FaultFinding& fault, const RunCurves& cu
   if (std::isfinite(fault.onset_s)) marks.push_back({fault.onset_s, "onset"});
   if (std::isfinite(fault.alarm_s)) marks.push_back({fault.alarm_s, "alarm"});
   if (std::isfinite(fault.end_s)) marks.push_back({fault.end_s, "end"});
-  std::vector<Figure> figures = {residual_figure(*window, curves, marks),
-                                 evidence_figure(fault, *window, curves, marks)};
+  std::vector<PageFigure> figures = {residual_figure(*window, curves, marks),
+                                     evidence_figure(fault, *window, curves, marks)};
   if (!window->joints.empty())
-    for (Figure& figure : joint_figures(*window, curves, joint_of(fault, *window), marks))
+    for (PageFigure& figure : joint_figures(*window, curves, joint_of(fault, *window), marks))
       figures.push_back(std::move(figure));
   figures.push_back(network_figure(*window, marks));
   keep_drawable(figures);

@@ -32,7 +32,7 @@ struct FigureLimit {
 };
 
 /// One plot of the page.
-struct Figure {
+struct PageFigure {
   std::string id;
   int fault_id = 0;  ///< 0: of the whole run
   std::string caption;
@@ -48,9 +48,9 @@ struct Figure {
 
 /// The plots of the whole run: residuals, then position, velocity and torque of each joint. They refer to
 /// `curves`, which must outlive them.
-std::vector<Figure> run_figures(const Diagnosis& diagnosis, const RunCurves& curves);
+std::vector<PageFigure> run_figures(const Diagnosis& diagnosis, const RunCurves& curves);
 
 /// The plots around one fault; none when `curves` has no detail of it.
-std::vector<Figure> fault_figures(const FaultFinding& fault, const RunCurves& curves);
+std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves);
 
 }  // namespace faultline

@@ -51,15 +51,15 @@ std::string column(const std::string& content) {
 
 }  // namespace
 
-std::string html_plots(const std::vector<Figure>& figures, int fault_id, double sample_period_s) {
+std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s) {
   if (figures.empty()) return "";
   std::string text =
       fmt::format("<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
-  for (const Figure& figure : figures) text += html_figure(figure, sample_period_s);
+  for (const PageFigure& figure : figures) text += html_figure(figure, sample_period_s);
   return text + "</div>\n";
 }
 
-std::string html_finding(const FaultFinding& f, const std::vector<Figure>& figures, double period_s) {
+std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& figures, double period_s) {
   std::string text = fmt::format("<section class=\"finding\" id=\"fault-{0}\">\n<h2>Fault {0}: {1}</h2>\n",
                                  f.id, escaped_markup(plain_words(f.label)));
   text += times(f, period_s);

@@ -10,13 +10,13 @@
 namespace faultline {
 
 /// One fault: times, who decided, what to check next, plots, what else it could be, similar cases, evidence.
-std::string html_finding(const FaultFinding& fault, const std::vector<Figure>& figures,
+std::string html_finding(const FaultFinding& fault, const std::vector<PageFigure>& figures,
                          double sample_period_s);
 
 /// All faults, a row each.
 std::string html_fault_table(const Diagnosis& diagnosis);
 
 /// A grid of figures with the place for their buttons.
-std::string html_plots(const std::vector<Figure>& figures, int fault_id, double sample_period_s);
+std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s);
 
 }  // namespace faultline

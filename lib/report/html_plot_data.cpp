@@ -79,7 +79,7 @@ Json trace_json(const FaultFinding& fault) {
   return {{"times", std::move(times)}, {"keys", std::move(keys)}};
 }
 
-Json figure_json(const Figure& figure) {
+Json figure_json(const PageFigure& figure) {
   Json curves = Json::array(), limits = Json::array(), marks = Json::array();
   for (const FigureCurve& curve : figure.curves) curves.push_back({valid_utf8(curve.name), curve.key});
   for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
@@ -105,14 +105,15 @@ std::string inside_script(const std::string& json) {
 
 }  // namespace
 
-std::string html_plot_data(const Diagnosis& d, const RunCurves& curves, const std::vector<Figure>& figures) {
+std::string html_plot_data(const Diagnosis& d, const RunCurves& curves,
+                           const std::vector<PageFigure>& figures) {
   Json json = {{"windows", Json::array()}, {"traces", Json::array()}, {"figures", Json::array()}};
   json["windows"].push_back(window_json(curves.whole));
   for (const CurveWindow& window : curves.details) json["windows"].push_back(window_json(window));
   for (const CurveWindow& window : curves.details)
     for (const FaultFinding& fault : d.faults)
       if (fault.id == window.fault_id) json["traces"].push_back(trace_json(fault));
-  for (const Figure& figure : figures) json["figures"].push_back(figure_json(figure));
+  for (const PageFigure& figure : figures) json["figures"].push_back(figure_json(figure));
   return inside_script(json.dump());
 }
 

@@ -13,6 +13,6 @@ namespace faultline {
 /// [{from, to, fault, keys: {KEY: [low, high, DATA]}}], "traces": [{times, keys: {KEY: [...]}}], "figures":
 /// [...]}. DATA is base64 of little-endian 16-bit numbers from 0 (low) to 65534 (high); 65535 is missing.
 std::string html_plot_data(const Diagnosis& diagnosis, const RunCurves& curves,
-                           const std::vector<Figure>& figures);
+                           const std::vector<PageFigure>& figures);
 
 }  // namespace faultline
