@@ -44,12 +44,12 @@ for log in "${bad[@]}"; do
   printf '\n%s\n' "$log"
   status=0
   "$faultline" diagnose "$log" --model "$out/model.json" --json "$out/$name.json" --csv "$out/$name.csv" \
-    >"$out/$name.txt" || status=$?
+    --html "$out/$name.html" >"$out/$name.txt" || status=$?
   [ "$status" -le 1 ] || exit "$status"
   timeline "$out/$name.txt"
   found=$((found + status))
 done
 
 printf 'Faults were found in %d of %d bad runs. In %s:\n' "$found" "${#bad[@]}" "$out"
-printf '  NAME.txt, NAME.json, NAME.csv     the report of each run: evidence, similar cases, what to check next\n'
+printf '  NAME.html, .txt, .json, .csv      the report of each run: plots, evidence, similar cases, what to check next\n'
 printf '  model.json, model.json.cases.db   what was learned\n'

@@ -24,14 +24,11 @@ if [ ! -f "$out/hour.csv" ]; then
   for name in ten_minutes hour; do "$faultline" convert "$out/$name.flog" "$out/$name.csv" >/dev/null; done
 fi
 
-# Seconds that a command takes, the best of three.
+# Seconds of processor time that a command takes, the least of three; other work on the machine changes it little.
 seconds() {
-  local best=1e9 from to
+  local TIMEFORMAT='%U %S' best=1e9
   for _ in 1 2 3; do
-    from=$(date +%s.%N)
-    "$@" >/dev/null || [ $? -eq 1 ]
-    to=$(date +%s.%N)
-    best=$(awk -v b="$best" -v f="$from" -v t="$to" 'BEGIN {d = t - f; print d < b ? d : b}')
+    best=$({ time { "$@" >/dev/null || [ $? -eq 1 ]; }; } 2>&1 | awk -v b="$best" '{d = $1 + $2; print d < b ? d : b}')
   done
   echo "$best"
 }
