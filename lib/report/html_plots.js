@@ -187,18 +187,20 @@
       context.strokeStyle = context.fillStyle = colour('--bad');
       context.setLineDash([5, 3]);
       context.font = '12px sans-serif';
-      let free = -Infinity;
-      for (const [time, text] of this.figure.marks) {
-        const x = graph.toDomXCoord(time);
-        if (x < area.x || x > area.x + area.w) continue;
+      const marks = this.figure.marks.map(([time, text]) => [graph.toDomXCoord(time), text])
+        .filter(([x]) => x >= area.x && x <= area.x + area.w);
+      marks.forEach(([x, text], i) => {
         context.beginPath();
         context.moveTo(x, area.y);
         context.lineTo(x, area.y + area.h);
         context.stroke();
-        const level = x < free ? 26 : 13;
-        if (level === 13) free = x + context.measureText(text).width + 8;
-        context.fillText(text, x + 4, area.y + level);
-      }
+        // A word that would reach into the next line stands on the other side.
+        const width = context.measureText(text).width + 8;
+        const next = i + 1 < marks.length ? marks[i + 1][0] : area.x + area.w;
+        const left = next - x < width && x - area.x > width;
+        context.textAlign = left ? 'right' : 'left';
+        context.fillText(text, left ? x - 4 : x + 4, area.y + 13);
+      });
       context.restore();
     }
 

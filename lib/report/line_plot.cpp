@@ -98,17 +98,26 @@ std::string legend(const PlotPanel& panel, const Frame& f) {
   return svg;
 }
 
+/// The word at a mark; it stands on the other side when it would reach into the next mark.
+std::string mark_text(const PlotMark& mark, const Frame& f, const PlotAxis& x, double next_px) {
+  const double px = x.px(mark.x), width = 8.0 + 6.6 * static_cast<double>(mark.text.size());
+  const bool left = next_px - px < width && px - f.left > width;
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#b3261e\"{}>{}</text>\n",
+                     px + (left ? -5.0 : 5.0), f.top + 14.0, left ? " text-anchor=\"end\"" : "",
+                     escaped_markup(mark.text));
+}
+
 std::string marks(const LinePlot& plot, const Frame& f, const PlotAxis& x, bool with_text) {
   std::string svg;
-  for (const PlotMark& mark : plot.marks) {
+  for (std::size_t i = 0; i < plot.marks.size(); ++i) {
+    const PlotMark& mark = plot.marks[i];
     if (!(mark.x >= x.low && mark.x <= x.high)) continue;
     svg += fmt::format(
         "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#b3261e\" stroke-width=\"1.4\" "
         "stroke-dasharray=\"5 3\"/>\n",
         x.px(mark.x), f.top, f.bottom);
-    if (with_text)
-      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#b3261e\">{}</text>\n", x.px(mark.x) + 5.0,
-                         f.top + 14.0, escaped_markup(mark.text));
+    const bool last = i + 1 == plot.marks.size() || plot.marks[i + 1].x > x.high;
+    if (with_text) svg += mark_text(mark, f, x, last ? f.right : x.px(plot.marks[i + 1].x));
   }
   return svg;
 }
