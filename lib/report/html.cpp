@@ -20,8 +20,6 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kFullFindings = 50;  // later ones stand in the table only
-
 /// As Content-Security-Policy names an inline script or style.
 std::string source_hash(std::string_view content) {
   const std::string hex = sha256_hex(content);
@@ -55,6 +53,14 @@ std::string rate_text(const LogFacts& log) {
   return fmt::format(", a sample every {} s", value_text(log.sample_period_s));
 }
 
+std::string timeline_key(const Diagnosis& d) {
+  std::string text;
+  if (!d.faults.empty()) text = "Pale: onset to alarm; full: alarm to end. Click a fault to see it. ";
+  if (const double zero_s = time_zero(d.log.start_s); zero_s != 0.0)
+    text += fmt::format("Axes of time count from {:.0f} s.", zero_s);
+  return text.empty() ? "" : "<p class=\"key\">" + text + "</p>\n";
+}
+
 std::string top(const Diagnosis& d) {
   const std::string name = printable(d.log.path);
   std::string text = fmt::format(
@@ -65,10 +71,7 @@ std::string top(const Diagnosis& d) {
       d.log.rows_read, rate_text(d.log), escaped_markup(printable(d.model.name).substr(0, 200)),
       escaped_markup(d.program_version), to_string(d.verdict), escaped_markup(verdict_sentence(d)));
   if (d.verdict == Verdict::healthy || !d.faults.empty()) text += html_timeline(d);
-  if (!d.faults.empty())
-    text +=
-        "<p class=\"key\">Pale: onset to alarm; full: alarm to end. Click a fault to see "
-        "it.</p>\n";
+  text += timeline_key(d);
   return text + html_fault_table(d) + "</header>\n";
 }
 
@@ -117,23 +120,45 @@ std::string provenance(const Diagnosis& d, const ReportDetails& details) {
          tables(details.provenance);
 }
 
-std::string scripts(const Diagnosis& d, const ReportDetails& details,
-                    const std::vector<PageFigure>& figures) {
+std::string scripts(const std::string& plot_data) {
   return fmt::format(
       "<script type=\"application/json\" id=\"plot-data\">{}</script>\n<script>{}</script>\n<script>{}"
       "</script>\n",
-      html_plot_data(d, details.curves, figures), dygraphs_script(), page_script());
+      plot_data, dygraphs_script(), page_script());
+}
+
+/// The times that plots show, counted from `zero_s`.
+RunCurves counted_from(double zero_s, RunCurves curves) {
+  auto shift = [&](CurveWindow& window) {
+    window.start_s -= zero_s;
+    window.end_s -= zero_s;
+  };
+  shift(curves.whole);
+  for (CurveWindow& window : curves.details) shift(window);
+  return curves;
+}
+
+std::vector<FaultFinding> counted_from(double zero_s, std::vector<FaultFinding> faults) {
+  for (FaultFinding& f : faults) {
+    for (double* time : {&f.onset_s, &f.alarm_s, &f.end_s}) *time -= zero_s;
+    for (double& time : f.trace.time) time -= zero_s;
+  }
+  return faults;
 }
 
 }  // namespace
 
 std::string render_html(const Diagnosis& d, const ReportDetails& details) {
-  const std::vector<PageFigure> whole = run_figures(d, details.curves);
-  const double period = d.log.sample_period_s;
+  const double zero_s = time_zero(d.log.start_s), period = d.log.sample_period_s;
+  const RunCurves curves = counted_from(zero_s, details.curves);
+  const std::vector<FaultFinding> faults = counted_from(zero_s, d.faults);
+  const std::vector<PageFigure> whole = run_figures(faults, curves);
   std::string text = head(d, !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
   std::vector<PageFigure> all = whole;
-  for (std::size_t i = 0; i < d.faults.size() && i < kFullFindings; ++i) {
-    const std::vector<PageFigure> figures = fault_figures(d.faults[i], details.curves);
+  for (std::size_t i = 0; i < d.faults.size() && i < std::size_t{kFullFindings}; ++i) {
+    const std::vector<PageFigure> figures = fault_figures(faults[i], curves);
+    if (i > 0 && i == curves.details.size())
+      text += "<p class=\"sub\">The faults from here on have no plots of their own; see the whole run.</p>\n";
     text += html_finding(d.faults[i], figures, period);
     all.insert(all.end(), figures.begin(), figures.end());
   }
@@ -141,7 +166,7 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   text += log_quality(d);
   if (!details.model.empty()) text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model);
   text += provenance(d, details) + "</main>\n";
-  if (!whole.empty()) text += scripts(d, details, all);
+  if (!whole.empty()) text += scripts(html_plot_data(faults, curves, all));
   return text + "</body>\n</html>\n";
 }
 

@@ -115,10 +115,10 @@ std::size_t joint_of(const FaultFinding& fault, const CurveWindow& window) {
 
 }  // namespace
 
-std::vector<PageFigure> run_figures(const Diagnosis& d, const RunCurves& curves) {
+std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves) {
   if (curves.empty()) return {};
   std::vector<PlotMark> marks;
-  for (const FaultFinding& fault : d.faults)
+  for (const FaultFinding& fault : faults)
     if (std::isfinite(fault.onset_s)) marks.push_back({fault.onset_s, fmt::format("fault {}", fault.id)});
   if (marks.size() > 30) marks.clear();  // the timeline shows them better
   std::vector<PageFigure> figures = {residual_figure(curves.whole, curves, marks)};

@@ -48,7 +48,7 @@ struct PageFigure {
 
 /// The plots of the whole run: residuals, then position, velocity and torque of each joint. They refer to
 /// `curves`, which must outlive them.
-std::vector<PageFigure> run_figures(const Diagnosis& diagnosis, const RunCurves& curves);
+std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves);
 
 /// The plots around one fault; none when `curves` has no detail of it.
 std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves);

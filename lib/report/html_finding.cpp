@@ -74,13 +74,28 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
   return text + "</div>\n</section>\n";
 }
 
+std::string html_fault_link(const FaultFinding& f, double zero_s) {
+  const std::string place = f.id <= kFullFindings ? fmt::format("fault-{}", f.id) : "faults";
+  return fmt::format("href=\"#{}\" data-fault=\"{}\" data-onset=\"{}\"", place, f.id, f.onset_s - zero_s);
+}
+
 std::string html_fault_table(const Diagnosis& d) {
-  std::vector<HtmlRow> rows;
-  const double period = d.log.sample_period_s;
-  for (const FaultFinding& f : d.faults)
-    rows.push_back({std::to_string(f.id), plain_words(f.label), time_text(f.onset_s, period),
-                    time_text(f.alarm_s, period), time_text(f.end_s, period), percent_text(f.confidence)});
-  return html_table({"fault", "what", "onset", "alarm", "end", "confidence"}, rows);
+  if (d.faults.empty()) return "";
+  const double period = d.log.sample_period_s, zero_s = time_zero(d.log.start_s);
+  std::string text = fmt::format("<div class=\"{}\" id=\"faults\"><table>\n<thead><tr>",
+                                 d.faults.size() > 12 ? "wide tall" : "wide");
+  for (const char* head : {"fault", "what", "onset", "alarm", "end", "confidence"})
+    text += fmt::format("<th scope=\"col\">{}</th>", head);
+  text += "</tr></thead>\n<tbody>\n";
+  for (const FaultFinding& f : d.faults) {
+    text += fmt::format("<tr><td><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
+    for (const std::string& cell :
+         {plain_words(f.label), time_text(f.onset_s, period), time_text(f.alarm_s, period),
+          time_text(f.end_s, period), percent_text(f.confidence)})
+      text += "<td>" + escaped_markup(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
 }
 
 }  // namespace faultline

@@ -13,6 +13,13 @@ namespace faultline {
 std::string html_finding(const FaultFinding& fault, const std::vector<PageFigure>& figures,
                          double sample_period_s);
 
+/// Faults that have a section of their own; later ones stand in the table only.
+inline constexpr int kFullFindings = 50;
+
+/// Attributes of a link to a fault: "#fault-ID", or the table when it has no section. The script of the page
+/// zooms to its onset, which counts from `zero_s`.
+std::string html_fault_link(const FaultFinding& fault, double zero_s);
+
 /// All faults, a row each.
 std::string html_fault_table(const Diagnosis& diagnosis);
 

@@ -105,13 +105,13 @@ std::string inside_script(const std::string& json) {
 
 }  // namespace
 
-std::string html_plot_data(const Diagnosis& d, const RunCurves& curves,
+std::string html_plot_data(const std::vector<FaultFinding>& faults, const RunCurves& curves,
                            const std::vector<PageFigure>& figures) {
   Json json = {{"windows", Json::array()}, {"traces", Json::array()}, {"figures", Json::array()}};
   json["windows"].push_back(window_json(curves.whole));
   for (const CurveWindow& window : curves.details) json["windows"].push_back(window_json(window));
   for (const CurveWindow& window : curves.details)
-    for (const FaultFinding& fault : d.faults)
+    for (const FaultFinding& fault : faults)
       if (fault.id == window.fault_id) json["traces"].push_back(trace_json(fault));
   for (const PageFigure& figure : figures) json["figures"].push_back(figure_json(figure));
   return inside_script(json.dump());

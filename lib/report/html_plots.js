@@ -312,7 +312,9 @@
     link.addEventListener('click', () => {
       const fault = Number(link.dataset.fault);
       const window = data.windows.find((w) => w.fault === fault);
-      if (window && groups.has(0)) groups.get(0).zoom(window.from, window.to);
+      const onset = Number(link.dataset.onset), run = data.windows[0], around = (run.to - run.from) / 40;
+      if (groups.has(0) && window) groups.get(0).zoom(window.from, window.to);
+      else if (groups.has(0) && isFinite(onset)) groups.get(0).zoom(onset - around, onset + around);
       if (groups.has(fault)) groups.get(fault).reset();
     });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {

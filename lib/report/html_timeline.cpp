@@ -8,6 +8,7 @@
 
 #include "lib/diagnosis/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/html_finding.hpp"
 #include "lib/report/layout.hpp"
 #include "lib/report/markup.hpp"
 #include "lib/report/plot_axis.hpp"
@@ -22,7 +23,8 @@ constexpr int kLane = 30, kTop = 6;
 class Picture {
  public:
   explicit Picture(const Diagnosis& d) : d_(d) {
-    axis_ = {.low = d.log.start_s, .high = d.log.end_s, .from_px = kLeft, .to_px = kRight};
+    axis_ = {
+        .low = d.log.start_s - zero_s_, .high = d.log.end_s - zero_s_, .from_px = kLeft, .to_px = kRight};
     for (const FaultFinding& f : d.faults) {
       joints_ = std::max(joints_, f.label.joint);
       first_lane_ = f.label.joint > 0 ? first_lane_ : 0;
@@ -35,15 +37,15 @@ class Picture {
         "{} fault{}\">\n",
         foot() + 24, d_.faults.size(), d_.faults.size() == 1 ? "" : "s");
     for (int lane = first_lane_; lane <= joints_; ++lane) svg += lane_text(lane);
-    for (const FaultFinding& fault : d_.faults)
-      if (std::isfinite(fault.onset_s)) svg += fault_text(fault);
+    for (std::size_t i = 0; i < d_.faults.size(); ++i)
+      if (std::isfinite(d_.faults[i].onset_s)) svg += fault_text(d_.faults[i], room_after(i));
     return svg + ticks() + "</svg>\n";
   }
 
  private:
   int lane_y(int lane) const { return kTop + kLane * (lane - first_lane_); }
   int foot() const { return lane_y(joints_ + 1); }
-  double x_of(double time_s) const { return std::clamp(axis_.px(time_s), kLeft, kRight); }
+  double x_of(double time_s) const { return std::clamp(axis_.px(time_s - zero_s_), kLeft, kRight); }
 
   std::string lane_text(int lane) const {
     const std::string name = lane > 0 ? fmt::format("joint {}", lane) : "robot";
@@ -61,20 +63,29 @@ class Picture {
                                       percent_text(f.confidence)));
   }
 
-  std::string fault_text(const FaultFinding& f) const {
+  /// Pixels between a fault's onset and the next one on its lane.
+  double room_after(std::size_t i) const {
+    for (std::size_t k = i + 1; k < d_.faults.size(); ++k)
+      if (d_.faults[k].label.joint == d_.faults[i].label.joint && std::isfinite(d_.faults[k].onset_s))
+        return x_of(d_.faults[k].onset_s) - x_of(d_.faults[i].onset_s);
+    return kRight;
+  }
+
+  std::string fault_text(const FaultFinding& f, double room_px) const {
     const int y = lane_y(std::max(f.label.joint, 0));
     const double onset = x_of(f.onset_s), alarm = std::isfinite(f.alarm_s) ? x_of(f.alarm_s) : onset;
     const double end = std::max(std::isfinite(f.end_s) ? x_of(f.end_s) : kRight, onset + 4.0);
     const std::string words = described(f);
     std::string svg = fmt::format(
-        "<a href=\"#fault-{0}\" data-fault=\"{0}\" aria-label=\"{1}\"><title>{1}</title><rect "
+        "<a {0} aria-label=\"{1}\"><title>{1}</title><rect "
         "class=\"before\" "
         "x=\"{2:.1f}\" y=\"{3}\" width=\"{4:.1f}\" height=\"22\"/>",
-        f.id, words, onset, y, end - onset);
+        html_fault_link(f, zero_s_), words, onset, y, end - onset);
     svg += fmt::format("<rect class=\"fault\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"22\"/>", alarm,
                        y, std::max(end - alarm, 2.0));
     svg += fmt::format("<rect class=\"alarm\" x=\"{:.1f}\" y=\"{}\" width=\"2.5\" height=\"26\"/>",
                        std::min(alarm, kRight - 2.5), y - 2);
+    if (room_px < 24.0) return svg + "</a>\n";
     const bool room = onset < kRight - 24.0;
     return svg +
            fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text></a>\n",
@@ -94,6 +105,7 @@ class Picture {
   }
 
   const Diagnosis& d_;
+  double zero_s_ = time_zero(d_.log.start_s);
   PlotAxis axis_;
   int joints_ = d_.log.joints;
   int first_lane_ = 1;

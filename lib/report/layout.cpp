@@ -81,6 +81,8 @@ std::string time_text(double time_s, double sample_period_s) {
   return fmt::format("{:.{}f} s", time_s, std::max(decimals, 3));
 }
 
+double time_zero(double start_s) { return std::abs(start_s) >= 1e5 ? std::floor(start_s) : 0.0; }
+
 std::string value_text(double value) {
   if (std::isnan(value)) return "-";
   return std::abs(value) >= 1000.0 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)

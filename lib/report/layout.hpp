@@ -22,6 +22,10 @@ std::string wrapped(const std::string& text, const std::string& indent, int widt
 /// "4.210 s", with decimals that show single samples of that period; "unknown" for NaN.
 std::string time_text(double time_s, double sample_period_s);
 
+/// Where axes of time begin to count: 0, or the whole second of a start that is so large (seconds since 1970)
+/// that ticks would not show the digits that differ.
+double time_zero(double start_s);
+
 /// Three significant digits; "-" for NaN.
 std::string value_text(double value);
 

@@ -98,11 +98,12 @@ double tick_step(double span_s) {
 }
 
 std::string axis(const Scale& scale) {
+  const double zero_s = time_zero(scale.start_s);
   const double step = tick_step(scale.end_s - scale.start_s);
   std::string line(kLabelWidth + scale.cells + 12, ' ');
   std::size_t free_from = 0;
   for (double k = std::ceil(scale.start_s / step); k * step <= scale.end_s; k += 1.0) {
-    const std::string label = fmt::format("{:.6g}", k * step + 0.0);
+    const std::string label = fmt::format("{:.6g}", k * step - zero_s + 0.0);
     const std::size_t place = kLabelWidth + scale.cell_of(k * step);
     if (place < free_from || place + label.size() > static_cast<std::size_t>(kLabelWidth + scale.cells))
       continue;
@@ -110,7 +111,7 @@ std::string axis(const Scale& scale) {
     free_from = place + label.size() + 1;
   }
   line.erase(line.find_last_not_of(' ') + 1);
-  return line + " s\n";
+  return line + (zero_s != 0.0 ? fmt::format(" s after {:.0f} s\n", zero_s) : " s\n");
 }
 
 std::string legend(const Diagnosis& d, bool unicode) {

@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <regex>
 #include <sstream>
 
+#include "lib/pipeline/run_curves.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
-#include "tests/report/example_diagnosis.hpp"
+#include "tests/report/example_details.hpp"
 
 namespace faultline {
 namespace {
@@ -139,6 +141,50 @@ TEST(HtmlReport, EscapesEveryTextAndLoadsNothing) {
   EXPECT_EQ(html.find("]]> \"done\""), std::string::npos);
   for (const char* loads : {"src=", "href=\"http", "<script", "@import", "url("})
     EXPECT_EQ(html.find(loads), std::string::npos) << loads;
+}
+
+/// As much as a page ever shows: noise, so that nothing compresses, for `joints` joints and 12 faults.
+std::size_t largest_page(int joints) {
+  Diagnosis d = traced_diagnosis();
+  d.log.end_s = 3600.0;
+  d.faults.clear();
+  ReportDetails details = example_details(d);
+  auto window = [&](int fault, double start_s, double end_s, int bins) {
+    CurveWindow w = example_window(fault, start_s, end_s, bins, joints);
+    std::minstd_rand random(1);
+    for (JointCurves& joint : w.joints)
+      for (Envelope* e :
+           {&joint.q, &joint.q_foretold, &joint.dq, &joint.dq_foretold, &joint.tau, &joint.tau_needed})
+        for (float& value : e->values) value = static_cast<float>(random() % 10000);
+    return w;
+  };
+  const RunCurvesOptions options;
+  details.curves.whole = window(0, 0.0, 3600.0, options.whole_bins);
+  for (int i = 0; i < options.most_details; ++i) {
+    d.faults.push_back(traced_diagnosis().faults[0]);
+    d.faults.back().onset_s = 200.0 * i;
+    const int bins = 4 * options.all_details / (joints * options.most_details);
+    details.curves.details.push_back(window(i + 1, 200.0 * i - 1.0, 200.0 * i + 3.0, bins));
+  }
+  order_faults(d);
+  return render_html(d, details).size();
+}
+
+TEST(HtmlReport, StaysSmallHoweverLongTheLog) {
+  EXPECT_LT(largest_page(4), 3'000'000u);
+  EXPECT_LT(largest_page(8), 5'000'000u);
+}
+
+TEST(HtmlReport, AxesCountFromTheStartOfAClockThatRunsSince1970) {
+  Diagnosis d = faulty_diagnosis();
+  for (double* time :
+       {&d.log.start_s, &d.log.end_s, &d.faults[0].onset_s, &d.faults[0].alarm_s, &d.faults[0].end_s})
+    *time += 1.7e9;
+  const std::string html = render_html(d, example_details(d));
+  EXPECT_NE(html.find("Axes of time count from 1700000000 s."), std::string::npos);
+  EXPECT_NE(html.find(">1700000004.210 s<"), std::string::npos) << "in the table";
+  EXPECT_EQ(html.find("1.7e+09"), std::string::npos);
+  EXPECT_NE(render_text(d).find(" s after 1700000000 s\n"), std::string::npos);
 }
 
 TEST(HtmlReport, OpenedElementsAreClosed) {
