@@ -11,6 +11,7 @@
 #include "apps/folder.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/reproduce/figure_text.hpp"
 #include "lib/reproduce/reproduction.hpp"
 
 namespace faultline {
@@ -31,19 +32,23 @@ void write_reproduction(const std::filesystem::path& folder, const Reproduction&
   write_file((folder / "index.json").string(), json);
 }
 
-std::string goals_text(const Reproduction& reproduction, const std::string& folder) {
-  std::string text;
+std::string goal_line(const Goal& goal) {
+  return fmt::format("  {:<3}  {} {} (to reach: {} {} {})\n       {}\n", goal.reached() ? "yes" : "NO",
+                     figure_text(goal.measured, goal.style), goal.unit, goal.at_most ? "at most" : "at least",
+                     figure_text(goal.bound, goal.style), goal.unit, goal.what);
+}
+
+std::string summary(const Reproduction& reproduction, const std::string& folder) {
+  std::string lines;
   int reached = 0;
   for (const Goal& goal : reproduction.goals) {
     reached += goal.reached() ? 1 : 0;
-    text += fmt::format("  {:<12} {} ({} {:.3g} {}, to reach {} {:.3g})\n",
-                        goal.reached() ? "reached" : "NOT reached", goal.what, "measured",
-                        goal.measured.mean(), goal.unit, goal.at_most ? "<=" : ">=", goal.bound);
+    lines += goal_line(goal);
   }
   return fmt::format(
-      "{} tables, {} figures; {} of {} numbers reached:\n{}Read {}/index.md; the numbers are in "
+      "{} tables and {} pictures. {} of {} numbers reached:\n{}\nRead {}/index.md; all numbers are in "
       "index.json.\n",
-      reproduction.tables.size(), reproduction.figures.size(), reached, reproduction.goals.size(), text,
+      reproduction.tables.size(), reproduction.figures.size(), reached, reproduction.goals.size(), lines,
       folder);
 }
 
@@ -57,7 +62,7 @@ int run_reproduce(const ReproduceArguments& arguments, ColorChoice color) {
   }
   const std::string json = reproduction_json(reproduction);
   write_reproduction(arguments.folder, reproduction, json);
-  print(arguments.json ? json : goals_text(reproduction, arguments.folder));
+  print(arguments.json ? json : summary(reproduction, arguments.folder));
   return kNothingFound;
 }
 

@@ -59,6 +59,9 @@ void set_size(LabelEvidence& out, const Hypothesis& hypothesis, const Hypothesis
   }
 }
 
+/// A hypothesis that lost the robot has no size.
+double bounded_size(double size) { return std::isfinite(size) ? std::tanh(size) : 0.0; }
+
 /// The labels of the bank once each, without the push on all joints.
 std::vector<FaultLabel> distinct_labels(std::span<const Hypothesis> bank) {
   std::vector<FaultLabel> labels;
@@ -121,8 +124,9 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
     features.push_back(-std::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
   for (const LabelEvidence& e : evidence) {
     const double counts = std::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
-    features.push_back(counts * std::tanh(e.size));
-    if (e.label.kind == FaultKind::friction_increase) features.push_back(counts * std::tanh(e.second_size));
+    features.push_back(counts * bounded_size(e.size));
+    if (e.label.kind == FaultKind::friction_increase)
+      features.push_back(counts * bounded_size(e.second_size));
   }
   features.push_back(std::log1p(best));
   features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));

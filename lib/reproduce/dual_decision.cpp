@@ -2,6 +2,7 @@
 #include "lib/reproduce/dual_decision.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "lib/cases/decide.hpp"
 
@@ -54,6 +55,11 @@ CaseOpinion opinion_of(const Eigen::VectorXd& outputs, const std::vector<FaultLa
   Index best = 0;
   const double largest = outputs.maxCoeff(&best);
   return {classes[best], std::clamp(largest, 0.0, 1.0)};
+}
+
+/// A freed robot that has run away leaves samples that nothing can be said of.
+bool says_something(const SampleOutputs& outputs, Index i) {
+  return outputs.mlp.col(i).allFinite() && outputs.rbfn.col(i).allFinite();
 }
 
 Episode sample_episode(const SampleOutputs& outputs, Index i, const std::vector<FaultLabel>& classes) {
@@ -126,8 +132,9 @@ CaseBase cases_of_samples(const SampleDetector& detector, std::span<const Monito
   for (const MonitoredRun& run : runs) {
     const SampleOutputs outputs = outputs_of(detector, run.log);
     for (Index i = 0; i < outputs.time.size(); ++i)
-      of_class[class_of(classes, outputs.time[i] > run.onset_s ? run.fault : FaultLabel{})].push_back(
-          sample_episode(outputs, i, classes));
+      if (says_something(outputs, i))
+        of_class[class_of(classes, outputs.time[i] > run.onset_s ? run.fault : FaultLabel{})].push_back(
+            sample_episode(outputs, i, classes));
   }
   CaseBase cases(names);
   for (std::size_t c = 0; c < classes.size(); ++c)
@@ -142,6 +149,10 @@ Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<F
   Eigen::MatrixXd decided = Eigen::MatrixXd::Zero(outputs.mlp.rows(), outputs.mlp.cols());
   const DecideOptions options = decide_options();
   for (Index i = 0; i < decided.cols(); ++i) {
+    if (!says_something(outputs, i)) {
+      decided.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     const Episode episode = sample_episode(outputs, i, classes);
     const bool agree = episode.mlp.label == episode.rbfn.label;
     const FaultLabel label = agree ? episode.mlp.label : decide(episode, cases, options).label;

@@ -1,42 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lib/core/version.hpp"
+#include "lib/reproduce/figure_text.hpp"
 #include "lib/reproduce/paper_text.hpp"
 #include "lib/reproduce/reproduction.hpp"
 #include "lib/reproduce/trade_off_figures.hpp"
 
 namespace faultline {
 namespace {
-
-/// 3.4e-3 rather than 3.4e-03.
-std::string scientific(double value) {
-  if (value == 0.0) return "0";
-  const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
-  const std::string mantissa = fmt::format("{:.1f}", value / std::pow(10.0, power));
-  return mantissa == "10.0" ? fmt::format("1.0e{}", power + 1) : fmt::format("{}e{}", mantissa, power);
-}
-
-std::string one_number(double value, FigureStyle style) {
-  if (std::isnan(value)) return "-";
-  switch (style) {
-    case FigureStyle::percent:
-      return value == 1.0 ? "100 %" : fmt::format("{:.2f} %", 100.0 * value);
-    case FigureStyle::decimal:
-      return std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-    default:
-      return scientific(value);
-  }
-}
-
-std::string cell(const Measured& measured, FigureStyle style) {
-  const double spread = measured.spread();
-  std::string text = one_number(measured.mean(), style);
-  if (!std::isnan(spread) && spread > 0.0) text += " ± " + one_number(spread, style);
-  return text;
-}
 
 std::string named(const FigureColumn& column) {
   return column.unit.empty() ? column.name : column.name + ", " + column.unit;
@@ -64,7 +36,7 @@ std::string table_text(const ResultTable& table) {
   for (const ResultRow& row : table.rows) {
     std::vector<std::string> cells = row.labels;
     for (std::size_t i = 0; i < row.figures.size(); ++i)
-      cells.push_back(row.figures[i] ? cell(*row.figures[i], table.figure_columns[i].style) : "");
+      cells.push_back(row.figures[i] ? figure_text(*row.figures[i], table.figure_columns[i].style) : "");
     text += table_line(cells);
   }
   return text + "\n";
@@ -77,14 +49,14 @@ std::string goals_text(const std::vector<Goal>& goals) {
   for (const Goal& goal : goals) {
     const std::string unit = goal.unit.empty() ? "" : " " + goal.unit;
     text += table_line({goal.what, goal.paper, goal.study,
-                        (goal.at_most ? "≤ " : "≥ ") + one_number(goal.bound, goal.style) + unit,
-                        cell(goal.measured, goal.style) + unit, goal.reached() ? "yes" : "no"});
+                        (goal.at_most ? "≤ " : "≥ ") + figure_text(goal.bound, goal.style) + unit,
+                        figure_text(goal.measured, goal.style) + unit, goal.reached() ? "yes" : "no"});
     if (!goal.note.empty()) notes += fmt::format("- *{}*: {}\n", goal.what, goal.note);
   }
   return text + (notes.empty() ? "" : "\n" + notes) + "\n";
 }
 
-std::string figure_text(const Figure& figure) {
+std::string picture_text(const Figure& figure) {
   return fmt::format("![{}]({}.svg)\n\n{}\n\n", figure.plot.title, figure.id, figure.caption);
 }
 
@@ -107,7 +79,7 @@ std::string reproduction_markdown(const Reproduction& reproduction) {
   for (const ResultTable& table : reproduction.tables)
     if (!is_trade_off(table)) text += table_text(table);
   text += "## Figures\n\n";
-  for (const Figure& figure : reproduction.figures) text += figure_text(figure);
+  for (const Figure& figure : reproduction.figures) text += picture_text(figure);
   return text + paper_errata();
 }
 

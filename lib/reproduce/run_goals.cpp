@@ -58,12 +58,10 @@ void add_row(std::vector<Goal>& goals, const Bounds& bounds, const char* detecto
 }
 
 constexpr const char* kWhyNotBetter =
-    "The interval does not exclude 0, or lies above it. Nearly every fault is found by all of these "
-    "detectors, so "
-    "that the delay is what is left to gain, and each detector's threshold, chosen by itself on some hours, "
-    "moves "
-    "that by about as much. The likely reason, not measured: both networks see the same residual of the same "
-    "sample, so that little is left for cases to settle. The table dual_held has every difference.";
+    R"(The interval does not exclude 0, or lies above it. Nearly every fault is found by all of these detectors, so that the
+delay is what is left to gain, and each detector's threshold, chosen by itself on some hours, moves that by about as
+much. The likely reason, not measured: both networks see the same residual of the same sample, so that little is left
+for cases to settle. The table dual_held has every difference.)";
 
 /// Upper ends of the intervals: below zero, cases are proven to be faster.
 void add_dual(std::vector<Goal>& goals, const ControllerResults& held) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace faultline {
 namespace {
 
@@ -66,6 +68,17 @@ TEST(DualDecision, at_each_sample_takes_the_class_both_networks_name) {
   const CaseBase none({"mlp_1", "mlp_2", "mlp_3", "rbfn_1", "rbfn_2", "rbfn_3"});
   const Eigen::MatrixXd decided = decide_samples(outputs, kClasses, none);
   EXPECT_EQ(decided, (Eigen::MatrixXd{{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}));
+}
+
+TEST(DualDecision, says_nothing_of_a_sample_without_outputs) {
+  SampleOutputs outputs;
+  outputs.time = Eigen::Vector2d(0.0, kSamplePeriod);
+  outputs.mlp = outputs.rbfn = Eigen::MatrixXd::Zero(3, 2);
+  outputs.mlp(1, 0) = outputs.rbfn(1, 0) = 1.0;
+  outputs.rbfn(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::MatrixXd decided = decide_samples(outputs, kClasses, CaseBase({"a", "b", "c", "d", "e", "f"}));
+  EXPECT_EQ(decided(1, 0), 1.0);
+  EXPECT_TRUE(decided.col(1).array().isNaN().all());
 }
 
 }  // namespace
