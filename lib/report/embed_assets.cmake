@@ -7,16 +7,21 @@ if(NOT DYGRAPHS_FOLDER)
 endif()
 
 set(asset_folder ${CMAKE_CURRENT_SOURCE_DIR}/report)
-foreach(asset IN ITEMS
-    DYGRAPHS_SCRIPT=${DYGRAPHS_FOLDER}/dygraph.min.js DYGRAPHS_STYLE=${DYGRAPHS_FOLDER}/dygraph.min.css
-    PAGE_SCRIPT=${asset_folder}/html_plots.js PAGE_STYLE=${asset_folder}/html_style.css)
-  string(REGEX MATCH "^([A-Z_]+)=(.*)$" unused ${asset})
-  set(name ${CMAKE_MATCH_1})
-  set(file ${CMAKE_MATCH_2})
-  file(READ ${file} ${name})
-  string(REGEX REPLACE "[\r\n]*//# sourceMappingURL=[^\r\n]*" "" ${name} "${${name}}")
-  string(REGEX REPLACE "/\\*# sourceMappingURL=[^*]*\\*/" "" ${name} "${${name}}")
+
+# Appends a file to a variable, without what browsers would look for beside it.
+function(append_asset name file)
+  file(READ ${file} content)
+  string(REGEX REPLACE "[\r\n]*//# sourceMappingURL=[^\r\n]*" "" content "${content}")
+  string(REGEX REPLACE "/\\*# sourceMappingURL=[^*]*\\*/" "" content "${content}")
+  set(${name} "${${name}}${content}" PARENT_SCOPE)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-endforeach()
+endfunction()
+
+append_asset(DYGRAPHS_SCRIPT ${DYGRAPHS_FOLDER}/dygraph.min.js)
+append_asset(DYGRAPHS_STYLE ${DYGRAPHS_FOLDER}/dygraph.min.css)
+append_asset(PAGE_SCRIPT ${asset_folder}/html_series.js)
+append_asset(PAGE_SCRIPT ${asset_folder}/html_plots.js)
+append_asset(PAGE_SCRIPT ${asset_folder}/html_page.js)
+append_asset(PAGE_STYLE ${asset_folder}/html_style.css)
 configure_file(${asset_folder}/html_assets.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/html_assets.cpp @ONLY)
 set(report_GENERATED ${CMAKE_CURRENT_BINARY_DIR}/html_assets.cpp)

@@ -5,12 +5,11 @@
 
 #include <cmath>
 
-#include "lib/core/hash.hpp"
-#include "lib/report/base64.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html_assets.hpp"
 #include "lib/report/html_elements.hpp"
 #include "lib/report/html_finding.hpp"
+#include "lib/report/html_head.hpp"
 #include "lib/report/html_plot_data.hpp"
 #include "lib/report/html_timeline.hpp"
 #include "lib/report/layout.hpp"
@@ -19,34 +18,6 @@
 
 namespace faultline {
 namespace {
-
-/// As Content-Security-Policy names an inline script or style.
-std::string source_hash(std::string_view content) {
-  const std::string hex = sha256_hex(content);
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return "'sha256-" + base64(bytes) + "'";
-}
-
-std::string policy(bool with_script) {
-  std::string scripts = "'none'";
-  if (with_script) scripts = source_hash(dygraphs_script()) + " " + source_hash(page_script());
-  return fmt::format(
-      "default-src 'none'; script-src {}; style-src {} {}; base-uri 'none'; form-action 'none'", scripts,
-      source_hash(page_style()), source_hash(dygraphs_style()));
-}
-
-std::string head(const Diagnosis& d, bool with_script) {
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-      "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>{}</title>\n",
-      policy(with_script), escaped_markup(printable(d.log.path).substr(0, 200)));
-  text += fmt::format("<style>{}</style>\n", page_style());
-  if (with_script) text += fmt::format("<style>{}</style>\n", dygraphs_style());
-  return text + "</head>\n";
-}
 
 std::string rate_text(const LogFacts& log) {
   if (!(log.sample_period_s > 0.0)) return "";
@@ -153,7 +124,8 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   const RunCurves curves = counted_from(zero_s, details.curves);
   const std::vector<FaultFinding> faults = counted_from(zero_s, d.faults);
   const std::vector<PageFigure> whole = run_figures(faults, curves);
-  std::string text = head(d, !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
+  std::string text =
+      html_head(printable(d.log.path).substr(0, 200), !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
   std::vector<PageFigure> all = whole;
   for (std::size_t i = 0; i < d.faults.size() && i < std::size_t{kFullFindings}; ++i) {
     const std::vector<PageFigure> figures = fault_figures(faults[i], curves);

@@ -1,63 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Puts interactive plots (dygraphs) where the page has pictures. All plots of a group, the whole run or the
-// surroundings of one fault, share zoom and cursor. Without this script the pictures stay.
+// Interactive plots by dygraphs. All plots of a group, the whole run or the surroundings of one fault, share zoom
+// and cursor.
 'use strict';
-(function () {
-  const data = JSON.parse(document.getElementById('plot-data').textContent);
-  const MISSING = 65535, STEPS = 65534;
+const faultlinePlots = (() => {
+  const {data, rowsOfFigure, nearestRow} = faultlineSeries;
   const DASHES = [null, [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4], [4, 2, 1, 2]];
-  const decoded = new Map();
-  const groups = new Map();
-
-  function decode(window, key) {
-    const id = window.fault + ' ' + key;
-    if (decoded.has(id)) return decoded.get(id);
-    const [low, high, text] = window.keys[key];
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const view = new DataView(bytes.buffer);
-    const values = new Float64Array(bytes.length / 2);
-    for (let i = 0; i < values.length; ++i) {
-      const code = view.getUint16(2 * i, true);
-      const value = code === MISSING ? NaN : low + (high - low) * code / STEPS;
-      values[i] = key[0] === 'r' ? Math.pow(10, value) : value;
-    }
-    decoded.set(id, values);
-    return values;
-  }
-
-  // Rows [time, value of each key] of one window, or of a trace.
-  function rowsOf(part, keys) {
-    if (part.times) return part.times.map((t, i) => [t, ...keys.map((k) => part.keys[k][i])]);
-    const columns = keys.map((k) => (k in part.keys ? decode(part, k) : null));
-    const count = Math.max(...columns.map((c) => (c ? c.length : 0)));
-    const rows = new Array(count);
-    for (let i = 0; i < count; ++i) {
-      const row = [part.from + (part.to - part.from) * (i + 0.5) / count];
-      for (const column of columns) row.push(column ? column[i] : NaN);
-      rows[i] = row;
-    }
-    return rows;
-  }
-
-  // The whole run, with the finer rows of the windows around faults in their places.
-  function rowsOfFigure(figure) {
-    const keys = figure.curves.map((c) => c[1]);
-    const trace = data.traces.find((t) => keys[0] in t.keys);
-    if (trace) return rowsOf(trace, keys);
-    const parts = data.windows.filter((w) => keys[0] in w.keys);
-    const fine = parts.filter((w) => w.fault > 0);
-    const coarse = parts.filter((w) => w.fault === 0);
-    let rows = [];
-    let end = -Infinity;
-    for (const part of fine) {
-      for (const row of rowsOf(part, keys)) if (row[0] > end) rows.push(row);
-      end = Math.max(end, part.to);
-    }
-    for (const part of coarse)
-      for (const row of rowsOf(part, keys))
-        if (!fine.some((w) => row[0] >= w.from && row[0] <= w.to)) rows.push(row);
-    return rows.sort((a, b) => a[0] - b[0]);
-  }
 
   function colour(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -67,15 +14,6 @@
     if (value === null || !isFinite(value)) return '-';
     const size = Math.abs(value);
     return size !== 0 && (size >= 1e5 || size < 1e-3) ? value.toExponential(2) : String(+value.toPrecision(4));
-  }
-
-  function nearestRow(rows, time) {
-    let low = 0, high = rows.length - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (rows[middle][0] < time) low = middle; else high = middle;
-    }
-    return rows.length && Math.abs(rows[low][0] - time) <= Math.abs(rows[high][0] - time) ? low : high;
   }
 
   class Group {
@@ -249,75 +187,5 @@
     }
   }
 
-  // The page has legends of its own, and that of dygraphs writes style attributes, which the policy forbids.
-  Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
-  const waiting = new Map();
-  const drawn = new Map();
-
-  function comeIntoSight(element) {
-    const plot = drawn.get(element);
-    if (plot) {
-      plot.visible = true;
-      if (plot.stale) plot.show(plot.group.range);
-      return;
-    }
-    if (!element.classList.contains('drawn')) return;
-    const figure = waiting.get(element);
-    const group = groups.get(figure.fault);
-    try {
-      drawn.set(element, new Plot(figure, element, group));
-      group.plots.push(drawn.get(element));
-    } catch (error) {
-      element.classList.remove('drawn');  // the picture comes back
-      console.error(error);
-    }
-  }
-
-  function leaveSight(element) {
-    if (drawn.has(element)) drawn.get(element).visible = false;
-  }
-
-  function addTools(group) {
-    const place = document.querySelector('.tools[data-fault="' + group.fault + '"]');
-    if (!place) return;
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.textContent = 'Reset zoom';
-    button.addEventListener('click', () => group.reset());
-    const help = document.createElement('span');
-    help.textContent = 'Drag to zoom, shift and drag to move, double click to reset; keys: arrows, +, -, Escape.';
-    place.append(button, help);
-  }
-
-  for (const figure of data.figures) {
-    if (!groups.has(figure.fault)) {
-      groups.set(figure.fault, new Group(figure.fault, data.figures.filter((f) => f.fault === figure.fault)));
-      addTools(groups.get(figure.fault));
-    }
-    waiting.set(document.getElementById(figure.id), figure);
-  }
-  const seen = new IntersectionObserver((entries) => {
-    for (const entry of entries) {
-      if (entry.isIntersecting) comeIntoSight(entry.target);
-      else leaveSight(entry.target);
-    }
-  }, {rootMargin: '400px'});
-  for (const element of waiting.keys()) {
-    element.classList.add('drawn');  // all at once, so that nothing moves while somebody reads
-    seen.observe(element);
-  }
-
-  // A click in the timeline goes to the fault and shows its time in the plots of the whole run, too.
-  for (const link of document.querySelectorAll('a[data-fault]'))
-    link.addEventListener('click', () => {
-      const fault = Number(link.dataset.fault);
-      const window = data.windows.find((w) => w.fault === fault);
-      const onset = Number(link.dataset.onset), run = data.windows[0], around = (run.to - run.from) / 40;
-      if (groups.has(0) && window) groups.get(0).zoom(window.from, window.to);
-      else if (groups.has(0) && isFinite(onset)) groups.get(0).zoom(onset - around, onset + around);
-      if (groups.has(fault)) groups.get(fault).reset();
-    });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-    for (const group of groups.values()) for (const plot of group.plots) plot.recolour();
-  });
+  return {Group, Plot};
 })();

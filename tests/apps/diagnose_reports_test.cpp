@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The reports that `faultline diagnose` writes, as its user asks for them.
+#include <gtest/gtest.h>
+
+#include "formats/write_log.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "tests/pipeline/small_robot.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+/// A folder with a model, its case base and a log of a fault.
+class DiagnoseReports : public ::testing::Test {
+ protected:
+  DiagnoseReports() {
+    const Learned learned = learn_small();
+    model_ = folder_.write("slide.json", model_to_json(learned.model));
+    write_case_base(model_ + ".cases.db", learned.cases);
+    SimulationSpec spec = small_run(7.0);
+    spec.faults = {{FaultKind::locked, 1, 3.004, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
+    log_ = folder_.file("run.csv");
+    write_log(log_, simulate(small_robot(), spec, 31).log);
+  }
+
+  ProgramRun diagnose(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"diagnose", log_, "--model", model_});
+    return run_program(arguments);
+  }
+
+  TemporaryFolder folder_;
+  std::string model_, log_;
+};
+
+TEST_F(DiagnoseReports, PageAndMarkdownAreWrittenAndAreTheSameEachTime) {
+  const std::string first = folder_.file("a.html"), second = folder_.file("b.html");
+  const ProgramRun run = diagnose({"--html", first, "--md", "-"});
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_EQ(run.out.rfind("## run.csv", 0), 0u) << run.out;
+  EXPECT_EQ(diagnose({"--html", second}).status, 1);
+  const std::string page = read_file(first);
+  EXPECT_TRUE(page == read_file(second));
+  for (const char* part : {"Identified parameters", "95 % interval", "Logs the model was learned from",
+                           "plot-run-residual", "plot-1-evidence", "plot-1-networks", "id=\"plot-data\""})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find(folder_.path().string()), std::string::npos) << "names a folder of this machine";
+
+  const ProgramRun nowhere = diagnose({"--html", folder_.file("missing/a.html")});
+  EXPECT_EQ(nowhere.status, 3);
+  EXPECT_NE(nowhere.err.find("missing/a.html"), std::string::npos) << nowhere.err;
+
+  const ProgramRun piped = diagnose({"--html", "-"});
+  EXPECT_EQ(piped.out, page);
+}
+
+}  // namespace
+}  // namespace faultline
