@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "lib/core/error.hpp"
@@ -23,6 +24,12 @@ bool is_device(const std::string& path) {
          !std::filesystem::is_directory(status);
 }
 
+/// Differs between threads, processes and machines that write into one folder.
+std::string temporary_name(const std::string& path) {
+  thread_local std::random_device entropy;
+  return path + ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(entropy());
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
@@ -31,7 +38,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     file_ = stdout;
     return;
   }
-  if (!is_device(path_)) temporary_ = path_ + ".partial-" + std::to_string(::getpid());
+  if (!is_device(path_)) temporary_ = temporary_name(path_);
   file_ = std::fopen(temporary_.empty() ? path_.c_str() : temporary_.c_str(), "wb");
   if (!file_) fail("created");
 }

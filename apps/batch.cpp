@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/progress.hpp"
+#include "formats/open_log.hpp"
+#include "lib/batch/merge_batches.hpp"
+#include "lib/batch/run_batch.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
+
+namespace faultline {
+namespace {
+
+struct BatchArguments {
+  std::vector<std::string> paths;
+  std::string model, cases, folder, json, shard;
+  std::string mode = "evidence", criterion = "log_odds";
+  BatchOptions options;
+};
+
+std::vector<std::string> log_extensions() {
+  std::vector<std::string> all;
+  for (const FormatInfo& format : log_formats())
+    all.insert(all.end(), format.extensions.begin(), format.extensions.end());
+  return all;
+}
+
+/// "3/8": I from 1 to N or from 0 to N-1, so that both ways of numbering tasks do.
+void take_shard(const std::string& text, BatchOptions& options) {
+  if (text.empty()) return;
+  int i = 0, n = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || n < 1 || i < 0 || i > n)
+    throw Error(ErrorCode::usage, "--shard " + text, "is no part I/N with I from 1 to N, such as 2/8");
+  options.shard = i % n;
+  options.shards = n;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+/// Tells the bar the rate of diagnosing, and the time left at that rate.
+std::function<void(const BatchProgress&)> progress_to(ProgressBar& bar) {
+  const Progress show = bar.callback();
+  if (!show) return {};
+  return [show, start = std::chrono::steady_clock::now()](const BatchProgress& at) {
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double rate = at.diagnosed / std::max(elapsed, 1e-3);
+    std::string text = fmt::format("{} of {} logs", at.done, at.logs);
+    if (at.diagnosed > 0)
+      text += fmt::format(", {:.3g} a second, {} left", rate, duration_text((at.logs - at.done) / rate));
+    show(text, static_cast<double>(at.done) / at.logs);
+  };
+}
+
+int report(const BatchSummary& summary, const std::string& folder, const std::string& json) {
+  if (!json.empty()) write_file(json, to_json(summary));
+  if (json != "-") print(to_text(summary) + "Look at " + folder + "/index.html\n");
+  return summary.status;
+}
+
+int run_command(BatchArguments arguments, ColorChoice color) {
+  BatchOptions& options = arguments.options;
+  take_shard(arguments.shard, options);
+  options.diagnose.mode = arguments.mode == "samples" ? ClassifyMode::samples : ClassifyMode::evidence;
+  options.diagnose.criterion =
+      arguments.criterion == "consecutive" ? CriterionKind::consecutive : CriterionKind::log_odds;
+  const std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
+  if (logs.empty())
+    throw Error(ErrorCode::input, arguments.paths.front(),
+                "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
+  const Model model = load_model(arguments.model);
+  const CaseBase cases = read_case_base(arguments.cases);
+  OpenLogOptions reading;
+  reading.columns = model.robot.log.columns;
+  reading.keep_extra = false;
+  const OpenLog open = [&](const std::string& path) { return open_log(path, reading); };
+  BatchResult result;
+  {
+    ProgressBar bar(color);
+    options.progress = progress_to(bar);
+    result = run_batch(logs, open, model, cases, arguments.folder, options);
+  }
+  const int done = result.summary.all.logs - result.diagnosed;
+  if (done > 0)
+    fmt::print(stderr, "faultline: {} of {} logs were done before\n", done, result.summary.all.logs);
+  return report(result.summary, arguments.folder, arguments.json);
+}
+
+void add_merge(CLI::App& batch, Program& program) {
+  auto folders = std::make_shared<std::vector<std::string>>();
+  auto into = std::make_shared<std::string>(), json = std::make_shared<std::string>();
+  CLI::App* merge = batch.add_subcommand("merge", "Put the results of all shards into one folder");
+  merge->add_option("OUT", *folders, "Folders of finished shards")->required();
+  merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
+  merge->add_option("--json", *json, "Write the summary as JSON; - for standard output")->type_name("F");
+  merge->footer("Example: faultline batch merge out/part-* -o out/all");
+  merge->callback(
+      [=, &program] { program.run = [=] { return report(merge_batches(*folders, *into), *into, *json); }; });
+}
+
+void add_options(CLI::App& command, BatchArguments& arguments) {
+  command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
+  command.add_option("--model", arguments.model, "Model made by faultline learn")->type_name("MODEL");
+  command.add_option("-o,--output", arguments.folder, "Folder for the results; an earlier run there goes on")
+      ->type_name("DIR");
+  command.add_option("--cases", arguments.cases, "Case base, MODEL.cases.db by default")->type_name("FILE");
+  command.add_flag("--html", arguments.options.html, "A page for each log, too");
+  command.add_option("--json", arguments.json, "Write the summary as JSON; - for standard output")
+      ->type_name("F");
+  command.add_option("--threads", arguments.options.threads, "Logs at once; 0 = one a core")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  command.add_option("--shard", arguments.shard, "Only part I of N of the list")->type_name("I/N");
+  command.add_flag("--wait", arguments.options.wait, "Wait while another batch writes into the same folder");
+  command.add_option("--classify", arguments.mode, "As of faultline diagnose")
+      ->check(CLI::IsMember({"evidence", "samples"}))
+      ->capture_default_str();
+  command.add_option("--criterion", arguments.criterion, "As of faultline diagnose")
+      ->check(CLI::IsMember({"log_odds", "consecutive"}))
+      ->capture_default_str();
+  command.add_option("--g", arguments.options.diagnose.g, "As of faultline diagnose")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void refuse_incomplete(const BatchArguments& arguments) {
+  if (arguments.paths.empty()) throw CLI::RequiredError("PATH (a log or a folder)");
+  if (arguments.model.empty()) throw CLI::RequiredError("--model");
+  if (arguments.folder.empty()) throw CLI::RequiredError("-o,--output");
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<BatchArguments>();
+  CLI::App* command =
+      app.add_subcommand("batch", "Diagnose all logs of folders, with an index of the results");
+  add_options(*command, *arguments);
+  add_merge(*command, program);
+  command->footer(
+      "Run the same command again to go on after an interruption.\n"
+      "Exit status: the worst of all logs. 0: no fault, 1: faults, 3: a log cannot be used.\n"
+      "Example: faultline batch runs/ --model robot.model -o out/runs");
+  command->callback([arguments, command, &program] {
+    if (command->got_subcommand("merge")) return;
+    refuse_incomplete(*arguments);
+    if (arguments->cases.empty()) arguments->cases = arguments->model + ".cases.db";
+    program.run = [arguments, &program] { return run_command(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline

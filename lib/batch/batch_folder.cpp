@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/batch_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <regex>
+#include <vector>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw Error(ErrorCode::output, folder,
+                "cannot be made into a folder for the results" +
+                    (error ? " (" + error.message() + ")" : std::string()) + "; give another with -o");
+}
+
+std::vector<fs::path> files_in(const std::string& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error)) files.push_back(entry.path());
+  return files;
+}
+
+bool is_left_half_written(const fs::path& file) {
+  static const std::regex pattern(R"(.*\.partial-[0-9]+-[0-9]+)");
+  return std::regex_match(file.filename().string(), pattern);
+}
+
+bool is_result(const fs::path& file) {
+  static const std::regex pattern(R"([A-Za-z0-9._-]*-[0-9a-f]{12}\.(json|html))");
+  return std::regex_match(file.filename().string(), pattern);
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  if (!fs::remove(file, error) && error)
+    throw Error(ErrorCode::output, file.string(),
+                "of an earlier run cannot be removed (" + error.message() + ")");
+}
+
+}  // namespace
+
+bool is_batch_folder(const std::string& folder) {
+  std::error_code error;
+  return fs::is_directory(folder + "/.batch", error);
+}
+
+BatchFolder::BatchFolder(std::string folder, bool wait) : path_(std::move(folder)) {
+  std::error_code error;
+  if (fs::is_directory(path_, error) && !fs::is_empty(path_, error) && !error && !is_batch_folder(path_))
+    throw Error(ErrorCode::usage, path_,
+                "holds other files than results of a batch; give a new folder with -o");
+  make(path_ + "/.batch");
+  lock(wait);
+  make(path_ + "/logs");
+}
+
+BatchFolder::~BatchFolder() { ::close(lock_); }
+
+void BatchFolder::lock(bool wait) {
+  const std::string name = path_ + "/.batch/lock";
+  lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0)
+    throw Error(ErrorCode::output, path_,
+                std::string("cannot be written to (") + std::strerror(errno) +
+                    "); check its permissions or give another folder with -o");
+  int status;
+  do status = ::flock(lock_, wait ? LOCK_EX : LOCK_EX | LOCK_NB);
+  while (status != 0 && errno == EINTR);
+  if (status == 0 || errno != EWOULDBLOCK) return;  // a file system without locks: temporary names differ
+  ::close(lock_);
+  throw Error(
+      ErrorCode::output, path_,
+      "another batch is writing there; wait for its end (--wait does) or give another folder with -o");
+}
+
+void BatchFolder::mark_unfinished() const { remove_file(finished()); }
+
+void BatchFolder::clean(const std::set<std::string>& results) const {
+  for (const char* part : {"", ".batch", "logs"})
+    for (const fs::path& file : files_in(file(part)))
+      if (is_left_half_written(file)) remove_file(file);
+  for (const fs::path& file : files_in(file("logs")))
+    if (is_result(file) && !results.count(file.filename().string())) remove_file(file);
+}
+
+}  // namespace faultline

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/batch_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lib/report/layout.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void count_verdict(BatchCounts& counts, const BatchRow& row) {
+  ++counts.logs;
+  counts.healthy += row.verdict == "healthy";
+  counts.faulty += row.verdict == "faulty";
+  counts.inconclusive += row.verdict == "inconclusive";
+  counts.unusable += row.verdict == "unusable";
+  counts.failed += row.verdict == "failed";
+  counts.faults += static_cast<int>(row.faults.size());
+  const bool judged = row.verdict == "healthy" || row.verdict == "faulty";
+  if (judged && std::isfinite(row.end_s - row.start_s)) counts.hours += (row.end_s - row.start_s) / 3600.0;
+}
+
+Json counts_json(const BatchCounts& c) {
+  return {{"logs", c.logs},
+          {"healthy", c.healthy},
+          {"faulty", c.faulty},
+          {"inconclusive", c.inconclusive},
+          {"unusable", c.unusable},
+          {"failed", c.failed},
+          {"faults", c.faults},
+          {"hours", number(c.hours)},
+          {"faults_per_hour", c.hours > 0.0 ? number(c.faults / c.hours) : Json(nullptr)},
+          {"median_residual", number(c.median_residual)},
+          {"largest_residual", number(c.largest_residual)}};
+}
+
+Json kinds_json(const BatchSummary& summary) {
+  Json json = Json::array();
+  for (const auto& [kind, joints] : summary.kinds)
+    for (const auto& [joint, count] : joints)
+      json.push_back({{"kind", kind}, {"joint", joint > 0 ? Json(joint) : Json(nullptr)}, {"count", count}});
+  return json;
+}
+
+}  // namespace
+
+BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
+  BatchCounts counts;
+  std::vector<double> residuals;
+  for (const BatchRow* row : rows) {
+    count_verdict(counts, *row);
+    if (const double level = residual_level(*row); std::isfinite(level)) residuals.push_back(level);
+  }
+  counts.median_residual = median(residuals);
+  counts.largest_residual = residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                              : *std::max_element(residuals.begin(), residuals.end());
+  return counts;
+}
+
+BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts) {
+  BatchSummary summary;
+  summary.facts = facts;
+  std::vector<const BatchRow*> all;
+  std::map<std::string, std::vector<const BatchRow*>> folders;
+  for (const BatchRow& row : rows) {
+    all.push_back(&row);
+    folders[folder_of(row)].push_back(&row);
+    for (const BatchFault& fault : row.faults)
+      ++summary.kinds[to_string(fault.label.kind)][fault.label.joint];
+    summary.status = std::max(summary.status, status_of(row));
+  }
+  summary.all = counts_of(all);
+  for (const auto& [folder, members] : folders) summary.folders[folder] = counts_of(members);
+  return summary;
+}
+
+std::string to_json(const BatchSummary& summary) {
+  Json folders = Json::array();
+  for (const auto& [folder, counts] : summary.folders) {
+    Json json = {{"folder", folder}};
+    json.update(counts_json(counts));
+    folders.push_back(json);
+  }
+  const BatchFacts& facts = summary.facts;
+  const Json json = {{"schema", "faultline/batch-summary/1"},
+                     {"model",
+                      {{"name", facts.model.name},
+                       {"sha256", facts.model.sha256},
+                       {"cases_sha256", facts.model.cases_sha256}}},
+                     {"program", {{"version", facts.program_version}}},
+                     {"options", facts.options},
+                     {"shard", facts.shard},
+                     {"shards", facts.shards},
+                     {"exit_status", summary.status},
+                     {"all", counts_json(summary.all)},
+                     {"faults", kinds_json(summary)},
+                     {"folders", folders}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const BatchSummary& summary) {
+  const BatchCounts& all = summary.all;
+  std::string text =
+      fmt::format("{} log{}: {} healthy, {} faulty, {} inconclusive, {} unusable", all.logs,
+                  all.logs == 1 ? "" : "s", all.healthy, all.faulty, all.inconclusive, all.unusable);
+  text += all.failed > 0 ? fmt::format(", {} failed by a defect of faultline\n", all.failed) : "\n";
+  for (const auto& [kind, joints] : summary.kinds)
+    for (const auto& [joint, count] : joints)
+      text += fmt::format("  {:>6}  {}{}\n", count, kind, joint > 0 ? fmt::format(", joint {}", joint) : "");
+  return text;
+}
+
+}  // namespace faultline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/batch/batch_facts.hpp"
+#include "lib/batch/batch_row.hpp"
+
+namespace faultline {
+
+/// Counts over some of the logs.
+struct BatchCounts {
+  int logs = 0, healthy = 0, faulty = 0, inconclusive = 0, unusable = 0, failed = 0;
+  int faults = 0;
+  double hours = 0.0;             ///< of the logs that were judged
+  double median_residual = 0.0;   ///< of residual_level(); NaN without any
+  double largest_residual = 0.0;  ///< likewise
+};
+BatchCounts counts_of(const std::vector<const BatchRow*>& rows);
+
+/// A batch as a whole.
+struct BatchSummary {
+  BatchFacts facts;
+  BatchCounts all;
+  std::map<std::string, BatchCounts> folders;       ///< by folder_of()
+  std::map<std::string, std::map<int, int>> kinds;  ///< faults by kind and joint; joint 0 = of no joint
+  int status = 0;                                   ///< exit status: the worst of all logs
+};
+BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts);
+
+/// Schema "faultline/batch-summary/1"; no wall-clock time is in it.
+std::string to_json(const BatchSummary& summary);
+/// A few lines for a terminal.
+std::string to_text(const BatchSummary& summary);
+
+}  // namespace faultline

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace faultline {
+
+/// A log of a batch.
+struct BatchLog {
+  std::string path;  ///< where to read it
+  /// What every result calls it: below a folder that was given, with that folder's own name in front; the
+  /// bare file name of a file that was given. No folder of a machine is in it.
+  std::string name;
+};
+
+/// The logs at `paths`, files and folders in any order, each once, sorted by name. A file that was given is
+/// taken whatever it is. Of a folder, with all below it, the files with one of `extensions` (".csv") are
+/// taken, but not hidden ones, tables that start with "file," (labels.csv and our reports) nor results of a
+/// batch. What cannot be read stays in the list: reading it says why. Throws Error(input) when a path is not
+/// there.
+std::vector<BatchLog> find_logs(const std::vector<std::string>& paths,
+                                const std::vector<std::string>& extensions);
+
+}  // namespace faultline

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/journal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/hash.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kChecksum = 16;  // hexadecimal digits
+
+std::string checksum(const std::string& text) { return sha256_hex(text).substr(0, kChecksum); }
+
+std::optional<JournalEntry> entry_from(const std::string& line) {
+  if (line.size() < kChecksum + 2) return {};
+  const std::string text = line.substr(kChecksum + 1);
+  if (line.substr(0, kChecksum) != checksum(text)) return {};
+  try {
+    const Json json = Json::parse(text);
+    return JournalEntry{json.at("key"), json.at("position"), json.at("json_sha"), json.at("html_sha"),
+                        row_from_json(json.at("row").get<std::string>())};
+  } catch (const std::exception&) {
+    return {};  // of another version of the program
+  }
+}
+
+}  // namespace
+
+std::string to_journal_line(const JournalEntry& entry) {
+  const Json json = {{"key", entry.key},
+                     {"position", entry.position},
+                     {"json_sha", entry.json_sha},
+                     {"html_sha", entry.html_sha},
+                     {"row", to_json_line(entry.row)}};
+  const std::string text = json.dump();
+  return checksum(text) + " " + text + "\n";
+}
+
+std::vector<JournalEntry> read_journal_in_order(const std::string& path) {
+  std::vector<JournalEntry> entries;
+  if (!std::filesystem::exists(path)) return entries;
+  std::istringstream lines(read_file(path));
+  for (std::string line; std::getline(lines, line);)
+    if (auto entry = entry_from(line)) entries.push_back(std::move(*entry));
+  return entries;
+}
+
+std::map<std::string, JournalEntry> read_journal(const std::string& path) {
+  std::map<std::string, JournalEntry> entries;
+  for (JournalEntry& entry : read_journal_in_order(path))
+    if (!entry.key.empty()) entries[entry.key] = std::move(entry);
+  return entries;
+}
+
+JournalWriter::JournalWriter(std::string path) : path_(std::move(path)) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_ < 0)
+    throw Error(ErrorCode::output, path_, std::string("cannot be opened (") + std::strerror(errno) + ")");
+  write("\n");  // ends a line that a kill has cut
+}
+
+JournalWriter::~JournalWriter() { ::close(file_); }
+
+void JournalWriter::add(const JournalEntry& entry) { write(to_journal_line(entry)); }
+
+void JournalWriter::write(const std::string& line) {
+  const auto written = ::write(file_, line.data(), line.size());
+  if (written == static_cast<ssize_t>(line.size())) return;
+  const std::string why = written < 0 ? std::strerror(errno) : "no room left";
+  throw Error(
+      ErrorCode::output, path_,
+      "cannot be written (" + why + "); what is done stays done: make room and run the same command again");
+}
+
+}  // namespace faultline

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/batch/batch_summary.hpp"
+#include "lib/batch/find_logs.hpp"
+#include "lib/pipeline/diagnose.hpp"
+
+namespace faultline {
+
+/// How far a batch is.
+struct BatchProgress {
+  int done = 0, diagnosed = 0, logs = 0;
+};
+
+struct BatchOptions {
+  DiagnoseOptions diagnose;
+  bool html = false;  ///< a page a log, besides its JSON
+  int threads = 0;    ///< logs at once; 0 = one a core
+  int shard = 0;      ///< take the logs whose position in the list is this one modulo `shards`
+  int shards = 1;
+  bool wait = false;                                     ///< for another batch into the same folder
+  std::function<void(const BatchProgress&)> progress{};  ///< never called by two threads at once
+};
+
+struct BatchResult {
+  BatchSummary summary;
+  int diagnosed = 0;  ///< by this run; the others were done before
+};
+
+using OpenLog = std::function<std::unique_ptr<LogSource>(const std::string& path)>;
+
+/// Diagnoses every log into `folder` (docs/batch.md). What an earlier run, finished or killed, has done with
+/// the same log, model, cases and options is kept. A log that cannot be used is a row with its reason. The
+/// same input gives the same bytes, whatever the threads and however often it was cut short. Throws
+/// Error(output) when results cannot be written.
+BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, const Model& model,
+                      const CaseBase& cases, const std::string& folder, const BatchOptions& options = {});
+
+}  // namespace faultline
