@@ -24,6 +24,8 @@ std::string lower_extension(const fs::path& path) {
 }
 
 bool starts_as_table_of_logs(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
   std::ifstream file(path, std::ios::binary);
   std::string head(kTableOfLogs.size(), '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
