@@ -159,6 +159,12 @@ double TomlTable::number(const std::string& key, double fallback) const {
   return has(key) ? number(key) : fallback;
 }
 
+double TomlTable::any_number(const std::string& key) const {
+  const toml::node& node = required(*data_, key, "a number");
+  if (!node.is_number()) fail(key, fmt::format("expected a number, found {}", shown(node)));
+  return *node.value<double>();
+}
+
 std::int64_t TomlTable::integer(const std::string& key, std::int64_t fallback) const {
   if (!has(key)) return fallback;
   const toml::node& node = *data_->find(key);
@@ -213,6 +219,17 @@ std::vector<std::vector<double>> TomlTable::number_rows(const std::string& key, 
 std::vector<double> TomlTable::each(const std::string& key, int count) const {
   if (is_array(key)) return numbers(key, count);
   return std::vector<double>(count, number(key));
+}
+
+std::vector<std::string> TomlTable::texts(const std::string& key) const {
+  const toml::node& node = required(*data_, key, "a list of texts in quotes");
+  if (!node.is_array()) fail(key, fmt::format("expected a list of texts, found {}", shown(node)));
+  std::vector<std::string> values;
+  for (const toml::node& item : *node.as_array()) {
+    if (!item.is_string()) fail(key, fmt::format("expected texts in quotes, found {} in it", shown(item)));
+    values.push_back(*item.value<std::string>());
+  }
+  return values;
 }
 
 std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& choices) const {

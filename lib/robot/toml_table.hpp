@@ -25,6 +25,8 @@ class TomlTable {
   /// A finite number; the second form gives `fallback` when the key is absent.
   double number(const std::string& key) const;
   double number(const std::string& key, double fallback) const;
+  /// A number that may be nan or inf.
+  double any_number(const std::string& key) const;
   std::int64_t integer(const std::string& key, std::int64_t fallback) const;
   bool flag(const std::string& key, bool fallback) const;
   std::string text(const std::string& key) const;
@@ -35,6 +37,7 @@ class TomlTable {
   std::vector<std::vector<double>> number_rows(const std::string& key, int count) const;
   /// A list of `count` numbers, or one number that stands for all of them.
   std::vector<double> each(const std::string& key, int count) const;
+  std::vector<std::string> texts(const std::string& key) const;
   /// One of `choices`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices) const;
   /// An empty table when the key is absent.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/accept.hpp"
+
+#include <filesystem>
+
+#include "lib/core/error.hpp"
+#include "lib/core/hash.hpp"
+#include "lib/golden/check.hpp"
+
+namespace faultline {
+namespace {
+
+void refuse_unusable(const GoldenRun& run, const std::string& name) {
+  for (const GoldenRun::Log& log : run.logs)
+    if (log.name == name && log.observation.verdict == kUnusable)
+      throw Error(ErrorCode::input, name, "cannot be accepted: " + log.observation.reason);
+  if (name == kIdentification && run.identification && run.identification->status == kUnusable)
+    throw Error(ErrorCode::input, name, "cannot be accepted: " + run.identification->reason);
+}
+
+void rehash(const std::string& folder, GoldenSet& set, const std::string& name) {
+  for (GoldenLog& log : set.logs)
+    if (log.name() == name)
+      log.log.sha256 = sha256_of_file((std::filesystem::path(folder) / log.log.path).string());
+}
+
+std::vector<std::string> files_of(const GoldenSet& set) {
+  std::vector<std::string> files = {set.model.path, set.cases.path};
+  for (const GoldenLog& log : set.logs) files.push_back(log.trace.path);
+  return files;
+}
+
+}  // namespace
+
+void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& run,
+                   const std::vector<std::string>& names, const NewModel& new_model) {
+  for (const std::string& name : names) refuse_unusable(run, name);
+  const std::vector<std::string> before = files_of(set);
+  if (new_model.subject) adopt_model(folder, new_model.model, new_model.cases, *new_model.subject, set);
+  for (const std::string& name : names) {
+    rehash(folder, set, name);
+    take_actual(set, run, name);
+  }
+  save_golden(folder, set, before);
+}
+
+}  // namespace faultline

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+std::string said_by(const GoldenRun& run) {
+  return fmt::format("faultline {}, model {} {}", run.program_version, run.model.name,
+                     run.model.sha256.substr(0, 8));
+}
+
+const Observation& observation_of(const GoldenRun& run, const std::string& name) {
+  for (const GoldenRun::Log& log : run.logs)
+    if (log.name == name) return log.observation;
+  throw Error(ErrorCode::input, said_by(run), "does not have the log " + name + " of this golden folder");
+}
+
+/// An identification that was not made is one of status "not_run".
+ObservedIdentification identification_of(const std::optional<ObservedIdentification>& identification) {
+  return identification ? *identification : ObservedIdentification{"not_run", "", {}, ""};
+}
+
+CheckedItem checked(const std::string& name, const Observation& expected, const Observation& actual,
+                    const ToleranceChain& chain) {
+  CheckedItem item{name,
+                   "",
+                   expected.verdict,
+                   actual.verdict,
+                   static_cast<int>(expected.events.size()),
+                   static_cast<int>(actual.events.size()),
+                   compare(expected, actual, chain)};
+  return item;
+}
+
+CheckedItem checked(const ObservedIdentification& expected, const ObservedIdentification& actual,
+                    const ToleranceChain& chain) {
+  return {kIdentification, "", expected.status, actual.status, 0, 0, compare(expected, actual, chain)};
+}
+
+void mark_damage(const GoldenLog& log, CheckedItem& item) {
+  if (log.damage.empty()) return;
+  item.damage = log.damage;
+  item.comparison = {};
+}
+
+}  // namespace
+
+bool GoldenCheck::same() const {
+  return std::all_of(items.begin(), items.end(), [](const CheckedItem& item) { return item.same(); });
+}
+
+bool GoldenCheck::damaged() const {
+  return std::any_of(items.begin(), items.end(),
+                     [](const CheckedItem& item) { return !item.damage.empty(); });
+}
+
+GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
+  GoldenCheck check;
+  check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
+                                  set.model_name, set.model.sha256.substr(0, 8));
+  check.actual_by = said_by(run);
+  for (const GoldenLog& log : set.logs) {
+    check.items.push_back(checked(log.name(), log.expected, observation_of(run, log.name()), set.chain(log)));
+    mark_damage(log, check.items.back());
+  }
+  if (set.identification)
+    check.items.push_back(checked(set.identification->expected, identification_of(run.identification),
+                                  set.chain(*set.identification)));
+  return check;
+}
+
+GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
+  GoldenCheck check;
+  check.expected_by = said_by(first);
+  check.actual_by = said_by(second);
+  for (const GoldenLog& log : set.logs) {
+    check.items.push_back(checked(log.name(), observation_of(first, log.name()),
+                                  observation_of(second, log.name()), set.chain(log)));
+    mark_damage(log, check.items.back());
+  }
+  if (set.identification)
+    check.items.push_back(checked(identification_of(first.identification),
+                                  identification_of(second.identification), set.chain(*set.identification)));
+  return check;
+}
+
+void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name) {
+  set.program_version = run.program_version;
+  if (name == kIdentification) {
+    if (set.identification && run.identification) set.identification->expected = *run.identification;
+    return;
+  }
+  for (GoldenLog& log : set.logs) {
+    if (log.name() != name) continue;
+    log.expected = observation_of(run, name);
+    log.damage.clear();
+  }
+}
+
+}  // namespace faultline

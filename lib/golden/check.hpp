@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/golden/comparison.hpp"
+#include "lib/golden/golden_set.hpp"
+
+namespace faultline {
+
+/// One log, or the identification, compared.
+struct CheckedItem {
+  std::string name;
+  std::string damage;  ///< its golden files are not as recorded; then nothing is compared
+  std::string verdict_expected, verdict_actual;
+  int events_expected = 0, events_actual = 0;
+  Comparison comparison;
+
+  bool same() const { return damage.empty() && comparison.same(); }
+};
+
+/// Two runs over one golden folder, or one run and what is expected.
+struct GoldenCheck {
+  std::string expected_by, actual_by;  ///< who says so, for the headings
+  std::vector<CheckedItem> items;      ///< logs in their order, then the identification
+
+  bool same() const;
+  bool damaged() const;
+};
+
+/// What is expected against `run`.
+GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run);
+/// One run against another, with the tolerances of the folder. Throws Error(input) when a run is not of the
+/// folder's logs.
+GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second);
+
+/// The set with what `run` says of the item of that name (a log, or "identification"). Tolerances stay.
+void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name);
+
+}  // namespace faultline

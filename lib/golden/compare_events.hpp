@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/golden/comparison.hpp"
+
+namespace faultline {
+
+/// Pairs events of the same kind and joint, the nearest onsets first, and compares their times and
+/// confidence; what has no partner is missing or unexpected.
+void compare_events(const std::vector<GoldenEvent>& expected, const std::vector<GoldenEvent>& actual,
+                    const ToleranceChain& tolerances, Comparison& comparison);
+
+}  // namespace faultline

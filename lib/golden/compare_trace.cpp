@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/compare_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faultline {
+namespace {
+
+/// Indices of points of equal time, in order of time.
+std::vector<std::pair<int, int>> common_points(const Trace& a, const Trace& b) {
+  std::vector<std::pair<int, int>> pairs;
+  for (int i = 0, j = 0; i < a.points() && j < b.points();) {
+    const double near = 1e-9 * std::max(1.0, std::abs(a.time[i]));
+    if (std::abs(a.time[i] - b.time[j]) <= near)
+      pairs.emplace_back(i++, j++);
+    else
+      ++(a.time[i] < b.time[j] ? i : j);
+  }
+  return pairs;
+}
+
+struct ChannelCheck {
+  int first = -1;  ///< of the common points
+  int count = 0;
+};
+
+ChannelCheck check(const std::vector<double>& expected, const std::vector<double>& actual,
+                   const std::vector<std::pair<int, int>>& points, const Tolerance& tolerance) {
+  ChannelCheck found;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (tolerance.agree(expected[points[k].first], actual[points[k].second])) continue;
+    if (found.count++ == 0) found.first = static_cast<int>(k);
+  }
+  return found;
+}
+
+std::string value(double number) { return fmt::format("{:.6g}", number); }
+
+}  // namespace
+
+void compare_traces(const Trace& expected, const Trace& actual, const ToleranceChain& tolerances,
+                    Comparison& comparison) {
+  const auto points = common_points(expected, actual);
+  for (std::size_t c = 0; c < expected.channels.size(); ++c) {
+    const std::string& channel = expected.channels[c];
+    const auto same = std::find(actual.channels.begin(), actual.channels.end(), channel);
+    if (same == actual.channels.end()) {
+      comparison.differences.push_back({channel, {}, "foretold", "no such channel", {}});
+      comparison.lines.push_back({channel + " foretold", "", true});
+      continue;
+    }
+    const auto& there = actual.values[same - actual.channels.begin()];
+    const Tolerance tolerance = tolerance_of(tolerances, channel, tolerance_family(channel));
+    const ChannelCheck found = check(expected.values[c], there, points, tolerance);
+    if (found.count == 0) continue;
+    const auto [i, j] = points[found.first];
+    const double wanted = expected.values[c][i], got = there[j], time = expected.time[i];
+    comparison.differences.push_back({channel, time, value(wanted), value(got), tolerance.allowed(wanted)});
+    const auto line = [&, i = i](double number) {
+      return fmt::format("{} foretold {} at {} s", channel, value(number), expected.time[i]);
+    };
+    comparison.lines.push_back(
+        {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), found.count, points.size()),
+         true});
+  }
+}
+
+}  // namespace faultline

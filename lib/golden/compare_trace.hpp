@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/golden/comparison.hpp"
+
+namespace faultline {
+
+/// Compares what was foretold at the same times, channel by channel: of each that differs, the first time and
+/// both values. Points that only one trace has are left to the comparison of lengths.
+void compare_traces(const Trace& expected, const Trace& actual, const ToleranceChain& tolerances,
+                    Comparison& comparison);
+
+}  // namespace faultline

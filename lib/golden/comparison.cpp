@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/golden/compare_events.hpp"
+#include "lib/golden/compare_trace.hpp"
+
+namespace faultline {
+namespace {
+
+std::string value(double number) { return fmt::format("{:.6g}", number); }
+
+void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
+                   Comparison& comparison) {
+  const bool differs = expected != actual;
+  if (differs) comparison.differences.push_back({channel, {}, expected, actual, {}});
+  comparison.lines.push_back({channel + " " + expected, channel + " " + actual, differs});
+}
+
+void compare_rows(std::int64_t expected, std::int64_t actual, bool may_differ, Comparison& comparison) {
+  const bool differs = expected != actual && !may_differ;
+  if (differs)
+    comparison.differences.push_back(
+        {"rows", {}, fmt::format("{}", expected), fmt::format("{}", actual), 0.0});
+  comparison.lines.push_back({fmt::format("rows {}", expected), fmt::format("rows {}", actual), differs});
+}
+
+/// Adds a difference when `got` is out of tolerance; whether it is.
+bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
+                    double time, const ToleranceChain& tolerances, Comparison& comparison) {
+  const Tolerance tolerance = tolerance_of(tolerances, channel, family);
+  if (tolerance.agree(wanted, got)) return false;
+  comparison.differences.push_back({channel, time, value(wanted), value(got), tolerance.allowed(wanted)});
+  return true;
+}
+
+std::string line_of(const JointResidualSummary& r) {
+  return fmt::format("residual of joint {}: velocity_rms {}, velocity_peak {} at {} s, position_rms {}",
+                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.peak_s),
+                     value(r.position_rms));
+}
+
+bool compare_residual(const JointResidualSummary& expected, const JointResidualSummary& actual,
+                      const ToleranceChain& tolerances, Comparison& comparison) {
+  bool differs = false;
+  const auto number = [&](const char* family, double wanted, double got, double time) {
+    differs |= compare_number(fmt::format("{}_{}", family, expected.joint), family, wanted, got, time,
+                              tolerances, comparison);
+  };
+  number("velocity_rms", expected.velocity_rms, actual.velocity_rms, NAN);
+  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.peak_s);
+  number("peak_s", expected.peak_s, actual.peak_s, std::fmin(expected.peak_s, actual.peak_s));
+  number("position_rms", expected.position_rms, actual.position_rms, NAN);
+  return differs;
+}
+
+void compare_residuals(const Observation& expected, const Observation& actual,
+                       const ToleranceChain& tolerances, Comparison& comparison) {
+  const std::size_t common = std::min(expected.residuals.size(), actual.residuals.size());
+  if (expected.residuals.size() != actual.residuals.size())
+    compare_words("joints", fmt::format("{}", expected.residuals.size()),
+                  fmt::format("{}", actual.residuals.size()), comparison);
+  for (std::size_t j = 0; j < common; ++j) {
+    const bool differs = compare_residual(expected.residuals[j], actual.residuals[j], tolerances, comparison);
+    comparison.lines.push_back({line_of(expected.residuals[j]), line_of(actual.residuals[j]), differs});
+  }
+}
+
+std::string line_of(const ObservedParameter& p) {
+  if (std::isnan(p.std)) return fmt::format("{} {} {} (not identifiable)", p.name, value(p.value), p.unit);
+  return fmt::format("{} {} {}, std {}", p.name, value(p.value), p.unit, value(p.std));
+}
+
+const ObservedParameter* find(const std::vector<ObservedParameter>& parameters, const std::string& name) {
+  for (const ObservedParameter& p : parameters)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+void compare_parameter(const ObservedParameter& expected, const ObservedParameter* actual,
+                       const ToleranceChain& tolerances, Comparison& comparison) {
+  if (!actual) {
+    comparison.differences.push_back({expected.name, {}, value(expected.value), "", {}});
+    comparison.lines.push_back({line_of(expected), "", true});
+    return;
+  }
+  bool differs =
+      compare_number(expected.name, "parameter", expected.value, actual->value, NAN, tolerances, comparison);
+  differs |= compare_number(expected.name + "_std", "parameter_std", expected.std, actual->std, NAN,
+                            tolerances, comparison);
+  comparison.lines.push_back({line_of(expected), line_of(*actual), differs});
+}
+
+}  // namespace
+
+Comparison compare(const Observation& expected, const Observation& actual, const ToleranceChain& tolerances) {
+  Comparison comparison;
+  compare_words("verdict", expected.verdict, actual.verdict, comparison);
+  if (actual.verdict == kUnusable || expected.verdict == kUnusable) {
+    if (!comparison.same()) comparison.lines.back().actual += ": " + actual.reason;
+    return comparison;
+  }
+  compare_rows(expected.rows, actual.rows, length_may_differ(tolerances), comparison);
+  compare_events(expected.events, actual.events, tolerances, comparison);
+  compare_residuals(expected, actual, tolerances, comparison);
+  compare_traces(expected.trace, actual.trace, tolerances, comparison);
+  return comparison;
+}
+
+Comparison compare(const ObservedIdentification& expected, const ObservedIdentification& actual,
+                   const ToleranceChain& tolerances) {
+  Comparison comparison;
+  compare_words("status", expected.status, actual.status, comparison);
+  if (!comparison.same() && !actual.reason.empty()) comparison.lines.back().actual += ": " + actual.reason;
+  compare_words("method", expected.method, actual.method, comparison);
+  for (const ObservedParameter& p : expected.parameters)
+    compare_parameter(p, find(actual.parameters, p.name), tolerances, comparison);
+  for (const ObservedParameter& p : actual.parameters) {
+    if (find(expected.parameters, p.name)) continue;
+    comparison.differences.push_back({p.name, {}, "", value(p.value), {}});
+    comparison.lines.push_back({"", line_of(p), true});
+  }
+  return comparison;
+}
+
+const Difference* first_divergence(const Comparison& comparison) {
+  const Difference* first = nullptr;
+  for (const Difference& difference : comparison.differences)
+    if (!std::isnan(difference.time_s) && (!first || difference.time_s < first->time_s)) first = &difference;
+  if (!first && !comparison.differences.empty()) first = &comparison.differences.front();
+  return first;
+}
+
+}  // namespace faultline

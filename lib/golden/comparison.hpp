@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/golden/observation.hpp"
+#include "lib/golden/tolerance.hpp"
+
+namespace faultline {
+
+/// One thing that is not as expected.
+struct Difference {
+  std::string channel;  ///< verdict, rows, event, onset_s, velocity_rms_2, dq2, m1 ...
+  double time_s = std::numeric_limits<double>::quiet_NaN();  ///< in the log; NaN when it has no time
+  std::string expected;                                      ///< as text; empty when nothing was expected
+  std::string actual;
+  double allowed = std::numeric_limits<double>::quiet_NaN();  ///< distance; NaN for what is no number
+};
+
+/// A line of a unified difference: the same on both sides, or one of them, or both in other words.
+struct DiffLine {
+  std::string expected;
+  std::string actual;
+  bool differs = false;
+};
+
+struct Comparison {
+  std::vector<Difference> differences;
+  std::vector<DiffLine> lines;
+
+  bool same() const { return differences.empty(); }
+};
+
+Comparison compare(const Observation& expected, const Observation& actual, const ToleranceChain& tolerances);
+Comparison compare(const ObservedIdentification& expected, const ObservedIdentification& actual,
+                   const ToleranceChain& tolerances);
+
+/// The earliest difference that has a time; else the first. Null when same.
+const Difference* first_divergence(const Comparison& comparison);
+
+}  // namespace faultline

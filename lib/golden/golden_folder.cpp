@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/golden_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/hash.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string inside(const std::string& folder, const std::string& path) {
+  return (fs::path(folder) / path).string();
+}
+
+/// What is wrong with the file; empty when it is the one that was recorded.
+std::string damage_of(const std::string& folder, const GoldenFile& file) {
+  try {
+    if (sha256_of_file(inside(folder, file.path)) == file.sha256) return "";
+    return file.path + " is not the file that was recorded (another SHA-256): restore it";
+  } catch (const Error& error) {
+    return file.path + " " + error.message();
+  }
+}
+
+void read_trace(const std::string& folder, GoldenLog& log) {
+  log.damage = damage_of(folder, log.log);
+  if (log.damage.empty()) log.damage = damage_of(folder, log.trace);
+  if (!log.damage.empty()) return;
+  const std::string path = inside(folder, log.trace.path);
+  log.expected.trace = trace_from_csv(read_file(path), path);
+}
+
+std::string short_hash(const std::string& sha256) { return sha256.substr(0, 8); }
+
+void write_below(const std::string& folder, const std::string& path, const std::string& bytes) {
+  const fs::path whole = fs::path(folder) / path;
+  std::error_code error;
+  fs::create_directories(whole.parent_path(), error);
+  write_file(whole.string(), bytes);
+}
+
+std::string written_trace(const std::string& folder, GoldenLog& log) {
+  const std::string text = trace_to_csv(log.expected.trace);
+  log.trace.sha256 = sha256_hex(text);
+  log.trace.path =
+      fmt::format("traces/{}-{}.csv", fs::path(log.name()).stem().string(), short_hash(log.trace.sha256));
+  if (!damage_of(folder, log.trace).empty()) write_below(folder, log.trace.path, text);
+  return log.trace.path;
+}
+
+}  // namespace
+
+std::string golden_file(const std::string& folder) { return inside(folder, "golden.toml"); }
+
+GoldenSet load_golden(const std::string& folder) {
+  if (fs::is_directory(folder) && !fs::exists(golden_file(folder)))
+    throw Error(
+        ErrorCode::input, folder,
+        "has no golden.toml; make a golden folder with: faultline golden record LOG... --model MODEL -o DIR");
+  GoldenSet set = golden_from_text(read_file(golden_file(folder)), golden_file(folder));
+  for (GoldenLog& log : set.logs) read_trace(folder, log);
+  return set;
+}
+
+ModelAndCases load_model_and_cases(const std::string& model, const std::string& cases) {
+  return {load_model(model), read_case_base(cases), fs::path(model).filename().string()};
+}
+
+ModelAndCases load_golden_model(const std::string& folder, const GoldenSet& set) {
+  if (const std::string damage = damage_of(folder, set.model); !damage.empty())
+    throw Error(ErrorCode::input, folder, damage);
+  ModelAndCases subject =
+      load_model_and_cases(inside(folder, set.model.path), inside(folder, set.cases.path));
+  if (subject.cases.sha256() != set.cases.sha256)
+    throw Error(ErrorCode::input, inside(folder, set.cases.path),
+                "is not the case base that was recorded (another content hash): restore it");
+  subject.name = set.model_name;
+  return subject;
+}
+
+std::vector<ReplayLog> replay_logs(const std::string& folder, const GoldenSet& set) {
+  std::vector<ReplayLog> logs;
+  for (const GoldenLog& log : set.logs) {
+    const bool identify = set.identification && std::count(set.identification->logs.begin(),
+                                                           set.identification->logs.end(), log.name());
+    logs.push_back({log.name(), inside(folder, log.log.path), identify});
+  }
+  return logs;
+}
+
+void save_golden(const std::string& folder, GoldenSet& set, const std::vector<std::string>& outdated) {
+  std::set<std::string> named = {set.model.path, set.cases.path};
+  for (GoldenLog& log : set.logs) {
+    named.insert(log.log.path);
+    named.insert(log.damage.empty() ? written_trace(folder, log) : log.trace.path);
+  }
+  write_file(golden_file(folder), golden_text(set));
+  std::error_code error;
+  for (const std::string& path : outdated)
+    if (!named.count(path)) fs::remove(inside(folder, path), error);
+}
+
+void adopt_model(const std::string& folder, const std::string& model, const std::string& cases,
+                 const ModelAndCases& subject, GoldenSet& set) {
+  set.model_name = subject.name;
+  set.joints = subject.model.robot.joints();
+  set.model = {fmt::format("model-{}.json", short_hash(subject.model.sha256)), subject.model.sha256};
+  set.cases = {fmt::format("cases-{}.db", short_hash(subject.cases.sha256())), subject.cases.sha256()};
+  write_below(folder, set.model.path, read_file(model));
+  write_below(folder, set.cases.path, read_file(cases));
+}
+
+}  // namespace faultline

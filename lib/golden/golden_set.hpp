@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/golden/comparison.hpp"
+#include "lib/golden/observation.hpp"
+
+namespace faultline {
+
+/// A file of a golden folder, by its path in it, and what its content must be.
+struct GoldenFile {
+  std::string path;
+  std::string sha256;
+};
+
+struct GoldenLog {
+  GoldenFile log;
+  GoldenFile trace;
+  Observation expected;  ///< its trace is read from the file beside
+  Tolerances tolerances;
+  std::string damage;  ///< what is wrong with its files; empty when nothing is
+
+  /// File name without folders.
+  std::string name() const;
+};
+
+struct GoldenIdentification {
+  std::vector<std::string> logs;  ///< names
+  ObservedIdentification expected;
+  Tolerances tolerances;
+};
+
+inline constexpr const char* kIdentification = "identification";
+
+/// What golden.toml says: the model, the logs, what is expected of each and how exactly.
+struct GoldenSet {
+  std::string program_version;  ///< that it was recorded with
+  std::string model_name;
+  int joints = 0;
+  GoldenFile model;
+  GoldenFile cases;  ///< sha256 of the case base's content
+  int trace_points = 500;
+  Tolerances tolerances;
+  std::optional<GoldenIdentification> identification;
+  std::vector<GoldenLog> logs;
+
+  ToleranceChain chain(const GoldenLog& log) const;
+  ToleranceChain chain(const GoldenIdentification& identification) const;
+};
+
+/// golden.toml (docs/golden.md): the same set gives the same text.
+std::string golden_text(const GoldenSet& set);
+/// Without the traces. Throws Error(input) for text that is no golden file, is cut or does not fit together.
+GoldenSet golden_from_text(const std::string& text, const std::string& where);
+
+}  // namespace faultline

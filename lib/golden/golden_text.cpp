@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/golden/golden_set.hpp"
+
+namespace faultline {
+namespace {
+
+std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.9g}", value); }
+
+/// Microseconds are kept, however large the clock is.
+std::string time(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{}", std::round(seconds * 1e6) / 1e6) : number(seconds);
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04X}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+std::string key(const std::string& name) {
+  for (const char c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') return quoted(name);
+  return name.empty() ? "\"\"" : name;
+}
+
+std::string tolerance_lines(const Tolerances& tolerances) {
+  std::string text;
+  for (const auto& [channel, t] : tolerances.by_channel)
+    text += fmt::format("{} = {{absolute = {}, relative = {}}}\n", key(channel), number(t.absolute),
+                        number(t.relative));
+  return text;
+}
+
+std::string length_line(const Tolerances& tolerances) {
+  return tolerances.length_may_differ ? fmt::format("length_may_differ = {}\n", *tolerances.length_may_differ)
+                                      : "";
+}
+
+std::string head(const GoldenSet& set) {
+  std::string text =
+      "# What faultline is expected to say of each log in this folder. Compare: faultline golden check;\n"
+      "# take what changed: faultline golden accept. Tolerances may be edited: a number is as expected when\n"
+      "# |actual - expected| <= absolute + relative * |expected|. Names: q, dq or dq2 the foretold motion,\n"
+      "# velocity_rms or velocity_rms_2 a residual, parameter or m1 what is identified.\n";
+  text += fmt::format("schema = \"faultline/golden/1\"\nprogram = {}\nlog_count = {}\ntrace_points = {}\n",
+                      quoted(set.program_version), set.logs.size(), set.trace_points);
+  text += length_line(set.tolerances);
+  text += fmt::format(
+      "\n[model]\nname = {}\njoints = {}\nfile = {}\nsha256 = {}\ncases = {}\ncases_sha256 = {}\n",
+      quoted(set.model_name), set.joints, quoted(set.model.path), quoted(set.model.sha256),
+      quoted(set.cases.path), quoted(set.cases.sha256));
+  return text + "\n[tolerance]\n" + tolerance_lines(set.tolerances);
+}
+
+std::string identification_text(const GoldenIdentification& identified) {
+  std::string text = "\n[identification]\nlogs = [";
+  for (std::size_t i = 0; i < identified.logs.size(); ++i)
+    text += (i ? ", " : "") + quoted(identified.logs[i]);
+  text += fmt::format("]\nstatus = {}\nmethod = {}\nparameters = [\n", quoted(identified.expected.status),
+                      quoted(identified.expected.method));
+  for (const ObservedParameter& p : identified.expected.parameters)
+    text += fmt::format("  {{name = {}, value = {}, std = {}, unit = {}}},\n", quoted(p.name),
+                        number(p.value), number(p.std), quoted(p.unit));
+  text += "]\n";
+  if (!identified.tolerances.by_channel.empty())
+    text += "\n[identification.tolerance]\n" + tolerance_lines(identified.tolerances);
+  return text;
+}
+
+std::string event_line(const GoldenEvent& e) {
+  return fmt::format(
+      "  {{kind = {}, joint = {}, onset_s = {}, alarm_s = {}, end_s = {}, confidence = {}}},\n",
+      quoted(to_string(e.label.kind)), e.label.joint, time(e.onset_s), time(e.alarm_s), time(e.end_s),
+      number(e.confidence));
+}
+
+std::string residual_line(const JointResidualSummary& r) {
+  return fmt::format(
+      "  {{joint = {}, velocity_rms = {}, velocity_peak = {}, peak_s = {}, position_rms = {}}},\n", r.joint,
+      number(r.velocity_rms), number(r.velocity_peak), time(r.peak_s), number(r.position_rms));
+}
+
+std::string log_text(const GoldenLog& log) {
+  std::string text = fmt::format(
+      "\n[[log]]\nfile = {}\nsha256 = {}\nrows = {}\ntrace = {}\ntrace_sha256 = {}\nverdict = {}\n",
+      quoted(log.log.path), quoted(log.log.sha256), log.expected.rows, quoted(log.trace.path),
+      quoted(log.trace.sha256), quoted(log.expected.verdict));
+  text += length_line(log.tolerances) + (log.expected.events.empty() ? "events = [" : "events = [\n");
+  for (const GoldenEvent& event : log.expected.events) text += event_line(event);
+  text += "]\nresiduals = [\n";
+  for (const JointResidualSummary& r : log.expected.residuals) text += residual_line(r);
+  text += "]\n";
+  if (!log.tolerances.by_channel.empty()) text += "\n[log.tolerance]\n" + tolerance_lines(log.tolerances);
+  return text;
+}
+
+}  // namespace
+
+std::string golden_text(const GoldenSet& set) {
+  std::string text = head(set);
+  if (set.identification) text += identification_text(*set.identification);
+  for (const GoldenLog& log : set.logs) text += log_text(log);
+  return text;
+}
+
+}  // namespace faultline

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "lib/core/error.hpp"
+#include "lib/core/parallel.hpp"
+#include "lib/core/version.hpp"
+#include "lib/identify/identify.hpp"
+#include "lib/pipeline/diagnose.hpp"
+
+namespace faultline {
+namespace {
+
+Observation observed(const Diagnosis& diagnosis, const Trace& trace) {
+  Observation seen;
+  seen.verdict = to_string(diagnosis.verdict);
+  seen.reason = diagnosis.verdict_reason;
+  seen.rows = diagnosis.log.rows_used;
+  for (const FaultFinding& fault : diagnosis.faults)
+    seen.events.push_back({fault.label, fault.onset_s, fault.alarm_s, fault.end_s, fault.confidence});
+  seen.residuals = diagnosis.residuals;
+  seen.trace = trace;
+  return seen;
+}
+
+Observation observe_file(const ReplayLog& log, const ModelAndCases& subject, const LogOpener& open,
+                         int trace_points) {
+  try {
+    const auto source = open(log.path, subject.model);
+    return observe(*source, subject.model, subject.cases, trace_points);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::internal) throw;
+    Observation unusable;
+    unusable.verdict = kUnusable;
+    unusable.reason = error.message();
+    return unusable;
+  }
+}
+
+void add(const std::vector<ParameterEstimate>& from, std::vector<ObservedParameter>& to) {
+  for (const ParameterEstimate& p : from) {
+    const bool there =
+        std::any_of(to.begin(), to.end(), [&](const ObservedParameter& o) { return o.name == p.name; });
+    if (!there) to.push_back({p.name, p.value, p.std, p.unit});
+  }
+}
+
+/// Tells how many items are done, one caller at a time.
+class Counter {
+ public:
+  Counter(const Progress& progress, std::size_t items) : progress_(progress), items_(items) {}
+  void done() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (progress_)
+      progress_("replaying golden logs", static_cast<double>(done_) / static_cast<double>(items_));
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t items_, done_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+Observation observe(LogSource& log, const Model& model, const CaseBase& cases, int trace_points) {
+  TraceTap tap(log, model.residual, trace_points);
+  const Diagnosis diagnosis = diagnose(tap, model, cases);
+  return observed(diagnosis, tap.trace());
+}
+
+ObservedIdentification observe_identification(const std::vector<ReplayLog>& logs, const Model& model,
+                                              const LogOpener& open, int threads) {
+  try {
+    std::vector<std::unique_ptr<LogSource>> owners;
+    std::vector<LogSource*> sources;
+    for (const ReplayLog& log : logs) {
+      owners.push_back(open(log.path, model));
+      sources.push_back(owners.back().get());
+    }
+    IdentifyOptions options;
+    options.threads = threads;
+    const Identification found = identify(sources, model.robot, options);
+    ObservedIdentification seen{to_string(found.status), to_string(found.method), {}, ""};
+    add(found.base_parameters, seen.parameters);
+    add(found.physical_parameters, seen.parameters);
+    return seen;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::internal) throw;
+    return {kUnusable, "", {}, error.message()};
+  }
+}
+
+GoldenRun replay(const std::vector<ReplayLog>& logs, const ModelAndCases& subject, const LogOpener& open,
+                 const ReplayOptions& options, const Progress& progress) {
+  GoldenRun run;
+  run.program_version = program_version();
+  run.model = {subject.name, subject.model.sha256, subject.cases.sha256()};
+  run.logs.resize(logs.size());
+  std::vector<ReplayLog> healthy;
+  std::copy_if(logs.begin(), logs.end(), std::back_inserter(healthy),
+               [](const ReplayLog& log) { return log.identify; });
+  Counter counter(progress, logs.size() + 1);
+  parallel_for(static_cast<int>(logs.size()) + 1, options.threads, [&](int i) {
+    if (i > 0)
+      run.logs[i - 1] = {logs[i - 1].name, observe_file(logs[i - 1], subject, open, options.trace_points)};
+    else if (!healthy.empty())
+      run.identification = observe_identification(healthy, subject.model, open, options.threads);
+    counter.done();
+  });
+  return run;
+}
+
+}  // namespace faultline

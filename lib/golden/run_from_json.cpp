@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
+#include "lib/golden/run_json.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::json;
+
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+std::vector<double> numbers(const Json& list) {
+  std::vector<double> values;
+  for (const Json& value : list) values.push_back(number(value));
+  return values;
+}
+
+GoldenEvent event(const Json& json) {
+  return {{fault_kind_from(json.at("kind")), json.at("joint").get<int>()},
+          number(json.at("onset_s")),
+          number(json.at("alarm_s")),
+          number(json.at("end_s")),
+          number(json.at("confidence"))};
+}
+
+JointResidualSummary residual(const Json& json) {
+  return {json.at("joint").get<int>(), number(json.at("velocity_rms")), number(json.at("velocity_peak")),
+          number(json.at("peak_s")), number(json.at("position_rms"))};
+}
+
+Trace trace(const Json& json, const std::string& where) {
+  Trace read;
+  read.channels = json.at("channels").get<std::vector<std::string>>();
+  read.time = numbers(json.at("time"));
+  for (const Json& values : json.at("values")) read.values.push_back(numbers(values));
+  bool fits = read.values.size() == read.channels.size();
+  for (const auto& values : read.values) fits &= values.size() == read.time.size();
+  if (!fits) throw Error(ErrorCode::input, where, "has a trace whose channels are not of one length");
+  return read;
+}
+
+GoldenRun::Log log(const Json& json, const std::string& where) {
+  GoldenRun::Log read{json.at("name"), {}};
+  Observation& o = read.observation;
+  o.verdict = json.at("verdict");
+  o.reason = json.at("reason");
+  o.rows = json.at("rows");
+  for (const Json& one : json.at("events")) o.events.push_back(event(one));
+  for (const Json& one : json.at("residuals")) o.residuals.push_back(residual(one));
+  o.trace = trace(json.at("trace"), where);
+  return read;
+}
+
+ObservedIdentification identification(const Json& json) {
+  ObservedIdentification read{json.at("status"), json.at("method"), {}, json.at("reason")};
+  for (const Json& p : json.at("parameters"))
+    read.parameters.push_back({p.at("name"), number(p.at("value")), number(p.at("std")), p.at("unit")});
+  return read;
+}
+
+GoldenRun run(const Json& json, const std::string& where) {
+  if (json.at("schema") != "faultline/golden-check/1")
+    throw Error(ErrorCode::input, where, "is of another schema; expected faultline/golden-check/1");
+  GoldenRun read;
+  read.program_version = json.at("program").at("version");
+  const Json& model = json.at("model");
+  read.model = {model.at("name"), model.at("sha256"), model.at("cases_sha256")};
+  for (const Json& one : json.at("logs")) read.logs.push_back(log(one, where));
+  if (!json.at("identification").is_null()) read.identification = identification(json.at("identification"));
+  return read;
+}
+
+}  // namespace
+
+GoldenRun run_from_json(const std::string& text, const std::string& where) {
+  try {
+    return run(Json::parse(text), where);
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::input, where,
+                "is not what faultline golden check --json writes, or it was cut; write it again");
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/run_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/utf8.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+Json text(const std::string& value) { return valid_utf8(value); }
+
+Json json_of(const Difference& d) {
+  return {{"channel", text(d.channel)},
+          {"time_s", number(d.time_s)},
+          {"expected", text(d.expected)},
+          {"actual", text(d.actual)},
+          {"allowed", number(d.allowed)}};
+}
+
+Json json_of(const CheckedItem& item) {
+  Json json{{"name", text(item.name)},
+            {"result", !item.damage.empty() ? "damaged"
+                       : item.same()        ? "same"
+                                            : "different"},
+            {"damage", item.damage.empty() ? Json(nullptr) : text(item.damage)}};
+  const Difference* first = first_divergence(item.comparison);
+  json["first_divergence"] = first ? json_of(*first) : Json(nullptr);
+  json["differences"] = Json::array();
+  for (const Difference& d : item.comparison.differences) json["differences"].push_back(json_of(d));
+  return json;
+}
+
+Json json_of(const GoldenEvent& e) {
+  return {{"kind", to_string(e.label.kind)}, {"joint", e.label.joint},
+          {"onset_s", number(e.onset_s)},    {"alarm_s", number(e.alarm_s)},
+          {"end_s", number(e.end_s)},        {"confidence", number(e.confidence)}};
+}
+
+Json json_of(const JointResidualSummary& r) {
+  return {{"joint", r.joint},
+          {"velocity_rms", number(r.velocity_rms)},
+          {"velocity_peak", number(r.velocity_peak)},
+          {"peak_s", number(r.peak_s)},
+          {"position_rms", number(r.position_rms)}};
+}
+
+Json json_of(const Trace& trace) {
+  Json values = Json::array();
+  for (const auto& channel : trace.values) values.push_back(numbers(channel));
+  return {{"channels", trace.channels}, {"time", numbers(trace.time)}, {"values", values}};
+}
+
+Json json_of(const GoldenRun::Log& log) {
+  const Observation& o = log.observation;
+  Json json{{"name", text(log.name)}, {"verdict", o.verdict}, {"reason", text(o.reason)}, {"rows", o.rows}};
+  json["events"] = Json::array();
+  for (const GoldenEvent& event : o.events) json["events"].push_back(json_of(event));
+  json["residuals"] = Json::array();
+  for (const JointResidualSummary& r : o.residuals) json["residuals"].push_back(json_of(r));
+  json["trace"] = json_of(o.trace);
+  return json;
+}
+
+Json json_of(const ObservedIdentification& identification) {
+  Json json{{"status", identification.status},
+            {"method", identification.method},
+            {"reason", text(identification.reason)}};
+  json["parameters"] = Json::array();
+  for (const ObservedParameter& p : identification.parameters)
+    json["parameters"].push_back(
+        {{"name", text(p.name)}, {"value", number(p.value)}, {"std", number(p.std)}, {"unit", text(p.unit)}});
+  return json;
+}
+
+}  // namespace
+
+std::string render_check_json(const GoldenCheck& check, const GoldenRun& run) {
+  Json json{{"schema", "faultline/golden-check/1"},
+            {"result", check.damaged() ? "damaged"
+                       : check.same()  ? "same"
+                                       : "different"},
+            {"program", {{"version", run.program_version}}},
+            {"model",
+             {{"name", text(run.model.name)},
+              {"sha256", run.model.sha256},
+              {"cases_sha256", run.model.cases_sha256}}}};
+  json["items"] = Json::array();
+  for (const CheckedItem& item : check.items) json["items"].push_back(json_of(item));
+  json["logs"] = Json::array();
+  for (const GoldenRun::Log& log : run.logs) json["logs"].push_back(json_of(log));
+  json["identification"] = run.identification ? json_of(*run.identification) : Json(nullptr);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/apps/golden_copy.hpp"
+
+namespace faultline {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Two logs and the identification of it are not as expected.
+class GoldenAccept : public testing::Test {
+ protected:
+  GoldenAccept() {
+    golden_.edit("kind = \"locked\"", "kind = \"collision\"");
+    golden_.edit("kind = \"payload_change\"", "kind = \"unknown\"");
+    golden_.edit("{name = \"b\", value = 0.49", "{name = \"b\", value = 0.48");
+  }
+
+  GoldenCopy golden_;
+};
+
+TEST_F(GoldenAccept, WithoutNamesItShowsAndChangesNothing) {
+  const auto before = golden_.snapshot();
+  const ProgramRun run = golden_.run("accept");
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_TRUE(has(run.out, "+ event locked joint 1")) << run.out;
+  EXPECT_TRUE(has(run.out, "Nothing was changed"));
+  EXPECT_EQ(golden_.snapshot(), before);
+}
+
+TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {
+  const ProgramRun run = golden_.run("accept", {"locked_1"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "+ event locked joint 1")) << run.out;
+  EXPECT_TRUE(has(run.out, "Accepted: locked_1.csv\n"));
+  EXPECT_FALSE(has(run.out, "payload_change"));
+  const ProgramRun check = golden_.run("check");
+  EXPECT_EQ(check.status, 1);
+  EXPECT_TRUE(has(check.out, "6 of 8 as expected, 2 different")) << check.out;
+  EXPECT_EQ(golden_.run("accept", {"identification", "payload_change.csv"}).status, 0);
+  EXPECT_EQ(golden_.run("check").status, 0);
+}
+
+TEST_F(GoldenAccept, AllTakesEverythingAndComesBackToTheCommittedFile) {
+  EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
+  const ProgramRun check = golden_.run("check");
+  EXPECT_EQ(check.status, 0) << check.out;
+  EXPECT_TRUE(has(golden_.run("accept", {"--all"}).out, "There is nothing to accept."));
+}
+
+TEST_F(GoldenAccept, KeepsTolerancesThatAPersonSet) {
+  golden_.edit("onset_s = {absolute = 0.15", "onset_s = {absolute = 0.25");
+  EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
+  EXPECT_TRUE(has(read_file(golden_.toml()), "onset_s = {absolute = 0.25, relative = 0}"));
+}
+
+TEST_F(GoldenAccept, AnInterruptedOneLeavesWhatWasThere) {
+  const std::string before = read_file(golden_.toml());
+  RunOptions options;
+  options.file_size_limit = 4096;  // less than golden.toml: writing fails halfway
+  const ProgramRun run = run_program({"golden", "accept", golden_.path(), "--all"}, options);
+  EXPECT_EQ(run.status, 3) << run.out;
+  EXPECT_EQ(read_file(golden_.toml()), before);
+  EXPECT_EQ(golden_.run("check").status, 1) << "damage would be 3";
+}
+
+TEST_F(GoldenAccept, ReplacesALogThatWasChangedOnPurpose) {
+  const std::string log = golden_.file("logs", "locked_1");
+  const std::string text = read_file(log);
+  write_file(log, text.substr(0, text.rfind('\n', text.size() - 2) + 1));  // a row less
+  EXPECT_EQ(golden_.run("check").status, 3);
+  EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
+  EXPECT_EQ(golden_.run("check").status, 0);
+}
+
+TEST_F(GoldenAccept, RefusesNamesThatAreNotThere) {
+  const ProgramRun run = golden_.run("accept", {"locked_7"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(has(run.err, "collision_1.csv")) << run.err;
+}
+
+TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
+  const std::string model = golden_.outside("new.model");
+  std::string text = read_file(golden_.file("", "model-"));
+  const std::string old_name = std::filesystem::path(golden_.file("", "model-")).filename();
+  write_file(model, text + " ");
+  std::filesystem::copy_file(golden_.file("", "cases-"), model + ".cases.db");
+  EXPECT_EQ(golden_.run("accept", {"locked_1", "--model", model}).status, 2);
+  EXPECT_EQ(golden_.run("accept", {"--all", "--model", model}).status, 0);
+  EXPECT_EQ(golden_.run("check").status, 0);
+  EXPECT_TRUE(has(read_file(golden_.toml()), "name = \"new.model\""));
+  EXPECT_FALSE(std::filesystem::exists(golden_.path() + "/" + old_name)) << "the old model is not needed";
+}
+
+}  // namespace
+}  // namespace faultline
