@@ -22,8 +22,9 @@ PageFigure figure_over(const CurveWindow& window, const std::string& id, const s
 }
 
 void add_curve(PageFigure& figure, const CurveWindow& window, const std::string& name, const std::string& key,
-               const std::vector<float>& values) {
-  if (!values.empty()) figure.curves.push_back({name, key, &window, &values});
+               const std::vector<float>& values, int pen = -1) {
+  if (pen < 0) pen = static_cast<int>(figure.curves.size());
+  if (!values.empty()) figure.curves.push_back({name, key, pen, &window, &values});
 }
 
 PageFigure residual_figure(const CurveWindow& window, const RunCurves& curves,
@@ -53,8 +54,9 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
     PageFigure figure = figure_over(window, id + n, marks);
     figure.caption = fmt::format("Joint {}: {}", n, what);
     figure.y_label = unit;
-    add_curve(figure, window, "measured", id + n, measured.values);
-    add_curve(figure, window, healthy_name, fmt::format("{}{}h", id, n), healthy.values);
+    // What was measured lies on top: where the other shows, they differ.
+    add_curve(figure, window, healthy_name, fmt::format("{}{}h", id, n), healthy.values, 1);
+    add_curve(figure, window, "measured", id + n, measured.values, 0);
     return figure;
   };
   return {pair("q", "position", turns ? "rad" : "m", joint.q, joint.q_foretold, "foretold"),
@@ -70,8 +72,8 @@ PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
   figure.y_label = "log likelihood over a healthy robot, nats";
   for (std::size_t i = 0; i < fault.trace.curves.size(); ++i) {
     const EvidenceCurve& curve = fault.trace.curves[i];
-    figure.curves.push_back({plain_words(curve.label), fmt::format("e{}-{}", fault.id, i), &window, nullptr,
-                             &fault.trace.time, &curve.ratio});
+    figure.curves.push_back({plain_words(curve.label), fmt::format("e{}-{}", fault.id, i),
+                             static_cast<int>(i), &window, nullptr, &fault.trace.time, &curve.ratio});
   }
   figure.limits = {{"alarm threshold", curves.alarm_ratio}};
   double largest = curves.alarm_ratio;

@@ -15,6 +15,7 @@ namespace faultline {
 struct FigureCurve {
   std::string name;
   std::string key;  ///< of the same signal in every window, such as "q1"
+  int pen = 0;      ///< plot_pen(); curves are drawn in their order, later ones on top
   const CurveWindow* window = nullptr;
   const std::vector<float>* values = nullptr;
   const std::vector<double>* times = nullptr;

@@ -81,7 +81,8 @@ Json trace_json(const FaultFinding& fault) {
 
 Json figure_json(const PageFigure& figure) {
   Json curves = Json::array(), limits = Json::array(), marks = Json::array();
-  for (const FigureCurve& curve : figure.curves) curves.push_back({valid_utf8(curve.name), curve.key});
+  for (const FigureCurve& curve : figure.curves)
+    curves.push_back(Json::array({valid_utf8(curve.name), curve.key, curve.pen}));
   for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
   for (const PlotMark& mark : figure.marks) marks.push_back(Json::array({mark.x, mark.text}));
   const Json least = std::isfinite(figure.least_y) ? Json(figure.least_y) : Json(nullptr);

@@ -16,6 +16,13 @@ const faultlinePlots = (() => {
     return size !== 0 && (size >= 1e5 || size < 1e-3) ? value.toExponential(2) : String(+value.toPrecision(4));
   }
 
+  // With as many decimals as tell neighbouring ticks of an axis apart.
+  function tick(value, [low, high]) {
+    if (Math.abs(value) >= 1e6 || high - low < 1e-6) return short(value);
+    const decimals = Math.ceil(-Math.log10((high - low) / 12));
+    return value.toFixed(Math.min(Math.max(decimals, 0), 9)).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
+  }
+
   class Group {
     constructor(fault, figures) {
       this.fault = fault;
@@ -55,20 +62,23 @@ const faultlinePlots = (() => {
       this.group = group;
       this.visible = true;
       this.stale = false;
-      this.rows = rowsOfFigure(figure);
+      this.coarse = rowsOfFigure(figure, false);
+      this.fine = rowsOfFigure(figure, true);
+      this.rows = this.rowsFor(group.range);
       this.live = element.querySelector('.live');
       this.values = element.querySelectorAll('.legend b');
+      this.span = this.valueRange();
       const names = figure.curves.map((c, i) => i + ' ' + c[0]);
       const series = {};
       names.forEach((name, i) => {
-        series[name] = {strokePattern: DASHES[i % 6], strokeWidth: 1.4};
+        series[name] = {strokePattern: DASHES[figure.curves[i][2] % 6], strokeWidth: 1.4};
       });
       this.graph = new Dygraph(this.live, this.rows, Object.assign({
-        labels: ['time'].concat(names), series,  logscale: figure.log,
-        dateWindow: group.range.slice(), valueRange: this.valueRange(), connectSeparatedPoints: false,
+        labels: ['time'].concat(names), series, logscale: figure.log,
+        dateWindow: group.range.slice(), valueRange: this.span, connectSeparatedPoints: false,
         highlightCircleSize: 3, animatedZooms: false, xRangePad: 0, axisLabelFontSize: 12,
-        axes: {x: {axisLabelFormatter: (x) => short(x) + ' s', valueFormatter: (x) => String(x)},
-               y: {axisLabelWidth: 62, axisLabelFormatter: (y) => short(y)}},
+        axes: {x: {axisLabelFormatter: (x) => tick(x, group.range) + ' s', valueFormatter: (x) => String(x)},
+               y: {axisLabelWidth: 62, axisLabelFormatter: (y) => (figure.log ? short(y) : tick(y, this.span))}},
         highlightCallback: (event, x) => group.point(x),
         unhighlightCallback: () => group.unpoint(),
         underlayCallback: (context, area, graph) => this.underlay(context, area, graph),
@@ -85,10 +95,16 @@ const faultlinePlots = (() => {
       this.live.setAttribute('aria-label', this.live.getAttribute('aria-label') + keys);
     }
 
-    // Wide enough for the limits too.
+    // The finer rows around faults are for those who look closely: from afar they would stand out as spikes.
+    rowsFor(range) {
+      const widest = Math.max(0, ...data.windows.slice(1).map((w) => w.to - w.from));
+      return range[1] - range[0] > 10 * widest ? this.coarse : this.fine;
+    }
+
+    // Of all rows, so that zooming does not change it; wide enough for the limits too.
     valueRange() {
       let low = Infinity, high = -Infinity;
-      for (const row of this.rows)
+      for (const row of this.fine)
         for (let i = 1; i < row.length; ++i) {
           if (!(this.figure.log ? row[i] > 0 : isFinite(row[i])) || row[i] === null) continue;
           low = Math.min(low, row[i]);
@@ -103,7 +119,7 @@ const faultlinePlots = (() => {
     }
 
     colours() {
-      return {colors: this.figure.curves.map((c, i) => colour('--pen' + i % 6)), gridLineColor: colour('--grid'),
+      return {colors: this.figure.curves.map((c) => colour('--pen' + c[2] % 6)), gridLineColor: colour('--grid'),
               axisLabelColor: colour('--soft'),
               axisLineColor: colour('--line')};
     }
@@ -148,8 +164,11 @@ const faultlinePlots = (() => {
       if (this.stale) return;
       const now = this.graph.xAxisRange();
       this.live.dataset.range = range.join(' ');
-      if (now[0] !== range[0] || now[1] !== range[1])
-        this.graph.updateOptions({dateWindow: range.slice(), valueRange: this.valueRange()});
+      if (now[0] === range[0] && now[1] === range[1]) return;
+      const options = {dateWindow: range.slice(), valueRange: this.span};
+      const rows = this.rowsFor(range);
+      if (rows !== this.rows) options.file = this.rows = rows;
+      this.graph.updateOptions(options);
     }
 
     // Moving a plot by hand moves the others of its group.

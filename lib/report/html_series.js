@@ -36,14 +36,14 @@ const faultlineSeries = (() => {
     return rows;
   }
 
-  // The whole run, with the finer rows of the windows around faults in their places.
-  function rowsOfFigure(figure) {
+  // The whole run; with `closely`, the finer rows of the windows around faults in their places.
+  function rowsOfFigure(figure, closely) {
     const keys = figure.curves.map((c) => c[1]);
     const trace = data.traces.find((t) => keys[0] in t.keys);
     if (trace) return rowsOf(trace, keys);
     const parts = data.windows.filter((w) => keys[0] in w.keys);
-    const fine = parts.filter((w) => w.fault > 0);
     const coarse = parts.filter((w) => w.fault === 0);
+    const fine = parts.filter((w) => w.fault > 0 && (closely || coarse.length === 0));
     let rows = [];
     let end = -Infinity;
     for (const part of fine) {

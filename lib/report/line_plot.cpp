@@ -82,6 +82,11 @@ std::string grid(const Frame& f, const PlotAxis& x, const PlotAxis& y) {
   return svg;
 }
 
+PlotPen pen_of(const PlotPanel& panel, std::size_t i) {
+  const int pen = panel.series[i].pen;
+  return plot_pen(pen < 0 ? i : static_cast<std::size_t>(pen));
+}
+
 std::string legend(const PlotPanel& panel, const Frame& f) {
   std::string svg;
   double at = f.left + 2.0;
@@ -91,7 +96,7 @@ std::string legend(const PlotPanel& panel, const Frame& f) {
     svg += fmt::format(
         "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" {}/><text x=\"{:.1f}\" y=\"{:.1f}\">{}"
         "</text>\n",
-        at, at + 26.0, f.top - 8.0, f.top - 8.0, stroke(plot_pen(i)), at + 31.0, f.top - 4.0,
+        at, at + 26.0, f.top - 8.0, f.top - 8.0, stroke(pen_of(panel, i)), at + 31.0, f.top - 4.0,
         escaped_markup(name));
     at += 46.0 + 6.6 * static_cast<double>(name.size());
   }
@@ -147,8 +152,8 @@ std::string panel_svg(const LinePlot& plot, std::size_t number, const Frame& f, 
       "</clipPath>\n<g clip-path=\"url(#{5}panel{0})\">\n",
       number, f.left, f.top, f.right - f.left, f.bottom - f.top, plot.id);
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    svg += fmt::format("<path d=\"{}\" {}/>\n", path_of(panel.series[i], x, y), stroke(plot_pen(i)));
-    if (panel.series[i].points) svg += points_of(panel.series[i], x, y, plot_pen(i)) + "\n";
+    svg += fmt::format("<path d=\"{}\" {}/>\n", path_of(panel.series[i], x, y), stroke(pen_of(panel, i)));
+    if (panel.series[i].points) svg += points_of(panel.series[i], x, y, pen_of(panel, i)) + "\n";
   }
   svg += "</g>\n" + marks(plot, f, x, number == 0);
   svg +=

@@ -15,6 +15,7 @@ struct PlotSeries {
   std::vector<double> x, y;
   bool points = false;  ///< marks at the samples besides the line
   bool stairs = false;  ///< holds each value until the next sample
+  int pen = -1;         ///< number of its pen; -1: its place in the panel
 };
 
 /// A vertical line with a word on it, such as the onset of a fault.

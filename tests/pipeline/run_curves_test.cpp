@@ -69,6 +69,19 @@ TEST(RunCurves, ExtremesStandInTheOrderInWhichTheyCame) {
   EXPECT_TRUE(std::isnan(values[4]) && std::isnan(values[5]));
 }
 
+TEST(RunCurves, AJitteringClockLeavesNoGapsButMissingValuesAndLongGapsDo) {
+  EnvelopeBuilder builder(8);
+  builder.add(0, 1.0);
+  builder.add(2, 2.0);  // nothing fell into bin 1
+  builder.add(3, std::nan(""));
+  builder.add(4, 3.0);
+  builder.add(7, 4.0);  // nor into 5 and 6
+  const std::vector<float> values = builder.envelope().values;
+  EXPECT_EQ(values[2], 1.0f);
+  EXPECT_EQ(values[3], 1.0f);
+  for (const int bin : {3, 5}) EXPECT_TRUE(std::isnan(values[2 * bin])) << bin;
+}
+
 void detail_lies_around_the_fault_and_holds_both_networks() {
   MemorySource source(free_swinging_run(), "run.csv");
   const Diagnosis d = diagnose(source, learned().model, learned().cases);
