@@ -143,17 +143,19 @@ const faultlinePlots = (() => {
       context.font = '12px sans-serif';
       const marks = this.figure.marks.map(([time, text]) => [graph.toDomXCoord(time), text])
         .filter(([x]) => x >= area.x && x <= area.x + area.w);
+      let taken = -Infinity;
       marks.forEach(([x, text], i) => {
         context.beginPath();
         context.moveTo(x, area.y);
         context.lineTo(x, area.y + area.h);
         context.stroke();
-        // A word that would reach into the next line stands on the other side.
+        // A word that would reach into the next line stands on the other side, or below without room there.
         const width = context.measureText(text).width + 8;
         const next = i + 1 < marks.length ? marks[i + 1][0] : area.x + area.w;
         const left = next - x < width && x - area.x > width;
         context.textAlign = left ? 'right' : 'left';
-        context.fillText(text, left ? x - 4 : x + 4, area.y + 13);
+        context.fillText(text, left ? x - 4 : x + 4, area.y + (!left && x < taken ? 27 : 13));
+        if (!left && x >= taken) taken = x + width;
       });
       context.restore();
     }

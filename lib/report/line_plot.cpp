@@ -103,17 +103,31 @@ std::string legend(const PlotPanel& panel, const Frame& f) {
   return svg;
 }
 
-/// The word at a mark; it stands on the other side when it would reach into the next mark.
-std::string mark_text(const PlotMark& mark, const Frame& f, const PlotAxis& x, double next_px) {
-  const double px = x.px(mark.x), width = 8.0 + 6.6 * static_cast<double>(mark.text.size());
-  const bool left = next_px - px < width && px - f.left > width;
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#b3261e\"{}>{}</text>\n",
-                     px + (left ? -5.0 : 5.0), f.top + 14.0, left ? " text-anchor=\"end\"" : "",
-                     escaped_markup(mark.text));
-}
+/// The words at marks: on the other side when they would reach into the next mark, or below without room
+/// there.
+class MarkWords {
+ public:
+  MarkWords(const Frame& frame, const PlotAxis& x) : frame_(frame), x_(x) {}
+
+  std::string at(const PlotMark& mark, double next_px) {
+    const double px = x_.px(mark.x), width = 8.0 + 6.6 * static_cast<double>(mark.text.size());
+    const bool left = next_px - px < width && px - frame_.left > width;
+    const bool below = !left && px < taken_px_;
+    if (!left && !below) taken_px_ = px + width;
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#b3261e\"{}>{}</text>\n",
+                       px + (left ? -5.0 : 5.0), frame_.top + (below ? 28.0 : 14.0),
+                       left ? " text-anchor=\"end\"" : "", escaped_markup(mark.text));
+  }
+
+ private:
+  const Frame& frame_;
+  const PlotAxis& x_;
+  double taken_px_ = -1e9;
+};
 
 std::string marks(const LinePlot& plot, const Frame& f, const PlotAxis& x, bool with_text) {
   std::string svg;
+  MarkWords words(f, x);
   for (std::size_t i = 0; i < plot.marks.size(); ++i) {
     const PlotMark& mark = plot.marks[i];
     if (!(mark.x >= x.low && mark.x <= x.high)) continue;
@@ -122,7 +136,7 @@ std::string marks(const LinePlot& plot, const Frame& f, const PlotAxis& x, bool 
         "stroke-dasharray=\"5 3\"/>\n",
         x.px(mark.x), f.top, f.bottom);
     const bool last = i + 1 == plot.marks.size() || plot.marks[i + 1].x > x.high;
-    if (with_text) svg += mark_text(mark, f, x, last ? f.right : x.px(plot.marks[i + 1].x));
+    if (with_text) svg += words.at(mark, last ? f.right : x.px(plot.marks[i + 1].x));
   }
   return svg;
 }

@@ -61,6 +61,26 @@ TEST(LinePlot, hostile_names_are_text) {
   EXPECT_EQ(count(svg, "<i>"), 0u);
 }
 
+TEST(LinePlot, words_at_close_marks_do_not_overlap) {
+  LinePlot plot = one_curve({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  plot.marks = {{5.0, "onset"}, {5.1, "alarm"}};
+  EXPECT_EQ(count(render_svg(plot), "text-anchor=\"end\">onset<"), 1u);
+  plot.marks = {{0.0, "onset"}, {0.1, "alarm"}};
+  const std::string svg = render_svg(plot);
+  auto height_of = [&](const std::string& word) {
+    const std::size_t end = svg.find(">" + word + "<"), from = svg.rfind(" y=\"", end);
+    return std::stod(svg.substr(from + 4));
+  };
+  EXPECT_GT(height_of("alarm"), height_of("onset") + 10.0);
+}
+
+TEST(LinePlot, plots_on_one_page_have_names_of_their_own) {
+  LinePlot plot = one_curve({1, 2});
+  plot.id = "first-";
+  EXPECT_EQ(count(render_svg(plot), "id=\"first-panel0\""), 1u);
+  EXPECT_EQ(count(render_svg(plot), "url(#first-panel0)"), 1u);
+}
+
 TEST(LinePlot, an_empty_panel_and_a_constant_curve_still_draw) {
   LinePlot plot = one_curve({});
   EXPECT_EQ(count(render_svg(plot), "nan"), 0u);
