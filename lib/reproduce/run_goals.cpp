@@ -58,10 +58,11 @@ void add_row(std::vector<Goal>& goals, const Bounds& bounds, const char* detecto
 }
 
 constexpr const char* kWhyNotBetter =
-    R"(The interval does not exclude 0, or lies above it. Nearly every fault is found by all of these detectors, so that the
-delay is what is left to gain, and each detector's threshold, chosen by itself on some hours, moves that by about as
-much. The likely reason, not measured: both networks see the same residual of the same sample, so that little is left
-for cases to settle. The table dual_held has every difference.)";
+    R"(The interval does not lie below 0. Summing log odds already removes single wrong samples, so that each network alone
+has next to no false alarms, and after the onset both name the same class in 96 to 97 % of the samples (measured by
+faultline_agreement_bench): little is left for cases to settle. Where one network is slow, as the RBFN at noise 0.1,
+asking it costs the faster one some of its lead; an average hears both at every sample. All of this is within some tens
+of milliseconds, and a sample is 73 ms. The table dual_held has every difference.)";
 
 /// Upper ends of the intervals: below zero, cases are proven to be faster.
 void add_dual(std::vector<Goal>& goals, const ControllerResults& held) {

@@ -21,7 +21,9 @@ void expect_orders_of_magnitude(const Json& goals) {
   EXPECT_GE(goals.size(), 12u);
   for (const Json& goal : goals) {
     const double measured = goal["measured"]["mean"], bound = goal["bound"];
-    if (goal["at_most"].get<bool>())
+    if (bound == 0.0)  // false alarms, and seconds that cases gain: few runs tell little
+      EXPECT_LE(measured, 2.0) << goal["what"];
+    else if (goal["at_most"].get<bool>())
       EXPECT_LE(measured, 10.0 * bound) << goal["what"];
     else
       EXPECT_GE(measured, 0.9 * bound) << goal["what"];
