@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace faultline {
@@ -38,6 +39,33 @@ ChannelCheck check(const std::vector<double>& expected, const std::vector<double
   return found;
 }
 
+/// The first point, by time, that only one trace has.
+struct LonePoint {
+  double time_s = std::numeric_limits<double>::infinity();
+  bool is_expected = false;
+};
+
+LonePoint first_lone_point(const Trace& expected, const Trace& actual,
+                           const std::vector<std::pair<int, int>>& points) {
+  std::size_t k = 0;
+  while (k < points.size() && points[k] == std::pair(static_cast<int>(k), static_cast<int>(k))) ++k;
+  LonePoint lone;
+  if (k < expected.time.size()) lone = {expected.time[k], true};
+  if (k < actual.time.size() && actual.time[k] < lone.time_s) lone = {actual.time[k], false};
+  return lone;
+}
+
+void compare_times(const Trace& expected, const Trace& actual, const std::vector<std::pair<int, int>>& points,
+                   Comparison& comparison) {
+  if (points.size() == expected.time.size() && points.size() == actual.time.size()) return;
+  const LonePoint lone = first_lone_point(expected, actual, points);
+  const std::string there = fmt::format("a sample at {} s", lone.time_s);
+  const std::string expected_text = lone.is_expected ? there : "",
+                    actual_text = lone.is_expected ? "" : there;
+  comparison.differences.push_back({"t", lone.time_s, expected_text, actual_text, {}});
+  comparison.lines.push_back({expected_text, actual_text, true});
+}
+
 std::string value(double number) { return fmt::format("{:.6g}", number); }
 
 }  // namespace
@@ -45,6 +73,7 @@ std::string value(double number) { return fmt::format("{:.6g}", number); }
 void compare_traces(const Trace& expected, const Trace& actual, const ToleranceChain& tolerances,
                     Comparison& comparison) {
   const auto points = common_points(expected, actual);
+  if (!length_may_differ(tolerances)) compare_times(expected, actual, points, comparison);
   for (std::size_t c = 0; c < expected.channels.size(); ++c) {
     const std::string& channel = expected.channels[c];
     const auto same = std::find(actual.channels.begin(), actual.channels.end(), channel);

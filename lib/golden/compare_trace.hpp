@@ -6,7 +6,7 @@
 namespace faultline {
 
 /// Compares what was foretold at the same times, channel by channel: of each that differs, the first time and
-/// both values. Points that only one trace has are left to the comparison of lengths.
+/// both values. The first time that only one trace has is a difference unless the length may differ.
 void compare_traces(const Trace& expected, const Trace& actual, const ToleranceChain& tolerances,
                     Comparison& comparison);
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Observation example() {
+  Observation o;
+  o.verdict = "faulty";
+  o.rows = 4;
+  o.events = {{{FaultKind::locked, 2}, 1.0, 1.1, 2.0, 0.9}, {{FaultKind::collision, 1}, 3.0, 3.1, 3.2, 0.8}};
+  o.residuals = {{1, 1.0, 4.0, 1.5, 1.2}, {2, kNan, kNan, kNan, kNan}};
+  o.trace = {{"q1", "dq1"}, {0.1, 0.2, 0.3}, {{1.0, 2.0, kNan}, {0.5, 0.5, 0.5}}};
+  return o;
+}
+
+ToleranceChain none() { return {}; }
+
+TEST(GoldenTolerance, IsAbsolutePlusRelative) {
+  const Tolerance t{0.1, 0.01};
+  EXPECT_TRUE(t.agree(10.0, 10.199));
+  EXPECT_FALSE(t.agree(10.0, 10.201));
+  EXPECT_TRUE(t.agree(-10.0, -9.801));
+  EXPECT_FALSE(Tolerance{}.agree(1.0, std::nextafter(1.0, 2.0)));
+}
+
+TEST(GoldenTolerance, NanEqualsNanOnly) {
+  const Tolerance wide{1e9, 1e9};
+  EXPECT_TRUE(wide.agree(kNan, kNan));
+  EXPECT_FALSE(wide.agree(kNan, 0.0));
+  EXPECT_FALSE(wide.agree(0.0, kNan));
+  EXPECT_TRUE(wide.agree(INFINITY, INFINITY));
+  EXPECT_FALSE(wide.agree(INFINITY, -INFINITY));
+  EXPECT_FALSE(wide.agree(INFINITY, 1.0));
+}
+
+TEST(GoldenTolerance, TheNearestTableDecidesAndTheChannelGoesBeforeItsFamily) {
+  Tolerances log, all;
+  all.by_channel = {{"dq2", {0.2, 0}}, {"dq", {0.1, 0}}, {"q", {0.3, 0}}};
+  log.by_channel = {{"dq", {0.5, 0}}};
+  EXPECT_EQ(tolerance_of({&all}, "dq2", "dq").absolute, 0.2);
+  EXPECT_EQ(tolerance_of({&all}, "dq1", "dq").absolute, 0.1);
+  EXPECT_EQ(tolerance_of({&log, &all}, "dq2", "dq").absolute, 0.5);
+  EXPECT_EQ(tolerance_of({&log, &all}, "q2", "q").absolute, 0.3);
+  EXPECT_EQ(tolerance_of({}, "q2", "q").absolute, 0.0);
+}
+
+TEST(GoldenComparison, TheSameIsTheSameAlsoWhereItIsNan) {
+  EXPECT_TRUE(compare(example(), example(), none()).same());
+  EXPECT_EQ(first_divergence(compare(example(), example(), none())), nullptr);
+}
+
+TEST(GoldenComparison, NanForANumberIsADifferenceInEachPlace) {
+  for (int place = 0; place < 4; ++place) {
+    Observation actual = example();
+    if (place == 0) actual.residuals[0].velocity_rms = kNan;
+    if (place == 1) actual.residuals[1].position_rms = 1.0;
+    if (place == 2) actual.trace.values[0][2] = 1.0;
+    if (place == 3) actual.events[0].end_s = kNan;
+    const Comparison found = compare(example(), actual, none());
+    EXPECT_EQ(found.differences.size(), 1u) << place;
+  }
+}
+
+TEST(GoldenComparison, AnotherNumberOfRowsDiffersUnlessToldSo) {
+  Observation longer = example();
+  longer.rows = 5;
+  longer.trace.time.insert(longer.trace.time.begin(), 0.05);
+  for (auto& values : longer.trace.values) values.insert(values.begin(), 9.0);
+  Comparison found = compare(example(), longer, none());
+  ASSERT_EQ(found.differences.size(), 2u);
+  EXPECT_EQ(found.differences[0].channel, "rows");
+  EXPECT_EQ(found.differences[1].channel, "t");
+  EXPECT_EQ(found.differences[1].time_s, 0.05);
+  EXPECT_EQ(found.differences[1].actual, "a sample at 0.05 s");
+  Tolerances allow;
+  allow.length_may_differ = true;
+  EXPECT_TRUE(compare(example(), longer, {&allow}).same());
+  longer.trace.values[1][3] = 0.7;  // still compared where both have a time
+  found = compare(example(), longer, {&allow});
+  ASSERT_EQ(found.differences.size(), 1u);
+  EXPECT_EQ(found.differences[0].channel, "dq1");
+  EXPECT_EQ(found.differences[0].time_s, 0.3);
+}
+
+TEST(GoldenComparison, TheSameRowsAtOtherTimesAreADifference) {
+  Observation shifted = example();
+  for (double& t : shifted.trace.time) t += 0.01;
+  const Comparison found = compare(example(), shifted, none());
+  ASSERT_EQ(found.differences.size(), 1u);
+  EXPECT_EQ(found.differences[0].expected, "a sample at 0.1 s");
+}
+
+TEST(GoldenComparison, EventsAreTheSameInAnyOrder) {
+  Observation swapped = example();
+  std::swap(swapped.events[0], swapped.events[1]);
+  EXPECT_TRUE(compare(example(), swapped, none()).same());
+}
+
+TEST(GoldenComparison, TheFirstDivergenceIsTheEarliest) {
+  Observation actual = example();
+  actual.events[1].onset_s = 2.9;
+  actual.trace.values[1][1] = 0.6;
+  const Comparison found = compare(example(), actual, none());
+  const Difference* first = first_divergence(found);
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->channel, "dq1");
+  EXPECT_EQ(first->time_s, 0.2);
+  EXPECT_EQ(first->actual, "0.6");
+  EXPECT_EQ(first->expected, "0.5");
+}
+
+TEST(GoldenComparison, MissingAndUnexpectedEventsAndAChangedTime) {
+  Observation actual = example();
+  actual.events[0].label.joint = 3;
+  actual.events[1].alarm_s = 3.15;
+  const Comparison found = compare(example(), actual, none());
+  ASSERT_EQ(found.differences.size(), 3u);
+  EXPECT_EQ(found.differences[0].expected, "locked joint 2");
+  EXPECT_EQ(found.differences[1].channel, "alarm_s");
+  EXPECT_EQ(found.differences[2].actual, "locked joint 3");
+}
+
+TEST(GoldenComparison, ALogThatCannotBeProcessedAnyMoreDiffersAndSaysWhy) {
+  Observation unusable;
+  unusable.verdict = kUnusable;
+  unusable.reason = "has no time";
+  const Comparison found = compare(example(), unusable, none());
+  ASSERT_EQ(found.differences.size(), 1u);
+  EXPECT_NE(found.lines.back().actual.find("has no time"), std::string::npos);
+}
+
+TEST(GoldenComparison, ParametersAreComparedByName) {
+  const ObservedIdentification expected{
+      "converged", "weak_form", {{"m1", 1.0, 0.1, "kg"}, {"l2", 2.0, kNan, "m"}}, ""};
+  ObservedIdentification actual = expected;
+  std::swap(actual.parameters[0], actual.parameters[1]);
+  EXPECT_TRUE(compare(expected, actual, none()).same());
+  actual.parameters[1].value = 1.01;
+  EXPECT_EQ(first_divergence(compare(expected, actual, none()))->channel, "m1");
+  Tolerances allow;
+  allow.by_channel["parameter"] = {0.0, 0.02};
+  EXPECT_TRUE(compare(expected, actual, {&allow}).same());
+  actual.parameters.pop_back();
+  EXPECT_FALSE(compare(expected, actual, {&allow}).same());
+}
+
+}  // namespace
+}  // namespace faultline

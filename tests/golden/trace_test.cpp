@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "lib/golden/trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/open_log.hpp"
+#include "lib/core/error.hpp"
+#include "lib/golden/golden_folder.hpp"
+#include "lib/log/memory_source.hpp"
+#include "lib/residual/residuals.hpp"
+
+namespace faultline {
+namespace {
+
+const std::string kFolder = FAULTLINE_SOURCE_DIR "/sample_logs/golden";
+
+class GoldenTrace : public testing::Test {
+ protected:
+  GoldenTrace() : model_(load_golden_model(kFolder, load_golden(kFolder)).model) {
+    log_ = read_all(*open_log(kFolder + "/logs/healthy_quintic.csv"));
+  }
+
+  Trace trace(int max_points, int segment_rows) const {
+    MemorySource source(log_, "memory", segment_rows);
+    TraceTap tap(source, model_.residual, max_points);
+    Log passed;
+    for (Log segment; tap.next(segment);) append(passed, segment);
+    EXPECT_EQ(passed.q, log_.q) << "the log itself must pass as it is";
+    return tap.trace();
+  }
+
+  Model model_;
+  Log log_;
+};
+
+TEST_F(GoldenTrace, IsWhatWasMeasuredLessTheResidual) {
+  const Trace whole = trace(500, 4096);
+  ASSERT_EQ(whole.points(), log_.rows() - 1);
+  EXPECT_EQ(whole.channels, (std::vector<std::string>{"q1", "q2", "q3", "dq1", "dq2", "dq3"}));
+  ResidualState state;
+  const Residuals residuals = compute_residuals(model_.residual, log_, state);
+  for (int i = 0; i < whole.points(); ++i)
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_EQ(whole.time[i], log_.time[i + 1]);
+      const double residual = residuals.velocity(j, i) * model_.residual.healthy.velocity_rms[j];
+      EXPECT_NEAR(whole.values[3 + j][i], log_.dq[j][i + 1] - residual, 1e-12);
+    }
+}
+
+TEST_F(GoldenTrace, DoesNotDependOnSegments) {
+  for (const int points : {500, 60}) {
+    const std::string text = trace_to_csv(trace(points, 4096));
+    EXPECT_EQ(text, trace_to_csv(trace(points, 1)));
+    EXPECT_EQ(text, trace_to_csv(trace(points, 37)));
+  }
+}
+
+TEST_F(GoldenTrace, OfALongLogHoldsEveryEighthPoint) {
+  const Trace whole = trace(500, 4096), few = trace(50, 4096);
+  ASSERT_EQ(few.points(), (whole.points() + 7) / 8);
+  for (int i = 0; i < few.points(); ++i) {
+    EXPECT_EQ(few.time[i], whole.time[8 * i]);
+    EXPECT_EQ(few.values[5][i], whole.values[5][8 * i]);
+  }
+}
+
+TEST_F(GoldenTrace, StartsAgainAfterRewind) {
+  MemorySource source(log_);
+  TraceTap tap(source, model_.residual, 500);
+  Log segment;
+  while (tap.next(segment)) {
+  }
+  const std::string first = trace_to_csv(tap.trace());
+  tap.rewind();
+  while (tap.next(segment)) {
+  }
+  EXPECT_EQ(trace_to_csv(tap.trace()), first);
+}
+
+TEST(GoldenTraceFile, ComesBackWithNanAndTimesInFull) {
+  const Trace trace{{"q1", "dq1"}, {0.1 + 0.2, 1763710000.073}, {{1.0 / 3.0, NAN}, {-1e-12, 2.0}}};
+  const Trace read = trace_from_csv(trace_to_csv(trace), "a.csv");
+  EXPECT_EQ(read.channels, trace.channels);
+  EXPECT_EQ(read.time, trace.time);
+  EXPECT_NEAR(read.values[0][0], 1.0 / 3.0, 1e-9);
+  EXPECT_TRUE(std::isnan(read.values[0][1]));
+  EXPECT_EQ(read.values[1], trace.values[1]);
+}
+
+TEST(GoldenTraceFile, DamageIsNamedWithItsLine) {
+  for (const char* text : {"", "q1\n1\n", "t,q1\n0.1,1\n0.2\n", "t,q1\n0.1,x\n", "t,q1\n0.1,1,2\n"}) {
+    try {
+      trace_from_csv(text, "a.csv");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input);
+      EXPECT_NE(error.where().find("a.csv, line "), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace faultline
