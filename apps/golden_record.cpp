@@ -31,8 +31,8 @@ std::string recorded_text(const Recorded& recorded, const std::string& folder) {
                         recorded.set.identification->logs.size());
   else
     text += "identification: none, " + printable(recorded.no_identification) + "\n";
-  return text + fmt::format("Recorded {} logs in {}. Look at golden.toml, then commit the folder.\n",
-                            recorded.set.logs.size(), printable(folder));
+  return text + fmt::format("Recorded {} logs. Look at {}, then commit the folder.\n",
+                            recorded.set.logs.size(), printable(golden_file(folder)));
 }
 
 int run_record(const RecordArguments& arguments, ColorChoice color) {
