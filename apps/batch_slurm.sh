@@ -17,18 +17,19 @@ set -euo pipefail
 faultline=${FAULTLINE:-faultline}
 : "${OUT:?set OUT to the folder for the results}" "${PARTS:?set PARTS to the number of tasks}"
 
-# Faults found (1) and unusable logs (3, a row each) are results; a task with them has not failed. That a part was not
-# finished tells merge.
+# Faults found (1) and unusable logs (3, a row each) are results: a task with them has not failed when it is finished.
 accept() { [ "$1" -eq 0 ] || [ "$1" -eq 1 ] || [ "$1" -eq 3 ]; }
 
 status=0
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
+  rm -f "$OUT/part-$SLURM_ARRAY_TASK_ID/.batch/finished.json"
   # shellcheck disable=SC2086
   "$faultline" batch ${LOGS:?set LOGS to files or folders} --model "${MODEL:?set MODEL}" \
     -o "$OUT/part-$SLURM_ARRAY_TASK_ID" --shard "$SLURM_ARRAY_TASK_ID/$PARTS" \
     --threads "${SLURM_CPUS_PER_TASK:-1}" --wait ${BATCH_OPTIONS:-} || status=$?
   accept $status && [ -f "$OUT/part-$SLURM_ARRAY_TASK_ID/.batch/finished.json" ]
 else
+  rm -f "$OUT/all/.batch/finished.json"
   parts=()
   for i in $(seq "$PARTS"); do parts+=("$OUT/part-$i"); done
   "$faultline" batch merge "${parts[@]}" -o "$OUT/all" || status=$?

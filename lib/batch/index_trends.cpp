@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "lib/batch/index_table.hpp"
+#include "lib/report/layout.hpp"
 #include "lib/report/line_plot.hpp"
 
 namespace faultline {
@@ -13,6 +15,7 @@ namespace {
 constexpr std::size_t kPoints = 300;  // of a curve, at most
 constexpr double kEpoch = 1e9;        // a start time above it is seconds since 1970
 constexpr int kJoints = 6;            // curves in one panel
+constexpr std::size_t kFolders = 6;   // likewise
 
 bool is_judged(const BatchRow& row) { return row.verdict == "healthy" || row.verdict == "faulty"; }
 
@@ -51,6 +54,19 @@ double nth(const std::vector<double>& values, int i) {
   return i < std::ssize(values) ? values[static_cast<std::size_t>(i)] : std::nan("");
 }
 
+/// Residual level by folder, on the same axis as the other panels; only for a few folders.
+PlotPanel folder_panel(const std::vector<const BatchRow*>& judged) {
+  PlotPanel panel{"residual by folder", {}, true};
+  std::set<std::string> folders;
+  for (const BatchRow* row : judged) folders.insert(folder_of(*row));
+  if (folders.size() < 2 || folders.size() > kFolders) return panel;
+  for (const std::string& folder : folders)
+    panel.series.push_back(curve(
+        printable(folder.empty() ? "(files)" : folder), judged, false,
+        [&](const BatchRow& row) { return folder_of(row) == folder ? residual_level(row) : std::nan(""); }));
+  return panel;
+}
+
 }  // namespace
 
 std::string index_trends(const std::vector<BatchRow>& rows) {
@@ -70,6 +86,7 @@ std::string index_trends(const std::vector<BatchRow>& rows) {
   plot.title = "Residual level and faults from log to log";
   plot.x_label = by_time ? "judged logs in the order of their start" : "judged logs in the order of names";
   plot.panels = {residual, faults};
+  if (const PlotPanel folders = folder_panel(judged); !folders.series.empty()) plot.panels.push_back(folders);
   plot.id = "trends";
   return "<h2>Trends</h2>\n<figure>" + render_svg(plot) + "</figure>\n";
 }
