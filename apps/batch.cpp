@@ -117,6 +117,8 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
       ->type_name("DIR");
   command.add_option("--cases", arguments.cases, "Case base, MODEL.cases.db by default")->type_name("FILE");
   command.add_flag("--html", arguments.options.html, "A page for each log, too");
+  command.add_flag("--identify", arguments.options.identify,
+                   "Identify the robot from each healthy log alone, and show the trend of its parameters");
   command.add_option("--json", arguments.json, "Write the summary as JSON; - for standard output")
       ->type_name("F");
   command.add_option("--threads", arguments.options.threads, "Logs at once; 0 = one a core")

@@ -21,6 +21,13 @@ struct BatchFault {
 };
 
 /// One log in an index: what a list of runs shows of its diagnosis, or why there is none.
+/// What the healthy robot's parameters were in one log.
+struct BatchParameter {
+  std::string name;  ///< of ParameterEstimate
+  double value = 0.0;
+  double std = 0.0;
+};
+
 struct BatchRow {
   std::string log;      ///< BatchLog::name, as valid UTF-8
   std::string sha256;   ///< empty when the log could not be read
@@ -33,10 +40,11 @@ struct BatchRow {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
-  int warnings = 0, severe = 0;       ///< kinds of issues of the log
-  std::vector<double> residual_rms;   ///< velocity, by joint, 1 = healthy (JointResidualSummary)
-  std::vector<double> residual_peak;  ///< likewise
-  std::vector<BatchFault> faults;     ///< by onset
+  int warnings = 0, severe = 0;            ///< kinds of issues of the log
+  std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidualSummary)
+  std::vector<double> residual_peak;       ///< likewise
+  std::vector<BatchFault> faults;          ///< by onset
+  std::vector<BatchParameter> parameters;  ///< identified from this log alone, when asked for and healthy
 };
 
 BatchRow row_of(const Diagnosis& diagnosis);

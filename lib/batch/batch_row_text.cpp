@@ -47,6 +47,13 @@ BatchFault fault_from(const Json& json) {
           number_in(json.at("confidence"))};
 }
 
+Json parameters_json(const std::vector<BatchParameter>& parameters) {
+  Json json = Json::object();
+  for (const BatchParameter& p : parameters)
+    json[p.name] = {{"value", number(p.value)}, {"std", number(p.std)}};
+  return json;
+}
+
 Json report_json(const BatchRow& row) {
   return row.result.empty() ? Json(nullptr) : Json("logs/" + row.result + ".json");
 }
@@ -92,7 +99,8 @@ std::string to_json_line(const BatchRow& row) {
                      {"warnings", row.warnings},
                      {"severe", row.severe},
                      {"residual_rms", numbers(row.residual_rms)},
-                     {"residual_peak", numbers(row.residual_peak)}};
+                     {"residual_peak", numbers(row.residual_peak)},
+                     {"parameters", parameters_json(row.parameters)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -116,6 +124,8 @@ BatchRow row_from_json(const std::string& line) {
   row.severe = json.at("severe").get<int>();
   row.residual_rms = numbers_in(json.at("residual_rms"));
   row.residual_peak = numbers_in(json.at("residual_peak"));
+  for (const auto& [name, p] : json.at("parameters").items())
+    row.parameters.push_back({name, number_in(p.at("value")), number_in(p.at("std"))});
   return row;
 }
 

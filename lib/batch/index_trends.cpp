@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "lib/batch/index_table.hpp"
@@ -67,6 +68,38 @@ PlotPanel folder_panel(const std::vector<const BatchRow*>& judged) {
   return panel;
 }
 
+double parameter_in(const BatchRow& row, const std::string& name) {
+  for (const BatchParameter& p : row.parameters)
+    if (p.name == name) return p.value;
+  return std::nan("");
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Parameters of inertia and friction as changes from their median over all logs; those near zero have no
+/// such share and are left out.
+PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
+  PlotPanel panel{"parameter, % from median", {}};
+  std::map<std::string, std::vector<double>> found;
+  std::vector<std::string> names;
+  for (const BatchRow* row : judged)
+    for (const BatchParameter& p : row->parameters) {
+      if (found[p.name].empty()) names.push_back(p.name);
+      if (std::abs(p.value) > 3.0 * p.std) found[p.name].push_back(p.value);
+    }
+  for (const std::string& name : names) {
+    if (found[name].size() < 2 || panel.series.size() == static_cast<std::size_t>(kJoints)) continue;
+    const double usual = median(found[name]);
+    panel.series.push_back(curve(printable(name), judged, false, [&](const BatchRow& row) {
+      return 100.0 * (parameter_in(row, name) / usual - 1.0);
+    }));
+  }
+  return panel;
+}
+
 }  // namespace
 
 std::string index_trends(const std::vector<BatchRow>& rows) {
@@ -87,6 +120,8 @@ std::string index_trends(const std::vector<BatchRow>& rows) {
   plot.x_label = by_time ? "judged logs in the order of their start" : "judged logs in the order of names";
   plot.panels = {residual, faults};
   if (const PlotPanel folders = folder_panel(judged); !folders.series.empty()) plot.panels.push_back(folders);
+  if (PlotPanel parameters = parameter_panel(judged); !parameters.series.empty())
+    plot.panels.push_back(std::move(parameters));
   plot.id = "trends";
   return "<h2>Trends</h2>\n<figure>" + render_svg(plot) + "</figure>\n";
 }

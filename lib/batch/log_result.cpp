@@ -7,6 +7,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/identify/identify.hpp"
 #include "lib/pipeline/report_details.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
@@ -24,6 +25,25 @@ std::string joined(const std::string& a, const std::string& b) {
 std::string render_page(LogSource& log, const Model& model, const Diagnosis& diagnosis,
                         const DiagnoseOptions& options) {
   return render_html(diagnosis, report_details(log, model, diagnosis, options));
+}
+
+/// From this log alone, on one thread and a limited number of rows: quick, and precise enough for a trend.
+/// None where the log does not suffice.
+std::vector<BatchParameter> parameters_in(LogSource& log, const Robot& robot) {
+  IdentifyOptions options;
+  options.threads = 1;
+  options.max_rows = 4000;
+  options.max_iterations = 12;
+  std::vector<BatchParameter> parameters;
+  LogSource* const logs[] = {&log};
+  log.rewind();
+  try {
+    for (const ParameterEstimate& p : identify(logs, robot, options).base_parameters)
+      if (p.identifiable) parameters.push_back({p.name, p.value, p.std});
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::input) throw;
+  }
+  return parameters;
 }
 
 void refuse_changed(const BatchLog& log, const LogSource& source, const std::string& log_sha256) {
@@ -65,6 +85,8 @@ JournalEntry write_log_result(const BatchLog& log, const std::string& log_sha256
   refuse_changed(log, *source, log_sha256);
   JournalEntry entry;
   entry.row = row_of(diagnosis);
+  if (options.identify && diagnosis.verdict == Verdict::healthy)
+    entry.row.parameters = parameters_in(*source, model.robot);
   entry.row.result = result_name(log.name, log_sha256);
   const std::string stem = folder.file("logs/" + entry.row.result);
   if (options.html) {

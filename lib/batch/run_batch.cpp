@@ -22,7 +22,8 @@ std::string options_text(const BatchOptions& options) {
     text += options.diagnose.criterion == CriterionKind::consecutive ? "consecutive" : "log_odds";
     text += " --g " + std::to_string(options.diagnose.g);
   }
-  return options.html ? text + " --html" : text;
+  if (options.html) text += " --html";
+  return options.identify ? text + " --identify" : text;
 }
 
 void refuse_special_file(const std::string& path) {

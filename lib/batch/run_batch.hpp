@@ -19,9 +19,10 @@ struct BatchProgress {
 
 struct BatchOptions {
   DiagnoseOptions diagnose;
-  bool html = false;  ///< a page a log, besides its JSON
-  int threads = 0;    ///< logs at once; 0 = one a core
-  int shard = 0;      ///< take the logs whose position in the list is this one modulo `shards`
+  bool html = false;      ///< a page a log, besides its JSON
+  bool identify = false;  ///< the robot's parameters from each healthy log alone, for trends
+  int threads = 0;        ///< logs at once; 0 = one a core
+  int shard = 0;          ///< take the logs whose position in the list is this one modulo `shards`
   int shards = 1;
   bool wait = false;                                     ///< for another batch into the same folder
   std::function<void(const BatchProgress&)> progress{};  ///< never called by two threads at once

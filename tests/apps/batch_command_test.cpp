@@ -45,6 +45,26 @@ TEST(BatchCommand, TellsEachLogAndTheWorstDecidesTheStatus) {
   EXPECT_EQ(healthy.status, 0) << healthy.err;
 }
 
+TEST(BatchCommand, IdentifiesTheRobotFromEachHealthyLogForTrends) {
+  const BatchWorld world;
+  world.add_logs(4, 8.0);
+  const std::string out = world.file("out");
+  EXPECT_EQ(run_program(world.command(out, {"--identify"})).status, 1);
+  std::istringstream lines(read_file(out + "/index.ndjson"));
+  const double mass = small_robot().chain.links[0].mass;
+  int identified = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const Json row = Json::parse(line);
+    const Json& parameters = row["parameters"];
+    EXPECT_EQ(parameters.empty(), row["verdict"] != "healthy") << line;
+    if (parameters.empty()) continue;
+    ++identified;
+    EXPECT_NEAR(parameters["m1"]["value"].get<double>(), mass, 0.02 * mass) << line;
+  }
+  EXPECT_EQ(identified, 2);
+  EXPECT_NE(read_file(out + "/index.html").find("% from median"), std::string::npos);
+}
+
 TEST(BatchCommand, ABadLogIsARowWithItsReasonAndStopsNothing) {
   const BatchWorld world;
   world.add_logs(2);
