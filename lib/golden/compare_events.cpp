@@ -62,7 +62,7 @@ void compare_events(const std::vector<GoldenEvent>& expected, const std::vector<
   for (const GoldenEvent& event : expected) {
     const int partner = nearest(event, actual, used);
     if (partner < 0) {
-      comparison.differences.push_back({"event", event.onset_s, name_of(event.label), "", {}});
+      comparison.differences.push_back({"event", event.onset_s, name_of(event.label), "", kNoNumber});
       comparison.lines.push_back({line_of(event), "", true});
       continue;
     }
@@ -72,7 +72,7 @@ void compare_events(const std::vector<GoldenEvent>& expected, const std::vector<
   }
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (used[i]) continue;
-    comparison.differences.push_back({"event", actual[i].onset_s, "", name_of(actual[i].label), {}});
+    comparison.differences.push_back({"event", actual[i].onset_s, "", name_of(actual[i].label), kNoNumber});
     comparison.lines.push_back({"", line_of(actual[i]), true});
   }
 }

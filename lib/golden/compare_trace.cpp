@@ -62,7 +62,7 @@ void compare_times(const Trace& expected, const Trace& actual, const std::vector
   const std::string there = fmt::format("a sample at {} s", lone.time_s);
   const std::string expected_text = lone.is_expected ? there : "",
                     actual_text = lone.is_expected ? "" : there;
-  comparison.differences.push_back({"t", lone.time_s, expected_text, actual_text, {}});
+  comparison.differences.push_back({"t", lone.time_s, expected_text, actual_text, kNoNumber});
   comparison.lines.push_back({expected_text, actual_text, true});
 }
 
@@ -78,7 +78,7 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     const std::string& channel = expected.channels[c];
     const auto same = std::find(actual.channels.begin(), actual.channels.end(), channel);
     if (same == actual.channels.end()) {
-      comparison.differences.push_back({channel, {}, "foretold", "no such channel", {}});
+      comparison.differences.push_back({channel, kNoNumber, "foretold", "no such channel", kNoNumber});
       comparison.lines.push_back({channel + " foretold", "", true});
       continue;
     }

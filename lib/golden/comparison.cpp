@@ -17,7 +17,7 @@ std::string value(double number) { return fmt::format("{:.6g}", number); }
 void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
                    Comparison& comparison) {
   const bool differs = expected != actual;
-  if (differs) comparison.differences.push_back({channel, {}, expected, actual, {}});
+  if (differs) comparison.differences.push_back({channel, kNoNumber, expected, actual, kNoNumber});
   comparison.lines.push_back({channel + " " + expected, channel + " " + actual, differs});
 }
 
@@ -25,7 +25,7 @@ void compare_rows(std::int64_t expected, std::int64_t actual, bool may_differ, C
   const bool differs = expected != actual && !may_differ;
   if (differs)
     comparison.differences.push_back(
-        {"rows", {}, fmt::format("{}", expected), fmt::format("{}", actual), 0.0});
+        {"rows", kNoNumber, fmt::format("{}", expected), fmt::format("{}", actual), 0.0});
   comparison.lines.push_back({fmt::format("rows {}", expected), fmt::format("rows {}", actual), differs});
 }
 
@@ -84,7 +84,7 @@ const ObservedParameter* find(const std::vector<ObservedParameter>& parameters, 
 void compare_parameter(const ObservedParameter& expected, const ObservedParameter* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
   if (!actual) {
-    comparison.differences.push_back({expected.name, {}, value(expected.value), "", {}});
+    comparison.differences.push_back({expected.name, kNoNumber, value(expected.value), "", kNoNumber});
     comparison.lines.push_back({line_of(expected), "", true});
     return;
   }
@@ -121,7 +121,7 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
     compare_parameter(p, find(actual.parameters, p.name), tolerances, comparison);
   for (const ObservedParameter& p : actual.parameters) {
     if (find(expected.parameters, p.name)) continue;
-    comparison.differences.push_back({p.name, {}, "", value(p.value), {}});
+    comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
     comparison.lines.push_back({"", line_of(p), true});
   }
   return comparison;

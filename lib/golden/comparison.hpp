@@ -11,6 +11,8 @@
 
 namespace faultline {
 
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
 /// One thing that is not as expected.
 struct Difference {
   std::string channel;  ///< verdict, rows, event, onset_s, velocity_rms_2, dq2, m1 ...

@@ -127,6 +127,18 @@ TEST(GoldenComparison, MissingAndUnexpectedEventsAndAChangedTime) {
   EXPECT_EQ(found.differences[2].actual, "locked joint 3");
 }
 
+TEST(GoldenComparison, AVerdictHasNoTimeAndNoTolerance) {
+  Observation actual = example();
+  actual.verdict = "healthy";
+  actual.events.pop_back();
+  const Comparison found = compare(example(), actual, none());
+  ASSERT_EQ(found.differences.size(), 2u);
+  EXPECT_TRUE(std::isnan(found.differences[0].time_s));
+  EXPECT_TRUE(std::isnan(found.differences[0].allowed));
+  EXPECT_TRUE(std::isnan(found.differences[1].allowed));
+  EXPECT_EQ(first_divergence(found)->time_s, 3.0);
+}
+
 TEST(GoldenComparison, ALogThatCannotBeProcessedAnyMoreDiffersAndSaysWhy) {
   Observation unusable;
   unusable.verdict = kUnusable;
