@@ -112,12 +112,13 @@ Selection select_columns(const Eigen::MatrixXd& a, const std::vector<bool>& want
     out.columns.push_back(listed[order[i]]);
     out.confounded[listed[order[i]]] = false;
   }
-  const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
-                                      .triangularView<Eigen::Upper>()
-                                      .solve(r.topRightCorner(rank, scaled.cols() - rank));
-  for (int i = 0; i < rank; ++i)
-    if (mixture.cols() > 0 && mixture.row(i).cwiseAbs().maxCoeff() > 0.03)
-      out.confounded[listed[order[i]]] = true;
+  if (rank < scaled.cols()) {  // the rest are mixtures of those
+    const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
+                                        .triangularView<Eigen::Upper>()
+                                        .solve(r.topRightCorner(rank, scaled.cols() - rank));
+    for (int i = 0; i < rank; ++i)
+      if (mixture.row(i).cwiseAbs().maxCoeff() > 0.03) out.confounded[listed[order[i]]] = true;
+  }
   std::sort(out.columns.begin(), out.columns.end());
   Eigen::MatrixXd base(a.rows(), 0);
   for (std::size_t i = 0; i < listed.size(); ++i)
