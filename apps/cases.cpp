@@ -15,7 +15,7 @@
 #include "lib/cases/case_json.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "lib/report/case_from_json.hpp"
 #include "lib/report/layout.hpp"
 

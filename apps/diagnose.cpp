@@ -9,10 +9,10 @@
 #include "formats/open_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/html/html_report.hpp"
+#include "lib/html/report_details.hpp"
 #include "lib/log/prefetch.hpp"
-#include "lib/pipeline/report_details.hpp"
 #include "lib/report/csv.hpp"
-#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/markdown.hpp"
@@ -86,8 +86,7 @@ void add_diagnose(CLI::App& app, Program& program) {
   command
       ->add_option("--classify", arguments->mode,
                    "evidence: hypotheses on the identified robot, judged by both networks; samples: the "
-                   "paper's way, both "
-                   "networks over the residuals of each sample")
+                   "paper's way, both networks over the residuals of each sample")
       ->check(CLI::IsMember({"evidence", "samples"}))
       ->capture_default_str();
   command

@@ -48,9 +48,8 @@ void add_golden_compare(CLI::App* golden, Program& program) {
   command
       ->add_option(
           "SIDE", arguments->sides,
-          "A model (with MODEL.cases.db beside it), or what golden check --json wrote, by any version "
-          "of the program; "
-          "one alone is compared with the folder's model and this program")
+          "A model (with MODEL.cases.db beside it), or what golden check --json wrote, by any version of the "
+          "program; one alone is compared with the folder's model and this program")
       ->required()
       ->expected(1, 2);
   add_json_option(command, *arguments);

@@ -11,8 +11,8 @@
 #include "apps/folder.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/reproduce/figure_text.hpp"
-#include "lib/reproduce/reproduction.hpp"
+#include "lib/reproduce/page/figure_text.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 namespace {

@@ -33,7 +33,8 @@ std::vector<std::string> project_includes(const fs::path& source) {
   static const std::regex pattern("#include \"([^\"]+)\"");
   const std::string text = text_of(source);
   std::vector<std::string> found;
-  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back((*it)[1]);
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
+    found.push_back((*it)[1]);
   return found;
 }
 

@@ -6,10 +6,10 @@
 #include "lib/batch/index_assets.hpp"
 #include "lib/batch/index_table.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/report/base64.hpp"
-#include "lib/report/html_elements.hpp"
+#include "lib/core/markup.hpp"
+#include "lib/html/base64.hpp"
+#include "lib/html/elements.hpp"
 #include "lib/report/layout.hpp"
-#include "lib/report/markup.hpp"
 
 namespace faultline {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/core/markup.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "lib/report/layout.hpp"
-#include "lib/report/markup.hpp"
 
 namespace faultline {
 namespace {

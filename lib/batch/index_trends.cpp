@@ -7,8 +7,8 @@
 #include <set>
 
 #include "lib/batch/index_table.hpp"
+#include "lib/plot/line_plot.hpp"
 #include "lib/report/layout.hpp"
-#include "lib/report/line_plot.hpp"
 
 namespace faultline {
 namespace {

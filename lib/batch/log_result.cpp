@@ -7,9 +7,9 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/html/html_report.hpp"
+#include "lib/html/report_details.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/pipeline/report_details.hpp"
-#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 

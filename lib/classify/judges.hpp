@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/neural/mlp.hpp"
 #include "lib/neural/rbfn.hpp"
 #include "lib/neural/scaler.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
 #include "lib/core/progress.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/neural/rbfn.hpp"
 #include "lib/neural/scaler.hpp"
 #include "lib/neural/training.hpp"

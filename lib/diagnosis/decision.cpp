@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {

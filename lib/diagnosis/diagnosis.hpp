@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/evidence/evidence_trace.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
 namespace faultline {

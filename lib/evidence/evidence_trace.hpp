@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/core/fault_kind.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "lib/core/markup.hpp"
 #include "lib/golden/check_text.hpp"
-#include "lib/report/markup.hpp"
 
 namespace faultline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "lib/golden/observation.hpp"
 #include "lib/golden/tolerance.hpp"
-#include "lib/pipeline/model.hpp"
+#include "lib/model/model.hpp"
 
 namespace faultline {
 

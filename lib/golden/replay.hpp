@@ -10,7 +10,7 @@
 #include "lib/core/progress.hpp"
 #include "lib/golden/observation.hpp"
 #include "lib/log/log_source.hpp"
-#include "lib/pipeline/model.hpp"
+#include "lib/model/model.hpp"
 
 namespace faultline {
 

@@ -88,8 +88,7 @@ Issue model_error_issue() {
   issue.severity = Severity::note;
   issue.message =
       "the motion keeps a regular error that no parameters of this model remove; values and intervals come "
-      "from the "
-      "momentum balance over short windows instead of the output error";
+      "from the momentum balance over short windows instead of the output error";
   return issue;
 }
 

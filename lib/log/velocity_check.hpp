@@ -34,7 +34,7 @@ class VelocityCheck {
     double t = 0.0, q = 0.0, dq = 0.0;
   };
   Sample last_, before_last_;
-  int run_ = 0;  ///< samples since the last interruption
+  int run_ = 0;              ///< samples since the last interruption
   double usual_step_ = 0.0;  ///< s
   double window_start_ = 0.0, window_q_ = 0.0, integral_ = 0.0;
   int window_samples_ = 0;

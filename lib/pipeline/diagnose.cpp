@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "lib/core/version.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/decision.hpp"
-#include "lib/pipeline/decide_episode.hpp"
-#include "lib/pipeline/listen.hpp"
-#include "lib/pipeline/listen_to_samples.hpp"
+#include "lib/monitor/listen.hpp"
+#include "lib/monitor/listen_to_samples.hpp"
 
 namespace faultline {
 namespace {
@@ -76,8 +76,7 @@ std::vector<std::string> blind_spots(const Model& model, bool has_velocity) {
   if (model.robot.log.torque == TorqueMeaning::measured)
     spots.push_back(
         "The logged torque is measured, so a lost or added torque is inside it: free-swinging joints and "
-        "torque loss "
-        "cannot be seen.");
+        "torque loss cannot be seen.");
   if (model.robot.log.torque == TorqueMeaning::current)
     spots.push_back(
         "The logged torque is a motor current: faults between controller and motor current cannot be seen.");
@@ -92,8 +91,7 @@ std::string why_inconclusive(const LogFacts& log, const LogTally& tally, const M
   if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
     return fmt::format(
         "the log has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; learn "
-        "a model "
-        "from healthy logs of this rate",
+        "a model from healthy logs of this rate",
         log.sample_period_s, model.sample_period_s);
   if (tally.rows < kFewestRows)
     return fmt::format("the log has {} usable rows; at least {} are needed to judge", tally.rows,

@@ -7,8 +7,8 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/core/error.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
-#include "lib/pipeline/decide_episode.hpp"
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/twin_study.hpp"
 

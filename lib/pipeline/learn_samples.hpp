@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/pipeline/model.hpp"
-#include "lib/pipeline/twin.hpp"
+#include "lib/model/model.hpp"
+#include "lib/twin/twin.hpp"
 
 namespace faultline {
 

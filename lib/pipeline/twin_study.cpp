@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "lib/core/parallel.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
 #include "lib/log/memory_source.hpp"
-#include "lib/pipeline/decide_episode.hpp"
 
 namespace faultline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "lib/cases/case_base.hpp"
 #include "lib/core/progress.hpp"
-#include "lib/pipeline/listen.hpp"
-#include "lib/pipeline/twin.hpp"
+#include "lib/monitor/listen.hpp"
+#include "lib/twin/twin.hpp"
 
 namespace faultline {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/diagnosis/fault_words.hpp"
-#include "lib/report/markup.hpp"
+#include "lib/core/markup.hpp"
+#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {

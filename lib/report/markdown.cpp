@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"

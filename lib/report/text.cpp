@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ranges>
 
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/layout.hpp"
 

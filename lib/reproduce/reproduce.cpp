@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <iterator>
 
-#include "lib/reproduce/classifier_study.hpp"
-#include "lib/reproduce/fault_figures.hpp"
-#include "lib/reproduce/generator_study.hpp"
-#include "lib/reproduce/reproduction.hpp"
-#include "lib/reproduce/run_study.hpp"
-#include "lib/reproduce/trade_off_figures.hpp"
+#include "lib/reproduce/classifier/classifier_study.hpp"
+#include "lib/reproduce/generator/generator_study.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
+#include "lib/reproduce/page/trade_off_figures.hpp"
+#include "lib/reproduce/runs/fault_figures.hpp"
+#include "lib/reproduce/runs/run_study.hpp"
 
 namespace faultline {
 namespace {

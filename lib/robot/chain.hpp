@@ -24,17 +24,18 @@ enum class AxisKind { revolute, prismatic };
 /// on joint i's axis. Joint i's origin in the frame of link i-1 is offset + length(i-1) * direction.
 struct JointGeometry {
   AxisKind kind = AxisKind::revolute;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();       ///< unit vector, in the frame of link i-1 at q = 0
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();      ///< m
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector along link i-1; zero for the first joint
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< unit vector, in the frame of link i-1 at q = 0
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::UnitX();  ///< unit vector along link i-1; zero for the first joint
 };
 
 /// Mass distribution of a link in its own frame. Torques are linear in these ten numbers.
 template <typename S>
 struct LinkInertia {
-  S mass = S(0.0);                                  ///< kg
-  Vector3<S> first_moment = Vector3<S>::Zero();     ///< mass * centre of mass, kg m
-  Matrix3<S> inertia = Matrix3<S>::Zero();          ///< about the frame's origin, kg m^2
+  S mass = S(0.0);                               ///< kg
+  Vector3<S> first_moment = Vector3<S>::Zero();  ///< mass * centre of mass, kg m
+  Matrix3<S> inertia = Matrix3<S>::Zero();       ///< about the frame's origin, kg m^2
 };
 
 /// F(dq) = viscous dq + coulomb tanh(dq / width) + offset.
@@ -50,10 +51,11 @@ struct Friction {
 template <typename S>
 struct Chain {
   std::vector<JointGeometry> geometry;
-  std::vector<S> length;  ///< of each link along the next joint's `direction`, m; the last one carries the tip
+  std::vector<S>
+      length;  ///< of each link along the next joint's `direction`, m; the last one carries the tip
   std::vector<LinkInertia<S>> links;
   std::vector<Friction<S>> friction;
-  std::vector<S> rotor_inertia;                               ///< seen at the joint, kg m^2 or kg
+  std::vector<S> rotor_inertia;                                ///< seen at the joint, kg m^2 or kg
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< in the base frame, m/s^2
 
   int joints() const { return static_cast<int>(geometry.size()); }
@@ -68,7 +70,8 @@ Chain<T> cast_chain(const Chain<S>& chain) {
   for (const S& l : chain.length) out.length.push_back(T(l));
   for (const S& i : chain.rotor_inertia) out.rotor_inertia.push_back(T(i));
   for (const auto& link : chain.links)
-    out.links.push_back({T(link.mass), link.first_moment.template cast<T>(), link.inertia.template cast<T>()});
+    out.links.push_back(
+        {T(link.mass), link.first_moment.template cast<T>(), link.inertia.template cast<T>()});
   for (const auto& f : chain.friction)
     out.friction.push_back({T(f.viscous), T(f.coulomb), T(f.offset), T(f.width)});
   return out;
@@ -79,6 +82,7 @@ LinkInertia<double> uniform_rod(double mass, double length, const Eigen::Vector3
 /// Point mass on the link's origin, as the third link of the paper's SCARA.
 LinkInertia<double> point_mass(double mass);
 /// Body with centre of mass `centre` (m, link frame) and inertia about that centre (kg m^2).
-LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre, const Eigen::Matrix3d& inertia_at_centre);
+LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
+                                 const Eigen::Matrix3d& inertia_at_centre);
 
 }  // namespace faultline

@@ -32,8 +32,8 @@ Matrix3<S> rotation_about(const Eigen::Vector3d& axis, const S& angle) {
 /// Pose of link i's frame in the frame of link i-1.
 template <typename S>
 struct LinkPose {
-  Matrix3<S> rotation;   ///< link i to link i-1
-  Vector3<S> position;   ///< origin of link i, in link i-1
+  Matrix3<S> rotation;  ///< link i to link i-1
+  Vector3<S> position;  ///< origin of link i, in link i-1
 };
 
 template <typename S>
@@ -78,8 +78,10 @@ JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q,
       acceleration += axis * ddq[i] + S(2.0) * omega.cross(axis) * dq[i];
     }
     const LinkInertia<S>& link = chain.links[i];
-    force[i] = acceleration * link.mass + alpha.cross(link.first_moment) + omega.cross(omega.cross(link.first_moment));
-    moment[i] = link.inertia * alpha + omega.cross(link.inertia * omega) + link.first_moment.cross(acceleration);
+    force[i] = acceleration * link.mass + alpha.cross(link.first_moment) +
+               omega.cross(omega.cross(link.first_moment));
+    moment[i] =
+        link.inertia * alpha + omega.cross(link.inertia * omega) + link.first_moment.cross(acceleration);
   }
   JointVector<S> tau(n);
   for (int i = n - 1; i >= 0; --i) {
@@ -141,7 +143,8 @@ JointMatrix<S> inertia_matrix(const Chain<S>& chain, const JointVector<S>& q) {
     const LinkInertia<S>& body = composite[i];
     const JointGeometry& joint = chain.geometry[i];
     const Vector3<S> axis = joint.axis.template cast<S>();
-    Vector3<S> force, moment;  // that a unit acceleration of joint i asks of the composite body, at its origin
+    Vector3<S> force,
+        moment;  // that a unit acceleration of joint i asks of the composite body, at its origin
     if (joint.kind == AxisKind::revolute) {
       force = axis.cross(body.first_moment);
       moment = body.inertia * axis;

@@ -42,7 +42,8 @@ struct Robot {
   Chain<double> chain;
   std::vector<LinkShape> shapes;
   /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
-  /// friction), fo1.. (friction offset), jr1.. (rotor inertia seen at the joint). They are also set in `chain`.
+  /// friction), fo1.. (friction offset), jr1.. (rotor inertia seen at the joint). They are also set in
+  /// `chain`.
   std::map<std::string, KnownValue> known;
   /// Known mass carried at the tip (kg) during single logs, by the log's file name without folders.
   std::map<std::string, KnownValue> payloads;
@@ -60,10 +61,12 @@ struct Robot {
 /// lies in that plane. Throws Error(usage) naming the presets for any other order.
 Robot preset_robot(const std::string& axes);
 
-/// Unit vector along link i in its own frame: towards the next joint, or along x for a link that says nothing.
+/// Unit vector along link i in its own frame: towards the next joint, or along x for a link that says
+/// nothing.
 Eigen::Vector3d link_direction(const Robot& robot, int i);
 
 /// Sets the links of `robot` whose shape is rod or point from masses (kg) and lengths (m), one each a joint.
-void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses, const std::vector<double>& lengths);
+void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
+                            const std::vector<double>& lengths);
 
 }  // namespace faultline

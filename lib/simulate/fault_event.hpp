@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "lib/core/fault_kind.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

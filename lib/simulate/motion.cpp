@@ -116,8 +116,8 @@ void Motion::plan_moves(const MotionSpec& spec, const std::vector<double>& low,
   } while (t < duration_s);
 }
 
-/// Random harmonics of falling amplitude, scaled so that they fill the joint's range; the first sine takes the
-/// slope that makes the period start at rest.
+/// Random harmonics of falling amplitude, scaled so that they fill the joint's range; the first sine takes
+/// the slope that makes the period start at rest.
 void Motion::plan_harmonics(const MotionSpec& spec, const std::vector<double>& low,
                             const std::vector<double>& high, std::uint64_t seed) {
   Random random(seed);

@@ -6,11 +6,11 @@
 
 #include <cmath>
 
-#include "lib/reproduce/criterion_sweep.hpp"
-#include "lib/reproduce/monitored_runs.hpp"
-#include "lib/reproduce/motion_generator.hpp"
-#include "lib/reproduce/run_condition.hpp"
-#include "lib/reproduce/sample_detector.hpp"
+#include "lib/reproduce/protocol/motion_generator.hpp"
+#include "lib/reproduce/runs/criterion_sweep.hpp"
+#include "lib/reproduce/runs/monitored_runs.hpp"
+#include "lib/reproduce/runs/run_condition.hpp"
+#include "lib/reproduce/runs/sample_detector.hpp"
 
 namespace {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The HTML report in a real browser, driven as a reader would.
+#include "lib/html/html_report.hpp"
+
 #include <gtest/gtest.h>
 
 #include "lib/core/atomic_file.hpp"
-#include "lib/report/html.hpp"
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "tests/cases/example_base.hpp"
 
 namespace faultline {

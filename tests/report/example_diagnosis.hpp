@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/diagnosis/decision.hpp"
-#include "lib/diagnosis/fault_words.hpp"
+#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 

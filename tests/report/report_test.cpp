@@ -8,9 +8,9 @@
 #include <regex>
 #include <sstream>
 
-#include "lib/pipeline/run_curves.hpp"
+#include "lib/html/html_report.hpp"
+#include "lib/replay/run_curves.hpp"
 #include "lib/report/csv.hpp"
-#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/layout.hpp"

@@ -8,9 +8,9 @@
 #include <regex>
 #include <sstream>
 
+#include "lib/html/html_report.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/html.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/layout.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "lib/log/log.hpp"
-#include "lib/reproduce/protocol.hpp"
+#include "lib/reproduce/protocol/protocol.hpp"
 
 namespace faultline {
 

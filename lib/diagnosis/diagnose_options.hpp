@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/classify/fault_criterion.hpp"
+
+namespace faultline {
+
+/// How faults are told.
+enum class ClassifyMode {
+  evidence,  ///< the bank of hypotheses finds episodes, both networks judge their evidence, cases settle
+  samples,   ///< the paper's: both networks over the residuals of each sample, and the fault criterion
+};
+
+struct DiagnoseOptions {
+  ClassifyMode mode = ClassifyMode::evidence;
+  CriterionKind criterion = CriterionKind::log_odds;  ///< of mode samples
+  int g = 0;  ///< of the criterion `consecutive`; 0 = as tuned when the model was learned
+};
+
+}  // namespace faultline

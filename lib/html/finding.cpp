@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "lib/html/finding.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/core/markup.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/html/elements.hpp"
+#include "lib/html/figure.hpp"
+#include "lib/report/finding_words.hpp"
+#include "lib/report/layout.hpp"
+
+namespace faultline {
+namespace {
+
+std::string times(const FaultFinding& f, double period_s) {
+  return html_table({"onset", "alarm", "end", "confidence", "decided by"},
+                    {{time_text(f.onset_s, period_s), time_text(f.alarm_s, period_s),
+                      time_text(f.end_s, period_s), percent_text(f.confidence), decided_words(f)}});
+}
+
+std::string opinions(const FaultFinding& f) {
+  return html_table({"network", "says", "confidence"},
+                    {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
+                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
+}
+
+std::string alternatives(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const Alternative& a : f.could_also_be) lines.push_back(plain_words(a.label) + ": " + a.why);
+  return html_list(lines);
+}
+
+std::string precedents(const FaultFinding& f) {
+  std::vector<HtmlRow> rows;
+  for (const Precedent& p : f.precedents)
+    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
+                    p.what_was_done.empty() ? "-" : p.what_was_done});
+  return html_table({"case", "similarity", "what it was", "what was done then"}, rows);
+}
+
+std::string evidence(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const EvidenceItem& item : f.evidence) lines.push_back(evidence_line(item));
+  return html_list(lines);
+}
+
+std::string column(const std::string& content) {
+  return content.empty() ? "" : "<div>\n" + content + "</div>\n";
+}
+
+}  // namespace
+
+std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s) {
+  if (figures.empty()) return "";
+  std::string text =
+      fmt::format("<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
+  for (const PageFigure& figure : figures) text += html_figure(figure, sample_period_s);
+  return text + "</div>\n";
+}
+
+std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& figures, double period_s) {
+  std::string text = fmt::format("<section class=\"finding\" id=\"fault-{0}\">\n<h2>Fault {0}: {1}</h2>\n",
+                                 f.id, escaped_markup(plain_words(f.label)));
+  text += times(f, period_s);
+  if (!f.next_check.empty())
+    text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
+  text += html_plots(figures, f.id, period_s);
+  text += "<div class=\"columns\">\n";
+  text += column(html_part("It could also be", alternatives(f)));
+  text += column(html_part("Similar cases", precedents(f)));
+  text += column(html_part("Evidence", evidence(f)));
+  text += column(html_part("What both networks said", opinions(f)));
+  return text + "</div>\n</section>\n";
+}
+
+std::string html_fault_link(const FaultFinding& f, double zero_s) {
+  const std::string place = f.id <= kFullFindings ? fmt::format("fault-{}", f.id) : "faults";
+  return fmt::format("href=\"#{}\" data-fault=\"{}\" data-onset=\"{}\"", place, f.id, f.onset_s - zero_s);
+}
+
+std::string html_fault_table(const Diagnosis& d) {
+  if (d.faults.empty()) return "";
+  const double period = d.log.sample_period_s, zero_s = time_zero(d.log.start_s);
+  std::string text = fmt::format("<div class=\"{}\" id=\"faults\"><table>\n<thead><tr>",
+                                 d.faults.size() > 12 ? "wide tall" : "wide");
+  for (const char* head : {"fault", "what", "onset", "alarm", "end", "confidence"})
+    text += fmt::format("<th scope=\"col\">{}</th>", head);
+  text += "</tr></thead>\n<tbody>\n";
+  for (const FaultFinding& f : d.faults) {
+    text += fmt::format("<tr><td><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
+    for (const std::string& cell :
+         {plain_words(f.label), time_text(f.onset_s, period), time_text(f.alarm_s, period),
+          time_text(f.end_s, period), percent_text(f.confidence)})
+      text += "<td>" + escaped_markup(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace faultline

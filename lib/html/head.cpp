@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "lib/html/head.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/core/hash.hpp"
+#include "lib/core/markup.hpp"
+#include "lib/html/assets.hpp"
+#include "lib/html/base64.hpp"
+
+namespace faultline {
+namespace {
+
+/// As Content-Security-Policy names an inline script or style.
+std::string source_hash(std::string_view content) {
+  const std::string hex = sha256_hex(content);
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  return "'sha256-" + base64(bytes) + "'";
+}
+
+std::string policy(bool with_script) {
+  std::string scripts = "'none'";
+  if (with_script) scripts = source_hash(dygraphs_script()) + " " + source_hash(page_script());
+  return fmt::format(
+      "default-src 'none'; script-src {}; style-src {} {}; base-uri 'none'; form-action 'none'", scripts,
+      source_hash(page_style()), source_hash(dygraphs_style()));
+}
+
+}  // namespace
+
+std::string html_head(const std::string& title, bool with_script) {
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+      "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n<title>{}</title>\n",
+      policy(with_script), escaped_markup(title));
+  text += fmt::format("<style>{}</style>\n", page_style());
+  if (with_script) text += fmt::format("<style>{}</style>\n", dygraphs_style());
+  return text + "</head>\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/diagnosis/diagnose_options.hpp"
+#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/model/model.hpp"
+#include "lib/replay/curves.hpp"
+
+namespace faultline {
+
+/// Facts for a person to read, a row each.
+struct FactTable {
+  std::string title;
+  std::vector<std::string> head;  ///< empty for name and value
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// What a page shows besides the diagnosis: the course of the run, and what the model knows of itself.
+struct ReportDetails {
+  RunCurves curves;
+  std::vector<FactTable> model;       ///< identified parameters, how good the model is
+  std::vector<FactTable> provenance;  ///< what somebody needs who must repeat the diagnosis
+};
+
+/// The details of the diagnosis that diagnose() made of this log with this model and options. Reads the log a
+/// second time, from its first row.
+ReportDetails report_details(LogSource& log, const Model& model, const Diagnosis& diagnosis,
+                             const DiagnoseOptions& options = {});
+
+}  // namespace faultline

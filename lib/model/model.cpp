@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "lib/model/model.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/hash.hpp"
+#include "lib/evidence/motion_model_json.hpp"
+#include "lib/identify/identification_json.hpp"
+#include "lib/neural/json_matrix.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr const char* kSchemaName = "faultline/model/";
+constexpr int kSchemaVersion = 1;
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json validation_to_json(const Validation& validation) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const ValidationRow& row : validation.rows)
+    rows.push_back({{"kind", to_string(row.kind)},
+                    {"runs", row.runs},
+                    {"detected", row.detected},
+                    {"right_kind", row.right_kind},
+                    {"right_joint", row.right_joint},
+                    {"right_kind_and_joint", row.right_kind_and_joint},
+                    {"right_or_named", row.right_or_named},
+                    {"median_delay_s", number(row.median_delay_s)},
+                    {"p90_delay_s", number(row.p90_delay_s)}});
+  return {{"rows", rows},
+          {"early_alarms", validation.early_alarms},
+          {"healthy_hours", validation.healthy_hours},
+          {"false_alarms", validation.false_alarms}};
+}
+
+double number_or_nan(const nlohmann::json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Validation validation_from_json(const nlohmann::json& json) {
+  Validation validation;
+  for (const auto& row : json.at("rows"))
+    validation.rows.push_back({fault_kind_from(row.at("kind")), row.at("runs"), row.at("detected"),
+                               row.at("right_kind"), row.at("right_joint"), row.at("right_kind_and_joint"),
+                               row.at("right_or_named"), number_or_nan(row.at("median_delay_s")),
+                               number_or_nan(row.at("p90_delay_s"))});
+  validation.early_alarms = json.at("early_alarms");
+  validation.healthy_hours = json.at("healthy_hours");
+  validation.false_alarms = json.at("false_alarms");
+  return validation;
+}
+
+nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ModelSource& source : sources)
+    list.push_back(
+        {{"path", source.path}, {"sha256", source.sha256}, {"rows", source.rows}, {"fault", source.fault}});
+  return list;
+}
+
+nlohmann::json criterion_to_json(const CriterionOptions& options) {
+  return {{"g", options.g}, {"threshold", options.threshold}, {"sample_cap", options.sample_cap}};
+}
+
+CriterionOptions criterion_from_json(CriterionKind kind, const nlohmann::json& json) {
+  return {kind, json.at("g").get<int>(), json.at("threshold").get<double>(),
+          json.at("sample_cap").get<double>()};
+}
+
+nlohmann::json samples_to_json(const SampleMode& samples) {
+  nlohmann::json classifier;
+  to_json(classifier, samples.classifier);
+  return {{"classifier", classifier},
+          {"consecutive", criterion_to_json(samples.consecutive)},
+          {"log_odds", criterion_to_json(samples.log_odds)}};
+}
+
+SampleMode samples_from_json(const nlohmann::json& json, const std::string& where) {
+  return {sample_classifier_from_json(json.at("classifier"), where),
+          criterion_from_json(CriterionKind::consecutive, json.at("consecutive")),
+          criterion_from_json(CriterionKind::log_odds, json.at("log_odds"))};
+}
+
+nlohmann::json parse(const std::string& text, const std::string& where) {
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    throw Error(ErrorCode::input, where,
+                "is no complete JSON file: truncated or not a model; a model is made by `faultline learn`");
+  const bool named = json.is_object() && json.contains("schema") && json["schema"].is_string();
+  const std::string schema = named ? json["schema"].get<std::string>() : "";
+  if (schema.rfind(kSchemaName, 0) != 0)
+    throw Error(ErrorCode::input, where,
+                "is JSON but no faultline model; a model is made by `faultline learn`");
+  const int version = std::atoi(schema.c_str() + std::string(kSchemaName).size());
+  if (version > kSchemaVersion)
+    throw Error(ErrorCode::input, where,
+                "has schema " + schema + ", this program knows " + kSchemaName +
+                    std::to_string(kSchemaVersion) + "; use a newer faultline or learn the model again");
+  if (version != kSchemaVersion)
+    throw Error(ErrorCode::input, where, "has the unknown schema \"" + schema + "\"; learn the model again");
+  return json;
+}
+
+Model read_members(const nlohmann::json& json, const std::string& where) {
+  Model model;
+  model.name = json.at("name").get<std::string>();
+  model.robot = robot_from_toml(json.at("robot").get<std::string>(), where + ", robot");
+  if (json.contains("identification"))
+    model.identification = summary_from_json(nlohmann::ordered_json(json["identification"]), where);
+  model.sample_period_s = json.at("sample_period_s");
+  model.has_velocity = json.at("has_velocity");
+  model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
+  model.evidence = evidence_options_from_json(json.at("evidence"), where);
+  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
+  model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
+  model.judges = judges_from_json(json.at("judges"), where);
+  model.samples = samples_from_json(json.at("samples"), where);
+  model.validation = validation_from_json(json.at("validation"));
+  for (const auto& source : json.at("sources"))
+    model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
+  return model;
+}
+
+}  // namespace
+
+std::string model_to_json(const Model& model) {
+  nlohmann::json motion, evidence, residual, judges;
+  to_json(motion, model.motion);
+  to_json(evidence, model.evidence);
+  to_json(residual, model.residual);
+  to_json(judges, model.judges);
+  nlohmann::ordered_json json;
+  json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
+  json["name"] = model.name;
+  json["robot"] = robot_file_text(model.robot);
+  if (model.identification.status != IdentificationStatus::not_run)
+    json["identification"] = summary_to_json(model.identification);
+  json["sample_period_s"] = model.sample_period_s;
+  json["has_velocity"] = model.has_velocity;
+  json["sources"] = sources_to_json(model.sources);
+  json["validation"] = validation_to_json(model.validation);
+  json["evidence"] = evidence;
+  json["motion"] = motion;
+  json["residual"] = residual;
+  json["judges"] = judges;
+  json["samples"] = samples_to_json(model.samples);
+  return json.dump(1) + "\n";
+}
+
+Model model_from_json(const std::string& text, const std::string& where) {
+  const nlohmann::json json = parse(text, where);
+  try {
+    Model model = read_members(json, where);
+    model.sha256 = sha256_hex(text);
+    return model;
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorCode::input, where,
+                std::string("is a damaged model (") + error.what() + "); learn it again");
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::usage) throw;
+    throw Error(ErrorCode::input, where,
+                "is a damaged model (" + std::string(error.what()) + "); learn it again");
+  }
+}
+
+Model load_model(const std::string& path) {
+  Model model = model_from_json(read_file(path), path);
+  return model;
+}
+
+}  // namespace faultline

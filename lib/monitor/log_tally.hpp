@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "lib/log/log_source.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// What was read of a log, whatever is made of it.
+struct LogTally {
+  std::int64_t rows = 0;
+  double start_s = std::numeric_limits<double>::quiet_NaN();
+  double end_s = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
+  bool has_velocity = false;
+  QualityState quality;  ///< gaps, missing values, implausible units and the like
+
+  /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or no
+  /// torque.
+  void take(const Log& segment, const LogSource& log, const Model& model);
+};
+
+}  // namespace faultline

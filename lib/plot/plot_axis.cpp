@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "lib/plot/plot_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+double nice_step(double span, int count) {
+  const double rough = span / std::max(count, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= rough * 0.999) return factor * power;
+  return 10.0 * power;
+}
+
+std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
+  std::vector<PlotTick> ticks;
+  const double step = nice_step(axis.high - axis.low, count);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
+  const auto first = static_cast<long long>(std::ceil(axis.low / step - 1e-9));
+  const auto last = static_cast<long long>(std::floor(axis.high / step + 1e-9));
+  for (long long k = first; k <= last; ++k) {
+    const double value = static_cast<double>(k) * step;
+    ticks.push_back({value, std::abs(value) >= 1e6 ? fmt::format("{:.1e}", value)
+                                                   : fmt::format("{:.{}f}", value, decimals)});
+  }
+  return ticks;
+}
+
+std::vector<PlotTick> log_ticks(const PlotAxis& axis, int count) {
+  const int first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9));
+  const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
+  const int stride = std::max(1, (last - first + count) / std::max(count, 1));
+  std::vector<PlotTick> ticks;
+  for (int power = first; power <= last; power += stride)
+    ticks.push_back({std::pow(10.0, power), power >= -3 && power <= 4
+                                                ? fmt::format("{:g}", std::pow(10.0, power))
+                                                : fmt::format("1e{}", power)});
+  return ticks;
+}
+
+}  // namespace
+
+double PlotAxis::px(double value) const {
+  const double share =
+      logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  return from_px + share * (to_px - from_px);
+}
+
+std::vector<PlotTick> ticks_of(const PlotAxis& axis, int count) {
+  return axis.logarithmic ? log_ticks(axis, count) : linear_ticks(axis, count);
+}
+
+PlotAxis axis_over(const std::vector<const std::vector<double>*>& values, bool logarithmic) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::vector<double>* list : values)
+    for (const double value : *list) {
+      if (!std::isfinite(value) || (logarithmic && !(value > 0.0))) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  PlotAxis axis{.logarithmic = logarithmic};
+  if (!(low <= high)) return logarithmic ? PlotAxis{.low = 0.1, .high = 1.0, .logarithmic = true} : axis;
+  if (logarithmic) {
+    axis.low = std::pow(10.0, std::floor(std::log10(low)));
+    axis.high = std::pow(10.0, std::ceil(std::log10(high)));
+    if (axis.low == axis.high) axis.high *= 10.0;
+    return axis;
+  }
+  const double span = high - low;
+  const double margin = span > 0.0 ? 0.05 * span : std::max(0.5 * std::abs(high), 0.5);
+  axis.low = low - margin;
+  axis.high = high + margin;
+  return axis;
+}
+
+}  // namespace faultline

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/classifier/classifier_bench.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "lib/reproduce/protocol/motion_generator.hpp"
+#include "lib/residual/fit_residual.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kLinearTorque = 0.5;       // torque_phi of a torque that moves straight to the next sample's
+constexpr double kLeastTorqueScale = 0.01;  // of the torque's half range: features resolve no finer
+constexpr int kHealthyCheck = 20;           // trajectories that measure the healthy residuals
+
+/// The same patterns seen with the torque constant over each sample.
+Transitions with_held_torque(Transitions transitions) {
+  transitions.mean_tau = transitions.tau;
+  return transitions;
+}
+
+std::vector<LabelledResiduals> labelled(const ResidualGenerator& generator, const FaultPatterns& patterns) {
+  std::vector<LabelledResiduals> runs;
+  for (int output = 0; output < kFaultClasses; ++output) {
+    Transitions transitions = patterns.of_class[output];
+    if (generator.shape.torque_phi == 0.0) transitions = with_held_torque(std::move(transitions));
+    runs.push_back({.residuals = residuals_of(generator, transitions),
+                    .fault = fault_of_class(output),
+                    .onset_s = -std::numeric_limits<double>::infinity()});
+  }
+  return runs;
+}
+
+double squared_error(MatrixXd outputs, int right) {
+  outputs.row(right).array() -= 1.0;
+  return outputs.squaredNorm();
+}
+
+/// Of the MLP, then of the RBFN.
+std::array<double, 2> errors(const SampleClassifier& classifier, const std::vector<LabelledResiduals>& runs) {
+  std::array<double, 2> sum{};
+  Index count = 0;
+  for (int right = 0; right < kFaultClasses; ++right) {
+    const SampleOutputs outputs = classify_samples(classifier, runs[right].residuals);
+    sum[0] += squared_error(outputs.mlp, right);
+    sum[1] += squared_error(outputs.rbfn, right);
+    count += outputs.mlp.size();
+  }
+  return {sum[0] / static_cast<double>(count), sum[1] / static_cast<double>(count)};
+}
+
+}  // namespace
+
+ClassifierBench::ClassifierBench(ControllerReading controller, std::uint64_t seed, int generator_iterations,
+                                 int test_trajectories)
+    : controller_(controller), seed_(seed), robot_(bench_robot()), ranges_(half_ranges(robot_, controller)) {
+  GeneratorRecipe recipe;
+  recipe.fit.max_iterations = generator_iterations;
+  paper_ = train_generator(robot_, controller, recipe, ranges_, seed).generator;
+  for (int noise = 0; noise < 3; ++noise)
+    tests_[noise] = fault_patterns(robot_, controller,
+                                   {.count = test_trajectories,
+                                    .sigma = kNoiseReadings[noise],
+                                    .torque_phi = torque_phi(RecipeGenerator::physics)},
+                                   ranges_, seed, SeedUse::classifier_test);
+}
+
+double ClassifierBench::torque_phi(RecipeGenerator kind) const {
+  const bool moves = kind == RecipeGenerator::physics && controller_ != ControllerReading::held;
+  return moves ? kLinearTorque : 0.0;
+}
+
+/// With the healthy residuals that the noise of use leaves: they set the scale of the features.
+ResidualGenerator ClassifierBench::generator(const ClassifierRecipe& recipe) const {
+  ResidualGenerator generator = paper_;
+  if (recipe.generator != RecipeGenerator::paper) generator.kind = ResidualKind::physics;
+  generator.shape.torque_phi = torque_phi(recipe.generator);
+  const auto check = healthy_trajectories(robot_, controller_, kHealthyCheck, recipe.sigma, ranges_, seed_,
+                                          SeedUse::learning_logs);
+  measure_healthy(generator, transitions_of(check, generator.shape.torque_phi));
+  Eigen::VectorXd& scale = generator.healthy.torque_rms;
+  scale = scale.cwiseMax(kLeastTorqueScale * ranges_.tau);
+  return generator;
+}
+
+FaultPatterns ClassifierBench::training_patterns(const ClassifierRecipe& recipe) const {
+  const FaultTrajectories trajectories{recipe.trajectories, recipe.sigma, torque_phi(recipe.generator)};
+  return fault_patterns(robot_, controller_, trajectories, ranges_, seed_, SeedUse::classifier_training);
+}
+
+ClassifierErrors ClassifierBench::measure(const ClassifierRecipe& recipe) const {
+  const ResidualGenerator generator = this->generator(recipe);
+  const auto training = labelled(generator, training_patterns(recipe));
+  SampleClassifierOptions options = recipe.classifier;
+  options.seed = options.rbfn.map.seed = seed_of(seed_, SeedUse::classifier_training, ~0ull);
+  const SampleClassifier classifier = train_sample_classifier(training, generator, options).classifier;
+  ClassifierErrors result;
+  const auto trained = errors(classifier, training);
+  result.mlp.training = trained[0];
+  result.rbfn.training = trained[1];
+  for (int noise = 0; noise < 3; ++noise) {
+    const auto tested = errors(classifier, labelled(generator, tests_[noise]));
+    result.mlp.test[noise] = tested[0];
+    result.rbfn.test[noise] = tested[1];
+  }
+  return result;
+}
+
+Eigen::VectorXd ClassifierBench::velocity_residual(const Transitions& transitions) const {
+  const Residuals residuals = residuals_of(paper_, with_held_torque(transitions));
+  const Eigen::VectorXd rms = residuals.velocity.rowwise().norm() / std::sqrt(residuals.count());
+  return rms.cwiseProduct(paper_.healthy.velocity_rms);
+}
+
+}  // namespace faultline

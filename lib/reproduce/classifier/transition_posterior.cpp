@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/classifier/transition_posterior.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kStep = 1e-4;      // of the finite differences, in half ranges
+constexpr double kRounding = 1e-6;  // half ranges: what integration and linear model leave at least
+constexpr double kLinearTorque = 0.5;
+
+VectorXd half_of_state(const HalfRanges& ranges) {
+  VectorXd half(ranges.q.size() + ranges.dq.size());
+  half << ranges.q, ranges.dq;
+  return half;
+}
+
+/// One pattern: the state and torque at its start, and the torque at its end as far as it is known.
+struct Sample {
+  VectorXd state, tau, next_tau, later;
+};
+
+Sample sample(const Transitions& transitions, int i) {
+  Sample s;
+  s.state.resize(2 * transitions.q.rows());
+  s.later.resize(s.state.size());
+  s.state << transitions.q.col(i), transitions.dq.col(i);
+  s.later << transitions.next_q.col(i), transitions.next_dq.col(i);
+  s.tau = transitions.tau.col(i);
+  s.next_tau = s.tau + (transitions.mean_tau.col(i) - s.tau) / kLinearTorque;
+  return s;
+}
+
+/// From torque to the state a sample later: dt^2 M^-1 for q, dt M^-1 for dq.
+MatrixXd state_per_torque(const SampleModel& model, const VectorXd& state) {
+  const auto n = state.size() / 2;
+  JointMatrix<double> inertia;
+  JointVector<double> bias;
+  model.dynamics().inertia_and_bias(state.head(n), state.tail(n), inertia, bias);
+  const MatrixXd inverse = inertia.inverse();
+  MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
+  both.topLeftCorner(n, n) = kSamplePeriod * kSamplePeriod * inverse;
+  both.bottomRightCorner(n, n) = kSamplePeriod * inverse;
+  return both;
+}
+
+/// What the trend is linear in.
+VectorXd regressors(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
+  const auto n = state.size() / 2;
+  JointVector<double> applied = s.tau, ddq;
+  if (output < kFaultClasses - 1) applied[output] = 0.0;
+  model.dynamics().acceleration(state.head(n), state.tail(n), applied, ddq);
+  VectorXd all(1 + 3 * n);
+  all << 1.0, state.tail(n), s.tau, ddq;
+  return all;
+}
+
+VectorXd foretold(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
+  const auto n = state.size() / 2;
+  const JointState end = model.next({state.head(n), state.tail(n)}, s.tau, s.next_tau, output);
+  VectorXd later(2 * n);
+  later << end.q, end.dq;
+  return later;
+}
+
+VectorXd foretold(const TransitionModel& model, const Sample& s, const VectorXd& state, int output) {
+  return foretold(model.sample, s, state, output) +
+         state_per_torque(model.sample, state) *
+             mean_at(model.between[output], regressors(model.sample, s, state, output));
+}
+
+MatrixXd jacobian(const TransitionModel& model, const Sample& s, const VectorXd& half, int output) {
+  MatrixXd slope(s.state.size(), s.state.size());
+  for (Eigen::Index k = 0; k < s.state.size(); ++k) {
+    VectorXd up = s.state, down = s.state;
+    up[k] += kStep * half[k];
+    down[k] -= kStep * half[k];
+    slope.col(k) =
+        (foretold(model, s, up, output) - foretold(model, s, down, output)) / (2.0 * kStep * half[k]);
+  }
+  return slope;
+}
+
+double log_likelihood(const TransitionModel& model, const Sample& s, const VectorXd& half, double sigma,
+                      int output) {
+  const MatrixXd noise = (sigma * sigma * half.cwiseAbs2()).asDiagonal();
+  const MatrixXd effect = state_per_torque(model.sample, s.state);
+  const MatrixXd slope = sigma > 0.0 ? jacobian(model, s, half, output) : MatrixXd(0.0 * effect);
+  const MatrixXd between = covariance_at(model.between[output], regressors(model.sample, s, s.state, output));
+  MatrixXd covariance = slope * noise * slope.transpose() + noise + effect * between * effect.transpose();
+  covariance.diagonal() += (kRounding * half).cwiseAbs2();
+  const VectorXd off = s.later - foretold(model, s, s.state, output);
+  // In half ranges, so that the factor is well conditioned.
+  const MatrixXd scaled = half.cwiseInverse().asDiagonal() * covariance * half.cwiseInverse().asDiagonal();
+  const Eigen::LLT<MatrixXd> factor(scaled);
+  const VectorXd whitened = factor.matrixL().solve(off.cwiseQuotient(half));
+  return -0.5 * whitened.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+}  // namespace
+
+TransitionModel learn_transition_model(SampleModel sample_model, const FaultPatterns& patterns) {
+  TransitionModel model{std::move(sample_model), {}};
+  for (int output = 0; output < kFaultClasses; ++output) {
+    const Transitions& known = patterns.of_class[output];
+    MatrixXd left(2 * known.q.rows(), known.count()), causes(1 + 3 * known.q.rows(), known.count());
+    for (int i = 0; i < known.count(); ++i) {
+      const Sample s = sample(known, i);
+      const VectorXd error = s.later - foretold(model.sample, s, s.state, output);
+      left.col(i) = state_per_torque(model.sample, s.state).inverse() * error;
+      causes.col(i) = regressors(model.sample, s, s.state, output);
+    }
+    model.between[output] = fit_local_gaussian(causes, left);
+  }
+  return model;
+}
+
+MatrixXd transition_posterior(const TransitionModel& model, const Transitions& transitions,
+                              const HalfRanges& ranges, double sigma) {
+  const VectorXd half = half_of_state(ranges);
+  const Eigen::Array4d prior = table_1_prior();
+  MatrixXd posterior(kFaultClasses, transitions.count());
+  for (int i = 0; i < transitions.count(); ++i) {
+    const Sample s = sample(transitions, i);
+    Eigen::Array4d log_probability = prior.log();
+    for (int output = 0; output < kFaultClasses; ++output)
+      log_probability[output] += log_likelihood(model, s, half, sigma, output);
+    const Eigen::Array4d share = (log_probability - log_probability.maxCoeff()).exp();
+    posterior.col(i) = (share / share.sum()).matrix();
+  }
+  return posterior;
+}
+
+double posterior_error(const TransitionModel& model, const FaultPatterns& patterns, const HalfRanges& ranges,
+                       double sigma) {
+  double sum = 0.0;
+  for (int output = 0; output < kFaultClasses; ++output) {
+    MatrixXd posterior = transition_posterior(model, patterns.of_class[output], ranges, sigma);
+    posterior.row(output).array() -= 1.0;
+    sum += posterior.squaredNorm();
+  }
+  return sum / (static_cast<double>(kFaultClasses) * patterns.count());
+}
+
+}  // namespace faultline

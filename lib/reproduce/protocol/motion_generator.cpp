@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/protocol/motion_generator.hpp"
+
+#include "lib/residual/fit_residual.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kSamples = 25;  // a trajectory, in the paper
+constexpr int kTrajectoriesInARun = 10;
+
+double torque_phi(const GeneratorRecipe& recipe) {
+  if (recipe.fit.kind == ResidualKind::mlp) return recipe.next_torque ? 1.0 : 0.0;
+  return recipe.torque_phi;
+}
+
+}  // namespace
+
+ResidualGenerator untrained_generator(const Robot& robot, const GeneratorRecipe& recipe) {
+  ResidualGenerator generator;
+  generator.kind = recipe.fit.kind;
+  generator.target = recipe.fit.target;
+  generator.shape = one_sample(robot.joints(), torque_phi(recipe));
+  generator.uses_mean_torque = recipe.next_torque;
+  generator.turns.assign(robot.joints(), 0);
+  generator.chain = recipe.assumed.value_or(robot.chain);
+  return generator;
+}
+
+std::vector<Log> healthy_trajectories(const Robot& robot, ControllerReading controller, int count,
+                                      double sigma, const HalfRanges& ranges, std::uint64_t seed,
+                                      SeedUse use) {
+  std::vector<Log> logs;
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t own = seed_of(seed, use, i);
+    logs.push_back(trajectory(robot, controller, kSamples, {}, own));
+    add_noise(logs.back(), ranges, sigma, own);
+  }
+  return logs;
+}
+
+std::vector<Log> healthy_runs(const Robot& robot, ControllerReading controller, int trajectories,
+                              double sigma, const HalfRanges& ranges, std::uint64_t seed, SeedUse use) {
+  constexpr double kRun_s = kTrajectoriesInARun * kSamples * kSamplePeriod;
+  std::vector<Log> logs;
+  for (int i = 0; i * kTrajectoriesInARun < trajectories; ++i) {
+    const std::uint64_t own = seed_of(seed, use, i);
+    logs.push_back(run_of_moves(robot, controller, kRun_s, {}, 0.0, own));
+    add_noise(logs.back(), ranges, sigma, own);
+  }
+  return logs;
+}
+
+TrainedGenerator train_generator(const Robot& robot, ControllerReading controller,
+                                 const GeneratorRecipe& recipe, const HalfRanges& ranges,
+                                 std::uint64_t seed) {
+  TrainedGenerator trained{untrained_generator(robot, recipe), {}};
+  const double phi = trained.generator.shape.torque_phi;
+  const auto draw = recipe.runs_of_moves ? healthy_runs : healthy_trajectories;
+  std::vector<Log> logs = draw(robot, controller, recipe.trajectories + recipe.trajectories / 5, recipe.sigma,
+                               ranges, seed, SeedUse::generator_training);
+  const int training_count =
+      recipe.runs_of_moves ? recipe.trajectories / kTrajectoriesInARun : recipe.trajectories;
+  const Transitions check = transitions_of({logs.begin() + training_count, logs.end()}, phi);
+  logs.resize(training_count);
+  ResidualOptions fit = recipe.fit;
+  fit.seed = seed_of(seed, SeedUse::generator_training, ~0ull);
+  trained.training = fit_residual_generator(trained.generator, transitions_of(logs, phi), {}, fit);
+  measure_healthy(trained.generator, check);
+  return trained;
+}
+
+Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges) {
+  Eigen::VectorXd half(ranges.q.size() + ranges.dq.size());
+  half << ranges.q, ranges.dq;
+  return (half.cwiseInverse().asDiagonal() * error).array().square().rowwise().mean();
+}
+
+Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
+                                         const HalfRanges& ranges) {
+  return normalised_mse_by_output(measured_change(generator, test) - predicted_change(generator, test),
+                                  ranges);
+}
+
+double normalised_mse(const ResidualGenerator& generator, const Transitions& test, const HalfRanges& ranges) {
+  return normalised_mse_by_output(generator, test, ranges).mean();
+}
+
+}  // namespace faultline

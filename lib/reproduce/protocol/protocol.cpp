@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/protocol/protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/random.hpp"
+#include "lib/residual/twin_patterns.hpp"
+#include "lib/simulate/simulate.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kIntegrationStep = 0.0074;  // s; the bench robot without friction is smooth
+constexpr double kPdBandwidth = 5.0;         // rad/s: settles within a move of 1.2 to 1.8 s
+
+SimulationSpec spec_of(ControllerReading controller, double duration_s) {
+  SimulationSpec spec;
+  spec.duration_s = duration_s;
+  spec.sample_period_s = kSamplePeriod;
+  spec.control_period_s = controller == ControllerReading::held ? kSamplePeriod : kControlPeriod;
+  spec.max_step_s = kIntegrationStep;
+  spec.motion.dwell_min_s = 0.0;
+  spec.motion.dwell_max_s = 0.4;
+  spec.controller = controller_spec(controller);
+  if (controller == ControllerReading::pd) spec.motion.profile = MotionProfile::step;
+  return spec;
+}
+
+void set_fault(SimulationSpec& spec, const FaultLabel& fault, double onset_s) {
+  if (fault.kind != FaultKind::none)
+    spec.faults = {{.kind = fault.kind, .joint = fault.joint, .onset_s = onset_s}};
+}
+
+std::vector<double> random_point(Random& random) {
+  return {random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(-0.35, 0.05)};
+}
+
+double half_range(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return 0.5 * (*high - *low);
+}
+
+void add_noise(std::vector<double>& signal, double std, Random& random) {
+  for (double& value : signal) value += std * random.normal();
+}
+
+}  // namespace
+
+const char* to_string(ControllerReading controller) {
+  switch (controller) {
+    case ControllerReading::held:
+      return "held";
+    case ControllerReading::fast:
+      return "fast";
+    case ControllerReading::pd:
+      return "pd";
+  }
+  return "";
+}
+
+ControllerSpec controller_spec(ControllerReading controller) {
+  if (controller != ControllerReading::pd) return {};
+  return {.kind = ControllerKind::pd_gravity, .bandwidth_rad_s = kPdBandwidth};
+}
+
+Robot bench_robot() {
+  Robot robot = preset_robot("RRP");
+  robot.name = "bench";
+  set_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
+  robot.log.torque_between_samples = TorqueTiming::held;
+  robot.identified = true;
+  return robot;
+}
+
+Robot bench_robot_with_friction() {
+  Robot robot = bench_robot();
+  robot.name = "bench with friction";
+  const double viscous[] = {0.6, 0.4, 2.0}, coulomb[] = {0.8, 0.5, 2.0};  // N m s/rad, N s/m; N m, N
+  for (int j = 0; j < 3; ++j) {
+    robot.chain.friction[j].viscous = viscous[j];
+    robot.chain.friction[j].coulomb = coulomb[j];
+  }
+  return robot;
+}
+
+HalfRanges half_ranges(const Robot& robot, ControllerReading controller) {
+  Log log;
+  for (int i = 0; i < 100; ++i)
+    append(log, trajectory(robot, controller, 25, {}, seed_of(1, SeedUse::ranges, i)));
+  HalfRanges ranges{Eigen::Vector3d(2.0, 2.0, 0.2), Eigen::VectorXd(3), Eigen::VectorXd(3)};
+  for (int j = 0; j < 3; ++j) {
+    ranges.dq[j] = half_range(log.dq[j]);
+    ranges.tau[j] = half_range(log.tau[j]);
+  }
+  return ranges;
+}
+
+Log trajectory(const Robot& robot, ControllerReading controller, int samples, const FaultLabel& fault,
+               std::uint64_t seed, double onset_s) {
+  // A step is a step only from somewhere: one sample of rest before it, which is cut off again.
+  const int lead = controller == ControllerReading::pd ? 1 : 0;
+  const double lead_s = lead * kSamplePeriod;
+  SimulationSpec spec = spec_of(controller, lead_s + samples * kSamplePeriod);
+  Random random = Random::stream(seed, 2);
+  const std::vector<double> from = random_point(random), to = random_point(random);
+  spec.motion.points = {from, to, to};  // one move, then rest
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = lead_s;
+  set_fault(spec, fault, lead_s + onset_s);
+  const Log log = simulate(robot, spec, seed).log;
+  Log kept = slice(log, lead, log.rows());
+  kept.first_row = 0;
+  for (double& time : kept.time) time -= lead_s;
+  return kept;
+}
+
+Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
+                 double onset_s, std::uint64_t seed, double sample_period_s) {
+  SimulationSpec spec = spec_of(controller, duration_s);
+  spec.sample_period_s = sample_period_s;
+  set_fault(spec, fault, onset_s);
+  return simulate(robot, spec, seed).log;
+}
+
+void add_noise(Log& log, const HalfRanges& ranges, double sigma, std::uint64_t seed) {
+  if (sigma <= 0.0) return;
+  Random random = Random::stream(seed, 1);
+  for (int j = 0; j < log.joints(); ++j) {
+    add_noise(log.q[j], sigma * ranges.q[j], random);
+    add_noise(log.dq[j], sigma * ranges.dq[j], random);
+  }
+}
+
+TransitionShape one_sample(int joints, double torque_phi) {
+  return {.joints = joints, .step = 1, .stride = 1, .step_s = kSamplePeriod, .torque_phi = torque_phi};
+}
+
+Transitions transitions_of(const std::vector<Log>& logs, double torque_phi) {
+  Transitions all;
+  for (const Log& log : logs) {
+    TransitionState state;
+    Transitions next = collect_transitions(log, one_sample(log.joints(), torque_phi), state);
+    all = all.count() == 0 ? std::move(next) : joined(all, next);
+  }
+  return all;
+}
+
+std::uint64_t seed_of(std::uint64_t seed, SeedUse use, std::uint64_t index) {
+  return Random::stream(Random::stream(seed, static_cast<std::uint64_t>(use)).bits(), index).bits();
+}
+
+}  // namespace faultline

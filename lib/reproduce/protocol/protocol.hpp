@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "lib/fault/fault_kind.hpp"
+#include "lib/log/log.hpp"
+#include "lib/residual/transitions.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+struct ControllerSpec;
+
+/// The controller that the paper does not state, in three readings.
+enum class ControllerReading {
+  held,  ///< computed torque, quintic moves, the torque constant over each sample of 73 ms
+  fast,  ///< the same at 1 kHz, logged every 73 ms
+  pd,    ///< PD and gravity compensation at 1 kHz after step set-points, logged every 73 ms
+};
+inline constexpr ControllerReading kControllerReadings[] = {ControllerReading::held, ControllerReading::fast,
+                                                            ControllerReading::pd};
+const char* to_string(ControllerReading controller);
+
+/// The paper's "variance = 0.01" has no unit. As a standard deviation in shares of half the range of each
+/// position and velocity it may be 0.01 or, read as a variance, 0.1.
+inline constexpr double kNoiseReadings[] = {0.0, 0.01, 0.1};
+
+inline constexpr double kSamplePeriod = 0.073;   ///< s, the paper's
+inline constexpr double kControlPeriod = 0.001;  ///< s, of fast and pd
+ControllerSpec controller_spec(ControllerReading controller);
+
+/// m = (1, 0.8, 0.5) kg, l = (1, 0.8) m, axes RRP: the paper gives no masses or lengths. Without friction, as
+/// in its simulation, or with some in every joint.
+Robot bench_robot();
+Robot bench_robot_with_friction();
+
+/// Half the range of each signal, by which the paper normalises: rad or m, and per s; N m or N.
+struct HalfRanges {
+  Eigen::VectorXd q, dq, tau;
+};
+/// Of healthy motion under this controller: of q as asked for, of dq and tau as found in 100 trajectories of
+/// 25 samples, the size of the paper's training set.
+HalfRanges half_ranges(const Robot& robot, ControllerReading controller);
+
+/// A random move of 1.2 to 1.8 s between two points of the ranges (q1, q2 within 2 rad, q3 -0.35 to 0.05 m),
+/// then rest: `samples` + 1 rows from its start, without noise. A fault acts from `onset_s` on.
+Log trajectory(const Robot& robot, ControllerReading controller, int samples, const FaultLabel& fault,
+               std::uint64_t seed, double onset_s = 0.0);
+
+/// A run of such moves, each followed by a rest of up to 0.4 s, without noise. Ends early when a freed robot
+/// runs away. Readings whose torque changes every millisecond may be logged faster than the paper does.
+Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
+                 double onset_s, std::uint64_t seed, double sample_period_s = kSamplePeriod);
+
+/// Adds white noise of `sigma` half ranges to q and dq: measurement noise as in the paper's second test sets.
+/// The controller does not see it.
+void add_noise(Log& log, const HalfRanges& ranges, double sigma, std::uint64_t seed);
+
+/// The transitions of one sample period in each log, joined. `torque_phi` as in TransitionShape.
+Transitions transitions_of(const std::vector<Log>& logs, double torque_phi = 0.0);
+TransitionShape one_sample(int joints, double torque_phi = 0.0);
+
+/// What seeds are drawn for. Different purposes never share a stream, so no training set meets a test set.
+enum class SeedUse : std::uint64_t {
+  generator_training,
+  generator_test,
+  classifier_training,
+  classifier_test,
+  run_training,
+  run_tuning,
+  run_test,
+  figures,
+  ranges,
+  learning_logs,
+};
+/// The seed of item `index` for this use within experiment `seed`.
+std::uint64_t seed_of(std::uint64_t seed, SeedUse use, std::uint64_t index = 0);
+
+}  // namespace faultline

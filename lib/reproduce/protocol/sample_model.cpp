@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/protocol/sample_model.hpp"
+
+#include "lib/reproduce/protocol/fault_trajectories.hpp"
+
+namespace faultline {
+namespace {
+
+using Vector = JointVector<double>;
+
+constexpr int kSteps = 10;  // of Runge-Kutta, over a sample
+
+}  // namespace
+
+SampleModel::SampleModel(const Robot& robot, ControllerReading controller, TorqueBetween between)
+    : dynamics_(robot.chain),
+      reading_(controller),
+      between_(between),
+      controller_(robot, controller_spec(controller), kControlPeriod) {}
+
+/// Where pd wants to be: its torque is linear in the set-point of the joint.
+Vector SampleModel::set_point(const JointState& now, const Vector& tau) const {
+  Reference there{now.q, Vector::Zero(now.q.size()), Vector::Zero(now.q.size())};
+  Vector here_torque(now.q.size()), beyond_torque(now.q.size());
+  controller_.torque(there, now.q, now.dq, here_torque);
+  there.q.array() += 1.0;
+  controller_.torque(there, now.q, now.dq, beyond_torque);
+  return now.q + ((tau - here_torque).array() / (beyond_torque - here_torque).array()).matrix();
+}
+
+JointState SampleModel::next(const JointState& now, const Vector& tau, const Vector& next_tau,
+                             int output) const {
+  const bool follows = between_ == TorqueBetween::controlled && reading_ != ControllerReading::held;
+  const bool pd = reading_ == ControllerReading::pd;
+  Reference reference{now.q, Vector::Zero(now.q.size()), Vector::Zero(now.q.size())};
+  if (follows && pd) reference.q = set_point(now, tau);
+  if (follows && !pd) dynamics_.acceleration(now.q, now.dq, tau, reference.ddq);
+  const auto acceleration = [&](double time, const Vector& q, const Vector& dq, Vector& ddq) {
+    Vector applied = tau;
+    if (between_ == TorqueBetween::linear) applied += time / kSamplePeriod * (next_tau - tau);
+    if (follows && !pd) {  // on its way: no error to correct
+      reference.q = q;
+      reference.dq = dq;
+    }
+    if (follows) controller_.torque(reference, q, dq, applied);
+    if (output < kFaultClasses - 1) applied[output] = 0.0;
+    dynamics_.acceleration(q, dq, applied, ddq);
+  };
+  const double h = kSamplePeriod / kSteps;
+  JointState x = now;
+  Vector a1, a2, a3, a4;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = i * h;
+    acceleration(t, x.q, x.dq, a1);
+    const Vector v2 = x.dq + 0.5 * h * a1;
+    acceleration(t + 0.5 * h, x.q + 0.5 * h * x.dq, v2, a2);
+    const Vector v3 = x.dq + 0.5 * h * a2;
+    acceleration(t + 0.5 * h, x.q + 0.5 * h * v2, v3, a3);
+    const Vector v4 = x.dq + h * a3;
+    acceleration(t + h, x.q + h * v3, v4, a4);
+    x.q += h / 6.0 * (x.dq + 2.0 * v2 + 2.0 * v3 + v4);
+    x.dq += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+  return x;
+}
+
+}  // namespace faultline

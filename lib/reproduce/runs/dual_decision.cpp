@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/dual_decision.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "lib/cases/decide.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kOfEachRun = 3;  // suspicions of a faulty run that become cases
+
+Case known_case(Episode episode, const FaultLabel& label) {
+  Case c;
+  c.episode = std::move(episode);
+  c.decision = c.label = label;
+  c.outcome = CaseOutcome::confirmed;
+  c.origin = "simulated";
+  return c;
+}
+
+/// A false suspicion counts once: at its height.
+std::vector<Suspicion> heights(const std::vector<Suspicion>& suspicions, double before_s) {
+  std::vector<Suspicion> out;
+  for (const Suspicion& s : suspicions) {
+    if (s.time_s >= before_s) break;
+    const bool goes_on = !out.empty() && continues(out.back(), s);
+    if (!goes_on)
+      out.push_back(s);
+    else if (s.largest() > out.back().largest())
+      out.back() = s;
+  }
+  return out;
+}
+
+/// Every so many-th, at most `most`.
+template <typename Value>
+std::vector<Value> thinned(const std::vector<Value>& values, int most) {
+  std::vector<Value> out;
+  const std::size_t step = values.size() / std::max(most, 1) + 1;
+  for (std::size_t i = 0; i < values.size(); i += step) out.push_back(values[i]);
+  return out;
+}
+
+DecideOptions decide_options() {
+  DecideOptions options;
+  options.thin_evidence = 0.0;  // the thresholds decide what is thin
+  return options;
+}
+
+CaseOpinion opinion_of(const Eigen::VectorXd& outputs, const std::vector<FaultLabel>& classes) {
+  Index best = 0;
+  const double largest = outputs.maxCoeff(&best);
+  return {classes[best], std::clamp(largest, 0.0, 1.0)};
+}
+
+/// A freed robot that has run away leaves samples that nothing can be said of.
+bool says_something(const SampleOutputs& outputs, Index i) {
+  return outputs.mlp.col(i).allFinite() && outputs.rbfn.col(i).allFinite();
+}
+
+Episode sample_episode(const SampleOutputs& outputs, Index i, const std::vector<FaultLabel>& classes) {
+  Episode episode;
+  for (const Eigen::MatrixXd* of : {&outputs.mlp, &outputs.rbfn})
+    for (Index c = 0; c < of->rows(); ++c) episode.features.push_back((*of)(c, i));
+  episode.mlp = opinion_of(outputs.mlp.col(i), classes);
+  episode.rbfn = opinion_of(outputs.rbfn.col(i), classes);
+  episode.evidence = 0.0;
+  return episode;
+}
+
+Index class_of(const std::vector<FaultLabel>& classes, const FaultLabel& label) {
+  const auto found = std::find(classes.begin(), classes.end(), label);
+  return found == classes.end() ? static_cast<Index>(classes.size()) - 1 : found - classes.begin();
+}
+
+}  // namespace
+
+CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+                             double sample_cap, double least, int most_false) {
+  CaseBase cases(suspicion_feature_names(static_cast<int>(detector.classifier.classes.size()) - 1));
+  std::vector<Suspicion> wrong;
+  const auto& classes = detector.classifier.classes;
+  for (const MonitoredRun& run : runs) {
+    const auto suspicions =
+        suspicions_of(detector.classifier, outputs_of(detector, run.log), sample_cap, least);
+    for (const Suspicion& s : heights(suspicions, run.onset_s)) wrong.push_back(s);
+    int taken = 0;
+    for (const Suspicion& s : suspicions)
+      if (s.time_s >= run.onset_s && taken++ < kOfEachRun)
+        cases.retain(known_case(episode_of(s, classes, least), run.fault));
+  }
+  for (const Suspicion& s : thinned(wrong, most_false))
+    cases.retain(known_case(episode_of(s, classes, least), {}));
+  cases.learn();
+  return cases;
+}
+
+std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
+                                      const std::vector<FaultLabel>& classes, const CaseBase& cases,
+                                      std::span<const double> thresholds) {
+  std::vector<Alarms> alarms(thresholds.size());
+  const DecideOptions options = decide_options();
+  for (std::size_t t = 0; t < thresholds.size(); ++t) {
+    const Suspicion* open = nullptr;  // the last one of the alarm that still stands
+    for (const Suspicion& s : suspicions) {
+      if (open && continues(*open, s)) {
+        open = &s;
+        continue;
+      }
+      open = nullptr;
+      if (s.largest() < thresholds[t]) continue;
+      const CaseDecision decision = decide(episode_of(s, classes, thresholds[t]), cases, options);
+      if (decision.label.joint == 0) continue;
+      alarms[t].push_back({s.time_s, decision.label});
+      open = &s;
+    }
+  }
+  return alarms;
+}
+
+CaseBase cases_of_samples(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+                          int most_of_class) {
+  const auto& classes = detector.classifier.classes;
+  std::vector<std::vector<Episode>> of_class(classes.size());
+  std::vector<std::string> names;
+  for (const char* network : {"mlp_", "rbfn_"})
+    for (std::size_t c = 0; c < classes.size(); ++c) names.push_back(network + std::to_string(c + 1));
+  for (const MonitoredRun& run : runs) {
+    const SampleOutputs outputs = outputs_of(detector, run.log);
+    for (Index i = 0; i < outputs.time.size(); ++i)
+      if (says_something(outputs, i))
+        of_class[class_of(classes, outputs.time[i] > run.onset_s ? run.fault : FaultLabel{})].push_back(
+            sample_episode(outputs, i, classes));
+  }
+  CaseBase cases(names);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    for (const Episode& episode : thinned(of_class[c], most_of_class))
+      cases.retain(known_case(episode, classes[c]));
+  cases.learn();
+  return cases;
+}
+
+Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<FaultLabel>& classes,
+                               const CaseBase& cases) {
+  Eigen::MatrixXd decided = Eigen::MatrixXd::Zero(outputs.mlp.rows(), outputs.mlp.cols());
+  const DecideOptions options = decide_options();
+  for (Index i = 0; i < decided.cols(); ++i) {
+    if (!says_something(outputs, i)) {
+      decided.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    const Episode episode = sample_episode(outputs, i, classes);
+    const bool agree = episode.mlp.label == episode.rbfn.label;
+    const FaultLabel label = agree ? episode.mlp.label : decide(episode, cases, options).label;
+    decided(class_of(classes, label), i) = 1.0;
+  }
+  return decided;
+}
+
+}  // namespace faultline

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/fault_figures.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/reproduce/protocol/motion_generator.hpp"
+#include "lib/reproduce/protocol/protocol.hpp"
+#include "lib/reproduce/runs/sample_detector.hpp"
+#include "lib/residual/residuals.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr ControllerReading kController = ControllerReading::held;
+constexpr double kShownAfter = 2.0;  // s of the fault: then the freed robot leaves all ranges
+constexpr int kJoint = 1;            // from 0: joint 2, as in the paper
+
+/// The networks of the paper, trained as it says.
+struct PaperNetworks {
+  HalfRanges ranges;
+  SampleDetector detector;
+};
+
+/// One run with all that the figures show of it, in half ranges; a column a transition.
+struct ShownRun {
+  std::vector<double> time;
+  Eigen::MatrixXd position, velocity, foretold_position, foretold_velocity, residual;
+  SampleOutputs outputs;
+};
+
+ShownRun shown_run(const PaperNetworks& networks, const Robot& robot, double onset_s, std::uint64_t seed) {
+  const Log log = run_of_moves(robot, kController, onset_s + kShownAfter,
+                               {FaultKind::free_swinging, kJoint + 1}, onset_s, seed);
+  const Transitions moves = transitions_of({log});
+  const Eigen::MatrixXd change = predicted_change(networks.detector.generator, moves);
+  const auto per_q = networks.ranges.q.cwiseInverse().asDiagonal();
+  const auto per_dq = networks.ranges.dq.cwiseInverse().asDiagonal();
+  ShownRun run;
+  run.time.assign(moves.time.begin(), moves.time.end());
+  run.position = per_q * moves.next_q;
+  run.velocity = per_dq * moves.next_dq;
+  run.foretold_position = per_q * (moves.q + change.topRows(robot.joints()));
+  run.foretold_velocity = per_dq * (moves.dq + change.bottomRows(robot.joints()));
+  run.residual = run.velocity - run.foretold_velocity;
+  run.outputs = outputs_of(networks.detector, log);
+  return run;
+}
+
+std::vector<double> row(const Eigen::MatrixXd& values, int i) {
+  const Eigen::VectorXd one = values.row(i);
+  return {one.begin(), one.end()};
+}
+
+PlotPanel residual_panel(const ShownRun& run) {
+  PlotPanel panel{.y_label = "residual, half ranges", .series = {}, .y_range = {{-1.5, 1.5}}};
+  for (int j = 0; j < run.residual.rows(); ++j)
+    panel.series.push_back({fmt::format("velocity of joint {}", j + 1), run.time, row(run.residual, j)});
+  return panel;
+}
+
+PlotPanel motion_panel(const ShownRun& run, const Eigen::MatrixXd& measured, const Eigen::MatrixXd& foretold,
+                       const char* label) {
+  return {.y_label = label,
+          .series = {{"measured", run.time, row(measured, kJoint)},
+                     {"foretold by the MLP", run.time, row(foretold, kJoint)}},
+          .y_range = {{-2.5, 2.5}}};
+}
+
+PlotPanel output_panel(const ShownRun& run, const Eigen::MatrixXd& outputs, const char* network) {
+  PlotPanel panel{.y_label = fmt::format("{} output", network), .series = {}, .y_range = {{-0.5, 1.5}}};
+  for (int i = 0; i < outputs.rows(); ++i)
+    panel.series.push_back({i + 1 < outputs.rows() ? fmt::format("fault in joint {}", i + 1) : "fault-free",
+                            run.time, row(outputs, i)});
+  return panel;
+}
+
+Figure figure(int number, const char* what, const char* network, double onset_s,
+              std::vector<PlotPanel> panels) {
+  const std::string title =
+      fmt::format("Figure {}. {}, joint 2 swings freely from {:g} s ({})", number, what, onset_s, network);
+  return {
+      fmt::format("figure_{}", number),
+      fmt::format("**{}.** Held controller, no noise, the paper's recipe. The freed robot soon leaves its "
+                  "ranges; curves are cut at the frame.",
+                  title),
+      {.title = title, .x_label = "time, s", .panels = std::move(panels), .marks = {{onset_s, "fault"}}}};
+}
+
+/// Three figures of one run: residual, position, velocity.
+void add_figures(std::vector<Figure>& figures, const ShownRun& run, const Eigen::MatrixXd& outputs,
+                 const char* network, double onset_s) {
+  const int first = 3 + static_cast<int>(figures.size());
+  const PlotPanel answer = output_panel(run, outputs, network);
+  figures.push_back(figure(first, "Residual", network, onset_s, {residual_panel(run), answer}));
+  figures.push_back(
+      figure(first + 1, "Normalised position", network, onset_s,
+             {motion_panel(run, run.position, run.foretold_position, "position, half ranges"), answer}));
+  figures.push_back(
+      figure(first + 2, "Normalised velocity", network, onset_s,
+             {motion_panel(run, run.velocity, run.foretold_velocity, "velocity, half ranges"), answer}));
+}
+
+}  // namespace
+
+std::vector<Figure> fault_figures(const ReproduceOptions& options) {
+  const Robot robot = bench_robot();
+  PaperNetworks networks{half_ranges(robot, kController), {}};
+  GeneratorRecipe recipe;
+  recipe.fit.trainer = ResidualTrainer::back_propagation;
+  networks.detector = train_paper_detector(
+      train_generator(robot, kController, recipe, networks.ranges, options.seed).generator, robot,
+      kController, options.seed);
+  std::vector<Figure> figures;
+  const ShownRun first = shown_run(networks, robot, 4.0, seed_of(options.seed, SeedUse::figures, 0));
+  add_figures(figures, first, first.outputs.mlp, "MLP", 4.0);
+  const ShownRun second = shown_run(networks, robot, 5.0, seed_of(options.seed, SeedUse::figures, 1));
+  add_figures(figures, second, second.outputs.rbfn, "RBFN", 5.0);
+  return figures;
+}
+
+}  // namespace faultline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/reproduce/page/reproduction.hpp"
+#include "lib/reproduce/protocol/reproduce_options.hpp"
+
+namespace faultline {
+
+/// The paper's figures 3 to 8: residual, position and velocity of joint 2, which swings freely from 4 s (MLP)
+/// or 5 s (RBFN) on, with what the networks put out. Held controller, no noise, the paper's own recipe.
+std::vector<Figure> fault_figures(const ReproduceOptions& options);
+
+}  // namespace faultline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "lib/reproduce/protocol/protocol.hpp"
+
+namespace faultline {
+
+/// A run to be watched, with its truth.
+struct MonitoredRun {
+  Log log;
+  FaultLabel fault;  ///< none, or a free-swinging joint
+  double onset_s = std::numeric_limits<double>::infinity();
+
+  bool faulty() const { return fault.kind != FaultKind::none; }
+};
+
+struct RunSet {
+  int faulty = 300;            ///< runs, joints 1, 2, 3 in turn
+  double fault_free_h = 10.0;  ///< besides
+  double hour_s = 3600.0;      ///< length of a fault-free run; the last one is what is left
+  double earliest_onset_s = 2.0;
+  double latest_onset_s = 20.0;  ///< the onset is uniform in between
+  double after_onset_s = 6.0;    ///< the run goes on for this long, unless the freed robot runs away
+};
+
+/// Without noise: the faulty runs, then the fault-free ones.
+std::vector<MonitoredRun> monitored_runs(const Robot& robot, ControllerReading controller, const RunSet& set,
+                                         std::uint64_t seed, SeedUse use);
+/// The same runs as measured with noise of `sigma` half ranges; `use` and `seed` as when they were made.
+std::vector<MonitoredRun> with_noise(std::vector<MonitoredRun> runs, const HalfRanges& ranges, double sigma,
+                                     std::uint64_t seed, SeedUse use);
+
+}  // namespace faultline

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/product_detector.hpp"
+
+#include <algorithm>
+
+#include "lib/classify/episode_features.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
+#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/log/memory_source.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kHealthyLogs = 3;
+constexpr std::uint64_t kNoise = 100;
+constexpr int kMatchedRows = 2000;
+constexpr int kHealthyRuns = 10;      // simulated to calibrate the threshold
+constexpr double kLeastSigma = 1e-5;  // a filter needs some measurement noise
+
+/// Healthy logs as the stages read them.
+class Sources {
+ public:
+  explicit Sources(const HealthyLogs& healthy) {
+    for (const Log& log : healthy.logs) sources_.emplace_back(log, "healthy");
+    for (MemorySource& source : sources_) pointers_.push_back(&source);
+  }
+  const std::vector<LogSource*>& all() const { return pointers_; }
+
+ private:
+  std::vector<MemorySource> sources_;
+  std::vector<LogSource*> pointers_;
+};
+
+/// With noise of a tenth of the range shooting creeps on for long without a gain that the filters feel.
+IdentifyOptions identify_options(bool quick) {
+  IdentifyOptions options;
+  options.threads = 1;
+  options.max_iterations = quick ? 4 : 12;
+  return options;
+}
+
+bool is_held(const Robot& robot) { return robot.log.torque_between_samples == TorqueTiming::held; }
+
+}  // namespace
+
+HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
+                         const HalfRanges& ranges, double sigma, std::uint64_t seed) {
+  HealthyLogs healthy;
+  for (std::uint64_t i = 0; i < kHealthyLogs; ++i) {
+    healthy.logs.push_back(
+        run_of_moves(robot, controller, duration_s, {}, 0.0, seed_of(seed, SeedUse::learning_logs, i)));
+    add_noise(healthy.logs.back(), ranges, sigma, seed_of(seed, SeedUse::learning_logs, kNoise + i));
+  }
+  healthy.robot = preset_robot(robot.axes);
+  healthy.robot.name = robot.name;
+  healthy.robot.known["l1"] = {robot.chain.length[0], 0.0};
+  healthy.robot.log.torque_between_samples =
+      controller == ControllerReading::held ? TorqueTiming::held : TorqueTiming::unknown;
+  return healthy;
+}
+
+Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed) {
+  LearnOptions options;
+  options.threads = 1;
+  options.identify = identify_options(quick);
+  options.runs_per_label = 4;
+  options.validation_per_label = 0;
+  options.healthy_runs = quick ? 4 : kHealthyRuns;
+  options.residual.max_iterations = quick ? 8 : 30;
+  if (quick) options.residual.max_patterns = 600;
+  if (quick) options.kinds = {FaultKind::free_swinging, FaultKind::torque_loss, FaultKind::locked};
+  options.seed = seed;
+  const Sources sources(healthy);
+  return learn(sources.all(), {}, healthy.robot, options);
+}
+
+Identification identify_robot(const HealthyLogs& healthy, bool quick) {
+  const Sources sources(healthy);
+  return identify(sources.all(), healthy.robot, identify_options(quick));
+}
+
+MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,
+                            double sigma) {
+  IdentifiedMotion motion;
+  motion.chain = chain;
+  motion.torque_is_held = is_held(healthy.robot);
+  motion.torque_phi = motion.torque_is_held ? 0.0 : 0.5;
+  for (int j = 0; j < chain.joints(); ++j) {
+    motion.q_std.push_back(std::max(sigma, kLeastSigma) * ranges.q[j]);
+    motion.dq_std.push_back(std::max(sigma, kLeastSigma) * ranges.dq[j]);
+  }
+  const Sources sources(healthy);
+  return learn_motion_model(sources.all(), motion, {.excerpt_rows = kMatchedRows});
+}
+
+ProductAlarms product_alarms(const Learned& learned, const Log& log) {
+  const Model& model = learned.model;
+  MemorySource source(log, "run");
+  const Heard heard = listen(source, model);
+  ProductAlarms alarms;
+  for (std::size_t i = 0; i < heard.episodes.size(); ++i) {
+    const EpisodeEvidence& episode = heard.episodes[i];
+    const auto evidence = evidence_by_label(episode, model.bank, model.motion);
+    const Episode judged = episode_of(episode, heard.episode_residuals[i], model);
+    const FaultFinding finding = decide_episode(episode, heard.episode_residuals[i], model, learned.cases);
+    alarms.mlp.push_back({episode.alarm_s, named_by_size(judged.mlp.label, evidence)});
+    alarms.rbfn.push_back({episode.alarm_s, named_by_size(judged.rbfn.label, evidence)});
+    alarms.cases.push_back({episode.alarm_s, finding.label});
+  }
+  return alarms;
+}
+
+}  // namespace faultline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "lib/pipeline/learn.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
+
+namespace faultline {
+
+/// What this project's `learn` is given: three healthy logs with moves as in the protocol, and of the robot
+/// its axes, whether the torque is held, and the length of link 1.
+struct HealthyLogs {
+  std::vector<Log> logs;
+  Robot robot;
+};
+HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
+                         const HalfRanges& ranges, double sigma, std::uint64_t seed);
+
+/// Learns on one thread. `quick`: from few simulated faults of three kinds, a coarse
+/// residual network and few iterations of the identification.
+Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed);
+Identification identify_robot(const HealthyLogs& healthy, bool quick);
+/// The motion model of a known robot, its noise matched to these logs.
+MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,
+                            double sigma);
+
+/// `diagnose` on one run: when the bank raised alarms, and what each of those who name them says.
+struct ProductAlarms {
+  Alarms mlp;    ///< named by the MLP alone
+  Alarms rbfn;   ///< by the RBFN alone
+  Alarms cases;  ///< as diagnosed: both networks, and cases
+};
+ProductAlarms product_alarms(const Learned& learned, const Log& log);
+
+}  // namespace faultline

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/run_condition.hpp"
+
+#include <algorithm>
+
+#include "lib/reproduce/protocol/motion_generator.hpp"
+#include "lib/reproduce/runs/filter_detectors.hpp"
+#include "lib/reproduce/runs/network_detectors.hpp"
+#include "lib/reproduce/runs/product_detector.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kNoisyIterations =
+    30;  // of generators trained with noise, whose error is soon the noise itself
+
+bool contains(const std::vector<double>& values, double value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+/// One controller and seed, whatever the noise.
+struct Experiment {
+  Robot robot;
+  ControllerReading controller;
+  HalfRanges ranges;
+  RunPlan plan;
+  std::uint64_t seed;
+  ConditionRuns clean;
+  ResidualGenerator paper_generator;
+};
+
+Experiment experiment(ControllerReading controller, const RunPlan& plan, std::uint64_t seed) {
+  Experiment e{bench_robot(), controller, {}, plan, seed, {}, {}};
+  e.ranges = half_ranges(e.robot, controller);
+  e.clean = {monitored_runs(e.robot, controller, plan.training, seed, SeedUse::run_training),
+             monitored_runs(e.robot, controller, plan.tuning, seed, SeedUse::run_tuning),
+             monitored_runs(e.robot, controller, plan.test, seed, SeedUse::run_test)};
+  GeneratorRecipe recipe;
+  recipe.trajectories = plan.generator_trajectories;
+  recipe.fit.max_iterations = plan.generator_iterations;
+  e.paper_generator = train_generator(e.robot, controller, recipe, e.ranges, seed).generator;
+  return e;
+}
+
+ConditionRuns measured(const Experiment& e, double sigma) {
+  return {with_noise(e.clean.training, e.ranges, sigma, e.seed, SeedUse::run_training),
+          with_noise(e.clean.tuning, e.ranges, sigma, e.seed, SeedUse::run_tuning),
+          with_noise(e.clean.test, e.ranges, sigma, e.seed, SeedUse::run_test)};
+}
+
+/// Held: physics of the identified robot. Else what the torque did between two samples is unknown to physics,
+/// and a 12-49-6 network trained with the noise of use does better.
+ResidualGenerator best_generator(const Experiment& e, const Chain<double>& identified, double sigma) {
+  GeneratorRecipe recipe;
+  recipe.sigma = sigma;
+  recipe.trajectories = e.plan.generator_trajectories;
+  if (e.controller == ControllerReading::held) {
+    recipe.fit.kind = ResidualKind::physics;
+    recipe.assumed = identified;
+  } else {
+    recipe.next_torque = true;
+    recipe.fit.max_iterations = std::min(kNoisyIterations, e.plan.generator_iterations);
+  }
+  return train_generator(e.robot, e.controller, recipe, e.ranges, e.seed).generator;
+}
+
+void append(std::vector<DetectorResult>& all, std::vector<DetectorResult> more) {
+  for (DetectorResult& result : more) all.push_back(std::move(result));
+}
+
+ConditionResult run_condition(const Experiment& e, double sigma) {
+  const bool held = e.controller == ControllerReading::held;
+  const ConditionRuns runs = measured(e, sigma);
+  const HealthyLogs healthy =
+      healthy_logs(e.robot, e.controller, e.plan.healthy_log_s, e.ranges, sigma, e.seed);
+  ConditionResult result{sigma, {}, {}};
+  watch_with_networks(train_paper_detector(e.paper_generator, e.robot, e.controller, e.seed), runs,
+                      "paper's recipe", false, result);
+
+  const bool learns = contains(e.plan.learned_sigmas, sigma);
+  Learned learned;
+  if (learns) learned = learn_product(healthy, e.plan.quick, e.seed);
+  const Chain<double> identified = learns ? learned.model.robot.chain
+                                   : held ? identify_robot(healthy, e.plan.quick).robot.chain
+                                          : e.robot.chain;
+  watch_with_networks(train_best_detector(best_generator(e, identified, sigma), runs.training,
+                                          e.plan.patterns_per_class, e.seed),
+                      runs, "best recipe", true, result);
+
+  const auto tuning = some_of(runs.tuning, e.plan.filter_tuning_faulty, e.plan.filter_tuning_h);
+  if (learns) {
+    const auto test = some_of(runs.test, e.plan.filter_faulty, e.plan.filter_fault_free_h);
+    result.detectors.push_back(
+        watch_with_filters(detector_name::kFilters, learned.model.motion, tuning, test));
+    append(result.detectors, watch_with_product(learned, test));
+  }
+  if (!contains(e.plan.filtered_sigmas, sigma)) return result;
+  const MotionModel known = motion_model_of(e.robot.chain, healthy, e.ranges, sigma);
+  const auto test = some_of(runs.test, e.plan.reference_faulty, e.plan.reference_h);
+  result.detectors.push_back(watch_with_filters(detector_name::kReference, known, tuning, test));
+  return result;
+}
+
+}  // namespace
+
+RunPlan run_plan(ControllerReading controller, bool quick) {
+  RunPlan plan;
+  plan.quick = quick;
+  const bool held = controller == ControllerReading::held;
+  if (held) plan.learned_sigmas = {0.01, 0.1};
+  if (!held) {
+    plan.training.fault_free_h = 0.5;
+    plan.tuning = {.faulty = 100, .fault_free_h = 3.0};
+    plan.test = {.faulty = 60, .fault_free_h = 2.0};
+  }
+  if (!quick) return plan;
+  plan.training = {.faulty = 30, .fault_free_h = 0.05, .after_onset_s = 2.0};
+  plan.tuning = plan.test = {.faulty = 18, .fault_free_h = 0.1, .hour_s = 360.0};
+  plan.sigmas = {0.01};
+  if (held) plan.sigmas = {0.01, 0.1};
+  plan.filter_faulty = 12;
+  plan.filter_fault_free_h = plan.filter_tuning_h = plan.reference_h = 0.1;
+  plan.reference_faulty = 6;
+  plan.filter_tuning_faulty = 6;
+  plan.healthy_log_s = 20.0;
+  plan.generator_trajectories = 30;
+  plan.generator_iterations = 10;
+  plan.patterns_per_class = 200;
+  plan.learned_sigmas.clear();
+  if (held) plan.learned_sigmas = {0.01};
+  plan.filtered_sigmas.clear();
+  if (held) plan.filtered_sigmas = {0.01};
+  return plan;
+}
+
+std::vector<ConditionResult> run_conditions(ControllerReading controller, const RunPlan& plan,
+                                            std::uint64_t seed) {
+  const Experiment e = experiment(controller, plan, seed);
+  std::vector<ConditionResult> results;
+  for (const double sigma : plan.sigmas) results.push_back(run_condition(e, sigma));
+  return results;
+}
+
+}  // namespace faultline

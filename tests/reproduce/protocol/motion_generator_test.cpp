@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/protocol/motion_generator.hpp"
+
+#include <gtest/gtest.h>
+
+namespace faultline {
+namespace {
+
+TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
+  const Robot robot = bench_robot();
+  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  const auto use = SeedUse::generator_test;
+  const auto single = healthy_trajectories(robot, ControllerReading::held, 20, 0.0, ranges, 1, use);
+  const auto runs = healthy_runs(robot, ControllerReading::held, 20, 0.0, ranges, 1, use);
+  EXPECT_EQ(single.size(), 20u);
+  EXPECT_EQ(runs.size(), 2u);
+  EXPECT_EQ(transitions_of(runs).count(), transitions_of(single).count());
+}
+
+TEST(MotionGenerator, no_test_trajectory_is_trained_on) {
+  const Robot robot = bench_robot();
+  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  const auto training =
+      healthy_trajectories(robot, ControllerReading::held, 120, 0.0, ranges, 1, SeedUse::generator_training);
+  const auto test =
+      healthy_trajectories(robot, ControllerReading::held, 200, 0.0, ranges, 1, SeedUse::generator_test);
+  for (const Log& mine : test)
+    for (const Log& theirs : training) ASSERT_NE(mine.q[0], theirs.q[0]);
+}
+
+TEST(MotionGenerator, the_error_is_in_half_ranges_of_each_output) {
+  const HalfRanges ranges{Eigen::Vector3d(2.0, 4.0, 0.5), Eigen::Vector3d(1.0, 10.0, 5.0), {}};
+  Eigen::MatrixXd error(6, 2);
+  error << 2.0, -2.0, 4.0, 0.0, 0.5, 0.5, 0.0, 0.0, 10.0, -10.0, 0.5, 0.5;
+  const Eigen::VectorXd mse = normalised_mse_by_output(error, ranges);
+  const double expected[] = {1.0, 0.5, 1.0, 0.0, 1.0, 0.01};
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(mse[i], expected[i], 1e-15) << i;
+}
+
+TEST(MotionGenerator, physics_of_the_true_robot_is_exact_when_the_torque_is_held) {
+  const Robot robot = bench_robot();
+  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  GeneratorRecipe recipe;
+  recipe.fit.kind = ResidualKind::physics;
+  const ResidualGenerator physics = untrained_generator(robot, recipe);
+  const Transitions test = transitions_of(
+      healthy_runs(robot, ControllerReading::held, 20, 0.0, ranges, 1, SeedUse::generator_test));
+  EXPECT_LT(normalised_mse(physics, test, ranges), 1e-12);
+}
+
+}  // namespace
+}  // namespace faultline

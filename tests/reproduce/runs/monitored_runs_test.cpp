@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/monitored_runs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace faultline {
+namespace {
+
+const RunSet kSet{.faulty = 6, .fault_free_h = 0.05, .hour_s = 100.0};
+
+TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
+  const auto runs = monitored_runs(bench_robot(), ControllerReading::held, kSet, 1, SeedUse::run_test);
+  double fault_free_s = 0.0;
+  int faulty = 0;
+  for (const MonitoredRun& run : runs) {
+    if (!run.faulty()) {
+      fault_free_s += run.log.rows() * kSamplePeriod;
+      continue;
+    }
+    EXPECT_EQ(run.fault, (FaultLabel{FaultKind::free_swinging, 1 + faulty++ % 3}));
+    EXPECT_GE(run.onset_s, 2.0);
+    EXPECT_LE(run.onset_s, 20.0);
+    EXPECT_GT(run.log.time.back(), run.onset_s);
+    EXPECT_LE(run.log.time.back(), run.onset_s + 6.0);
+  }
+  EXPECT_EQ(faulty, 6);
+  EXPECT_NEAR(fault_free_s, 180.0, 1.0);
+}
+
+TEST(MonitoredRuns, of_different_uses_differ_and_noise_leaves_the_motion_as_it_was) {
+  const Robot robot = bench_robot();
+  const auto runs = monitored_runs(robot, ControllerReading::held, kSet, 1, SeedUse::run_test);
+  const auto others = monitored_runs(robot, ControllerReading::held, kSet, 1, SeedUse::run_tuning);
+  EXPECT_NE(runs[0].onset_s, others[0].onset_s);
+  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  const auto noisy = with_noise(runs, ranges, 0.1, 1, SeedUse::run_test);
+  EXPECT_EQ(noisy[0].log.tau, runs[0].log.tau);
+  EXPECT_NE(noisy[0].log.q[0][5], runs[0].log.q[0][5]);
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/runs/run_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lib/reproduce/runs/run_condition.hpp"
+
+namespace faultline {
+namespace {
+
+const StudyResult& quick_study() {
+  static const StudyResult study = run_study({.seeds = 1, .quick = true});
+  return study;
+}
+
+const ResultTable& table(const std::string& id) {
+  const auto& tables = quick_study().tables;
+  return *std::find_if(tables.begin(), tables.end(), [&](const ResultTable& t) { return t.id == id; });
+}
+
+double figure(const ResultTable& table, const std::vector<std::string>& labels, const std::string& column) {
+  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                [&](const ResultRow& r) { return r.labels == labels; });
+  const auto at = std::find_if(table.figure_columns.begin(), table.figure_columns.end(),
+                               [&](const FigureColumn& c) { return c.name == column; });
+  return row->figures[at - table.figure_columns.begin()]->mean();
+}
+
+TEST(RunStudy, gives_a_table_a_controller_and_a_trade_off_a_noise) {
+  for (const char* id : {"runs_held", "runs_fast", "runs_pd", "dual_held", "trade_off_held_0.01",
+                         "trade_off_held_0.1", "trade_off_pd_0.01"})
+    EXPECT_TRUE(std::any_of(quick_study().tables.begin(), quick_study().tables.end(),
+                            [&](const ResultTable& t) { return t.id == id; }))
+        << id;
+  for (const ResultTable& t : quick_study().tables)
+    for (const ResultRow& row : t.rows) {
+      EXPECT_EQ(row.labels.size(), t.label_columns.size()) << t.id;
+      EXPECT_EQ(row.figures.size(), t.figure_columns.size()) << t.id;
+    }
+}
+
+TEST(RunStudy, what_the_departures_from_the_paper_buy_has_the_right_order_of_magnitude) {
+  const ResultTable& held = table("runs_held");
+  const std::vector<std::string> paper = {"0.01", "paper's recipe, RBFN", decision_name::kConsecutive};
+  const std::vector<std::string> best = {"0.01", detector_name::kBestAverage, decision_name::kLogOdds};
+  const std::vector<std::string> filters = {"0.01", detector_name::kFilters, decision_name::kLogOdds};
+  const std::vector<std::string> product = {"0.01", detector_name::kBankCases, decision_name::kBank};
+  EXPECT_GE(figure(held, best, "detected"), 0.9);
+  EXPECT_GE(figure(held, best, "right joint"), 0.9);
+  EXPECT_LT(figure(held, best, "median delay"), 0.5 * figure(held, paper, "median delay"));
+  for (const auto& detector : {filters, product}) {
+    EXPECT_GE(figure(held, detector, "detected"), 0.9);
+    EXPECT_GE(figure(held, detector, "right joint"), 0.9);
+    EXPECT_LT(figure(held, detector, "median delay"), 0.2);
+    EXPECT_EQ(figure(held, detector, "false alarms"), 0.0);
+  }
+}
+
+TEST(RunStudy, a_larger_g_has_fewer_false_alarms_and_more_delay) {
+  const ResultTable& trade_off = table("trade_off_held_0.1");
+  const std::string detector = detector_name::kBestMlp;
+  EXPECT_GT(figure(trade_off, {detector, "1"}, "false alarms"),
+            10.0 * figure(trade_off, {detector, "10"}, "false alarms"));
+  EXPECT_LT(figure(trade_off, {detector, "1"}, "median delay"),
+            figure(trade_off, {detector, "10"}, "median delay"));
+}
+
+TEST(RunStudy, states_each_goal_with_its_measured_value) {
+  ASSERT_FALSE(quick_study().goals.empty());
+  for (const Goal& goal : quick_study().goals) EXPECT_EQ(goal.measured.by_seed.size(), 1u) << goal.what;
+}
+
+}  // namespace
+}  // namespace faultline
