@@ -51,7 +51,7 @@ std::string one_line(const Case& c) {
 }
 
 std::string in_full(const CaseBase& base, const Case& c) {
-  const auto opinion = [](const char* network, const CaseOpinion& o) {
+  const auto opinion = [](const char* network, const Opinion& o) {
     return fmt::format("  {:<9}{} ({:.2f})\n", network, plain_words(o.label), o.confidence);
   };
   std::string text = fmt::format("Case {}: {} ({})\n", c.id, plain_words(c.label), to_string(c.outcome));

@@ -39,7 +39,7 @@ BatchRow row_of(const Diagnosis& d) {
   row.joints = d.log.joints;
   row.warnings = issues_of(d, Severity::warning);
   row.severe = issues_of(d, Severity::severe);
-  for (const JointResidualSummary& residual : d.residuals) {
+  for (const JointResidual& residual : d.residuals) {
     row.residual_rms.push_back(residual.velocity_rms);
     row.residual_peak.push_back(residual.velocity_peak);
   }

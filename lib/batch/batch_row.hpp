@@ -41,7 +41,7 @@ struct BatchRow {
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
   int warnings = 0, severe = 0;            ///< kinds of issues of the log
-  std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidualSummary)
+  std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidual)
   std::vector<double> residual_peak;       ///< likewise
   std::vector<BatchFault> faults;          ///< by onset
   std::vector<BatchParameter> parameters;  ///< identified from this log alone, when asked for and healthy

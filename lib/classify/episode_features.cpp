@@ -13,6 +13,7 @@ constexpr double kUnknownShare = 0.5;      // of the evidence that a known fault
 constexpr double kLargestDeficit = 300.0;  // beyond it a label is out of the question anyway
 constexpr double kSizeFades = 20.0;        // the size of a label this far behind hardly counts
 constexpr double kUsualPulse_s = 0.05;
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// The labels a hypothesis can stand for: its own, or those of all joints for a push on all of them.
 FaultLabel label_of(const Hypothesis& hypothesis, const HypothesisEvidence& evidence,
@@ -116,7 +117,7 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
 
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
-                                     std::span<const double> residual_rms) {
+                                     std::span<const JointResidual> residuals, int joints) {
   double best = 0.0;
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   std::vector<double> features;
@@ -131,8 +132,10 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
   features.push_back(std::log1p(best));
   features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));
   features.push_back(std::log(std::max(episode.judged_s - episode.onset_s, 1e-3)));
-  for (const double rms : residual_rms)
+  for (int j = 0; j < joints; ++j) {
+    const double rms = j < std::ssize(residuals) ? residuals[j].velocity_rms : kNotMeasured;
     features.push_back(std::isfinite(rms) ? std::log(std::max(rms, 1e-3)) : 0.0);
+  }
   return features;
 }
 

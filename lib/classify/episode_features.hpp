@@ -7,6 +7,7 @@
 
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
 
@@ -33,10 +34,10 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
 
 /// The numbers the two networks judge an episode by: for each label how far it stays behind the likeliest and
 /// its size, how strong and how long the episode is, and the MLP's residual of each joint over the episode
-/// (root mean square in units of healthy, one a joint; NaN counts as 1).
+/// (root mean square in units of healthy; a joint without one counts as 1).
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
-                                     std::span<const double> residual_rms);
+                                     std::span<const JointResidual> residuals, int joints);
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints);
 
 }  // namespace faultline

@@ -38,13 +38,13 @@ bool compare_number(const std::string& channel, const std::string& family, doubl
   return true;
 }
 
-std::string line_of(const JointResidualSummary& r) {
+std::string line_of(const JointResidual& r) {
   return fmt::format("residual of joint {}: velocity_rms {}, velocity_peak {} at {} s, position_rms {}",
-                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.peak_s),
+                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.velocity_peak_s),
                      value(r.position_rms));
 }
 
-bool compare_residual(const JointResidualSummary& expected, const JointResidualSummary& actual,
+bool compare_residual(const JointResidual& expected, const JointResidual& actual,
                       const ToleranceChain& tolerances, Comparison& comparison) {
   bool differs = false;
   const auto number = [&](const char* family, double wanted, double got, double time) {
@@ -52,8 +52,9 @@ bool compare_residual(const JointResidualSummary& expected, const JointResidualS
                               tolerances, comparison);
   };
   number("velocity_rms", expected.velocity_rms, actual.velocity_rms, NAN);
-  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.peak_s);
-  number("peak_s", expected.peak_s, actual.peak_s, std::fmin(expected.peak_s, actual.peak_s));
+  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.velocity_peak_s);
+  number("peak_s", expected.velocity_peak_s, actual.velocity_peak_s,
+         std::fmin(expected.velocity_peak_s, actual.velocity_peak_s));
   number("position_rms", expected.position_rms, actual.position_rms, NAN);
   return differs;
 }

@@ -62,7 +62,7 @@ GoldenEvent event(const TomlTable& table) {
   return e;
 }
 
-JointResidualSummary residual(const TomlTable& table) {
+JointResidual residual(const TomlTable& table) {
   return {static_cast<int>(table.integer("joint", 0)), table.any_number("velocity_rms"),
           table.any_number("velocity_peak"), table.any_number("peak_s"), table.any_number("position_rms")};
 }

@@ -85,10 +85,10 @@ std::string event_line(const GoldenEvent& e) {
       number(e.confidence));
 }
 
-std::string residual_line(const JointResidualSummary& r) {
+std::string residual_line(const JointResidual& r) {
   return fmt::format(
       "  {{joint = {}, velocity_rms = {}, velocity_peak = {}, peak_s = {}, position_rms = {}}},\n", r.joint,
-      number(r.velocity_rms), number(r.velocity_peak), time(r.peak_s), number(r.position_rms));
+      number(r.velocity_rms), number(r.velocity_peak), time(r.velocity_peak_s), number(r.position_rms));
 }
 
 std::string log_text(const GoldenLog& log) {
@@ -99,7 +99,7 @@ std::string log_text(const GoldenLog& log) {
   text += length_line(log.tolerances) + (log.expected.events.empty() ? "events = [" : "events = [\n");
   for (const GoldenEvent& event : log.expected.events) text += event_line(event);
   text += "]\nresiduals = [\n";
-  for (const JointResidualSummary& r : log.expected.residuals) text += residual_line(r);
+  for (const JointResidual& r : log.expected.residuals) text += residual_line(r);
   text += "]\n";
   if (!log.tolerances.by_channel.empty()) text += "\n[log.tolerance]\n" + tolerance_lines(log.tolerances);
   return text;

@@ -28,7 +28,7 @@ struct Observation {
   std::string reason;     ///< why it is unusable; not compared
   std::int64_t rows = 0;  ///< used
   std::vector<GoldenEvent> events;
-  std::vector<JointResidualSummary> residuals;
+  std::vector<JointResidual> residuals;
   Trace trace;
 };
 

@@ -28,7 +28,7 @@ GoldenEvent event(const Json& json) {
           number(json.at("confidence"))};
 }
 
-JointResidualSummary residual(const Json& json) {
+JointResidual residual(const Json& json) {
   return {json.at("joint").get<int>(), number(json.at("velocity_rms")), number(json.at("velocity_peak")),
           number(json.at("peak_s")), number(json.at("position_rms"))};
 }

@@ -48,11 +48,11 @@ Json json_of(const GoldenEvent& e) {
           {"end_s", number(e.end_s)},        {"confidence", number(e.confidence)}};
 }
 
-Json json_of(const JointResidualSummary& r) {
+Json json_of(const JointResidual& r) {
   return {{"joint", r.joint},
           {"velocity_rms", number(r.velocity_rms)},
           {"velocity_peak", number(r.velocity_peak)},
-          {"peak_s", number(r.peak_s)},
+          {"peak_s", number(r.velocity_peak_s)},
           {"position_rms", number(r.position_rms)}};
 }
 
@@ -68,7 +68,7 @@ Json json_of(const GoldenRun::Log& log) {
   json["events"] = Json::array();
   for (const GoldenEvent& event : o.events) json["events"].push_back(json_of(event));
   json["residuals"] = Json::array();
-  for (const JointResidualSummary& r : o.residuals) json["residuals"].push_back(json_of(r));
+  for (const JointResidual& r : o.residuals) json["residuals"].push_back(json_of(r));
   json["trace"] = json_of(o.trace);
   return json;
 }

@@ -48,9 +48,9 @@ std::string top(const Diagnosis& d) {
 
 std::string residual_table(const Diagnosis& d) {
   std::vector<HtmlRow> rows;
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.peak_s, d.log.sample_period_s), value_text(r.position_rms)});
+                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return html_part("Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
                    html_table({"joint", "velocity rms", "largest", "at", "position rms"}, rows));
 }

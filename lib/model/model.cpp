@@ -121,7 +121,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.evidence = evidence_options_from_json(json.at("evidence"), where);
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
-  model.judges = judges_from_json(json.at("judges"), where);
+  model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
   for (const auto& source : json.at("sources"))
@@ -136,7 +136,7 @@ std::string model_to_json(const Model& model) {
   to_json(motion, model.motion);
   to_json(evidence, model.evidence);
   to_json(residual, model.residual);
-  to_json(judges, model.judges);
+  to_json(judges, model.episode_classifier);
   nlohmann::ordered_json json;
   json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
   json["name"] = model.name;

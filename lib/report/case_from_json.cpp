@@ -20,7 +20,7 @@ FaultLabel label_from(const Json& json) {
   return {fault_kind_from(json.at("kind").get<std::string>()), joint.is_null() ? 0 : joint.get<int>()};
 }
 
-CaseOpinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
+Opinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
 
 const Json& fault_with_id(const Json& diagnosis, const std::string& where, int id) {
   for (const Json& fault : diagnosis.at("faults"))

@@ -54,11 +54,11 @@ Json model_json(const ModelFacts& model) {
   return {{"name", model.name}, {"sha256", model.sha256}, {"cases_sha256", text_or_null(model.cases_sha256)}};
 }
 
-Json residual_json(const JointResidualSummary& residual) {
+Json residual_json(const JointResidual& residual) {
   return {{"joint", residual.joint},
           {"velocity_rms", number(residual.velocity_rms)},
           {"velocity_peak", number(residual.velocity_peak)},
-          {"peak_s", number(residual.peak_s)},
+          {"peak_s", number(residual.velocity_peak_s)},
           {"position_rms", number(residual.position_rms)}};
 }
 

@@ -65,9 +65,9 @@ std::string finding(const FaultFinding& f) {
 
 std::string residuals(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.peak_s, d.log.sample_period_s), value_text(r.position_rms)});
+                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return table({"joint", "velocity residual rms (1 = healthy)", "largest", "at", "position rms"}, rows);
 }
 

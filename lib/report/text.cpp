@@ -119,9 +119,9 @@ std::string residuals(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   std::string text = "Residuals against the regenerated fault-free motion (1 = as in the healthy logs)\n";
   text += "  joint  velocity rms  largest  at            position rms\n";
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     text += fmt::format("  {:<7}{:<14}{:<9}{:<14}{}\n", r.joint, value_text(r.velocity_rms),
-                        value_text(r.velocity_peak), time_text(r.peak_s, d.log.sample_period_s),
+                        value_text(r.velocity_peak), time_text(r.velocity_peak_s, d.log.sample_period_s),
                         value_text(r.position_rms));
   return text + "\n";
 }

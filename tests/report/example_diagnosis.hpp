@@ -24,7 +24,7 @@ inline Diagnosis healthy_diagnosis() {
     d.residuals.push_back({.joint = joint,
                            .velocity_rms = 0.97 + 0.01 * joint,
                            .velocity_peak = 3.5 + joint,
-                           .peak_s = 1.25 * joint,
+                           .velocity_peak_s = 1.25 * joint,
                            .position_rms = 1.0});
   return d;
 }

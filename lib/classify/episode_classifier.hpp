@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/opinion.hpp"
 #include "lib/neural/mlp.hpp"
 #include "lib/neural/rbfn.hpp"
 #include "lib/neural/scaler.hpp"
@@ -20,7 +20,7 @@ struct LabelledEpisode {
   FaultLabel label;
 };
 
-struct JudgeOptions {
+struct EpisodeClassifierOptions {
   int hidden = 24;  ///< units of the MLP
   double weight_decay = 3e-3;
   int map_side = 9;  ///< the RBFN's centres lie on a square map of this side
@@ -28,8 +28,10 @@ struct JudgeOptions {
   std::uint64_t seed = 1;
 };
 
-/// The two networks that judge the evidence of an episode (the paper's dual classification, figure 2).
-struct Judges {
+/// The two networks that classify an episode by its evidence (the paper's dual classification, figure 2). Its
+/// outputs are the labels; the confidence of an opinion is the label's probability (MLP) or its share of the
+/// positive outputs (RBFN).
+struct EpisodeClassifier {
   std::vector<FaultLabel> labels;  ///< of the outputs
   Scaler scaler;                   ///< of the features
   Mlp mlp;                         ///< softmax over the labels
@@ -38,23 +40,13 @@ struct Judges {
   bool trained() const { return !labels.empty(); }
 };
 
-/// A network's word: the label of its largest output.
-struct NetworkOpinion {
-  FaultLabel label;
-  double confidence =
-      0.0;  ///< 0 to 1: the label's probability (MLP), its share of the positive outputs (RBFN)
-};
-struct JudgeOpinions {
-  NetworkOpinion mlp;
-  NetworkOpinion rbfn;
-};
-
 /// Throws Error(input) when there are fewer than two labels to tell apart.
-Judges train_judges(std::span<const LabelledEpisode> episodes, const JudgeOptions& options = {});
-JudgeOpinions judge(const Judges& judges, const std::vector<double>& features);
+EpisodeClassifier train_episode_classifier(std::span<const LabelledEpisode> episodes,
+                                           const EpisodeClassifierOptions& options = {});
+Opinions classify_episode(const EpisodeClassifier& classifier, const std::vector<double>& features);
 
-void to_json(nlohmann::json& json, const Judges& judges);
+void to_json(nlohmann::json& json, const EpisodeClassifier& classifier);
 /// Throws Error(input); `where` names the file.
-Judges judges_from_json(const nlohmann::json& json, const std::string& where);
+EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

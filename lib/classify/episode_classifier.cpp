@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/classify/judges.hpp"
+#include "lib/classify/episode_classifier.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ Patterns patterns_of(std::span<const LabelledEpisode> episodes, const std::vecto
   return patterns;
 }
 
-NetworkOpinion opinion(const std::vector<FaultLabel>& labels, const Eigen::VectorXd& outputs) {
+Opinion opinion(const std::vector<FaultLabel>& labels, const Eigen::VectorXd& outputs) {
   Eigen::Index largest = 0;
   outputs.maxCoeff(&largest);
   const double all = outputs.cwiseMax(0.0).sum();
@@ -44,64 +44,66 @@ NetworkOpinion opinion(const std::vector<FaultLabel>& labels, const Eigen::Vecto
 
 }  // namespace
 
-Judges train_judges(std::span<const LabelledEpisode> episodes, const JudgeOptions& options) {
-  Judges judges;
-  judges.labels = labels_in(episodes);
-  if (judges.labels.size() < 2)
+EpisodeClassifier train_episode_classifier(std::span<const LabelledEpisode> episodes,
+                                           const EpisodeClassifierOptions& options) {
+  EpisodeClassifier classifier;
+  classifier.labels = labels_in(episodes);
+  if (classifier.labels.size() < 2)
     throw Error(ErrorCode::input, "training the judges",
-                "the episodes show " + std::to_string(judges.labels.size()) +
+                "the episodes show " + std::to_string(classifier.labels.size()) +
                     " kinds of fault; at least two are needed to tell them apart");
-  Patterns patterns = patterns_of(episodes, judges.labels);
-  judges.scaler = standard_scaler(patterns.inputs);
-  patterns.inputs = judges.scaler.apply(patterns.inputs);
+  Patterns patterns = patterns_of(episodes, classifier.labels);
+  classifier.scaler = standard_scaler(patterns.inputs);
+  patterns.inputs = classifier.scaler.apply(patterns.inputs);
   const int inputs = static_cast<int>(patterns.inputs.rows()),
-            outputs = static_cast<int>(judges.labels.size());
+            outputs = static_cast<int>(classifier.labels.size());
   const PatternSplit split = split_patterns(patterns, options.validation_share, options.seed);
   QuasiNewtonOptions training;
   training.weight_decay = options.weight_decay;
-  judges.mlp =
+  classifier.mlp =
       train_quasi_newton(make_mlp({inputs, options.hidden, outputs}, OutputKind::softmax, options.seed),
                          split.training, split.validation, training)
           .mlp;
   RbfnOptions radial;
   radial.map.rows = radial.map.columns = options.map_side;
   radial.map.seed = options.seed;
-  judges.rbfn = train_rbfn(patterns, radial).rbfn;
-  return judges;
+  classifier.rbfn = train_rbfn(patterns, radial).rbfn;
+  return classifier;
 }
 
-JudgeOpinions judge(const Judges& judges, const std::vector<double>& features) {
-  const Eigen::MatrixXd inputs = judges.scaler.apply(
+Opinions classify_episode(const EpisodeClassifier& classifier, const std::vector<double>& features) {
+  const Eigen::MatrixXd inputs = classifier.scaler.apply(
       Eigen::Map<const Eigen::VectorXd>(features.data(), static_cast<Eigen::Index>(features.size())));
-  return {opinion(judges.labels, forward(judges.mlp, inputs).col(0)),
-          opinion(judges.labels, forward(judges.rbfn, inputs).col(0))};
+  return {opinion(classifier.labels, forward(classifier.mlp, inputs).col(0)),
+          opinion(classifier.labels, forward(classifier.rbfn, inputs).col(0))};
 }
 
-void to_json(nlohmann::json& json, const Judges& judges) {
+void to_json(nlohmann::json& json, const EpisodeClassifier& classifier) {
   nlohmann::json labels = nlohmann::json::array(), scaler, mlp, rbfn;
-  for (const FaultLabel& label : judges.labels) labels.push_back({to_string(label.kind), label.joint});
-  to_json(scaler, judges.scaler);
-  to_json(mlp, judges.mlp);
-  to_json(rbfn, judges.rbfn);
+  for (const FaultLabel& label : classifier.labels) labels.push_back({to_string(label.kind), label.joint});
+  to_json(scaler, classifier.scaler);
+  to_json(mlp, classifier.mlp);
+  to_json(rbfn, classifier.rbfn);
   json = {{"labels", labels}, {"scaler", scaler}, {"mlp", mlp}, {"rbfn", rbfn}};
 }
 
-Judges judges_from_json(const nlohmann::json& json, const std::string& where) {
-  Judges judges;
+EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const std::string& where) {
+  EpisodeClassifier classifier;
   try {
     for (const auto& label : json.at("labels"))
-      judges.labels.push_back({fault_kind_from(label.at(0).get<std::string>()), label.at(1).get<int>()});
-    judges.scaler = scaler_from_json(json.at("scaler"), where);
-    judges.mlp = mlp_from_json(json.at("mlp"), where);
-    judges.rbfn = rbfn_from_json(json.at("rbfn"), where);
+      classifier.labels.push_back({fault_kind_from(label.at(0).get<std::string>()), label.at(1).get<int>()});
+    classifier.scaler = scaler_from_json(json.at("scaler"), where);
+    classifier.mlp = mlp_from_json(json.at("mlp"), where);
+    classifier.rbfn = rbfn_from_json(json.at("rbfn"), where);
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::input, where, std::string("the judges cannot be read (") + error.what() + ")");
   }
-  const int outputs = static_cast<int>(judges.labels.size());
-  if (judges.mlp.outputs() != outputs || judges.rbfn.outputs() != outputs ||
-      judges.mlp.inputs() != judges.scaler.size() || judges.rbfn.inputs() != judges.scaler.size())
+  const int outputs = static_cast<int>(classifier.labels.size());
+  if (classifier.mlp.outputs() != outputs || classifier.rbfn.outputs() != outputs ||
+      classifier.mlp.inputs() != classifier.scaler.size() ||
+      classifier.rbfn.inputs() != classifier.scaler.size())
     throw Error(ErrorCode::input, where, "the judges' networks do not fit their labels and features");
-  return judges;
+  return classifier;
 }
 
 }  // namespace faultline

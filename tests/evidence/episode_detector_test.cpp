@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/listener.hpp"
+#include "lib/evidence/episode_detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +16,15 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOnset_s = 2.503;
 
-std::vector<EpisodeEvidence> heard(const Log& log, int segment_rows = 4096,
-                                   const EvidenceOptions& options = {},
-                                   const MotionModel& model = rrp_motion_model()) {
+std::vector<EpisodeEvidence> detected(const Log& log, int segment_rows = 4096,
+                                      const EvidenceOptions& options = {},
+                                      const MotionModel& model = rrp_motion_model()) {
   const std::vector<Hypothesis> bank = hypotheses_of(model.joints(), TorqueMeaning::commanded);
-  Listener listener(model, bank, options);
-  std::vector<EpisodeEvidence> episodes;
+  EpisodeDetector detector(model, bank, options);
   MemorySource source(log, "memory", segment_rows);
-  for (Log segment; source.next(segment);) listener.listen(segment, episodes);
-  listener.finish(episodes);
-  return episodes;
+  for (Log segment; source.next(segment);) detector.take(segment);
+  detector.finish();
+  return detector.episodes();
 }
 
 FaultLabel named(const EpisodeEvidence& episode) {
@@ -54,8 +53,9 @@ bool same(const EpisodeEvidence& a, const EpisodeEvidence& b) {
   return equal;
 }
 
-TEST(Listener, IsSilentOnHealthyRuns) {
-  for (const std::uint64_t seed : {77, 78, 79}) EXPECT_TRUE(heard(healthy_log(10.0, seed)).empty()) << seed;
+TEST(EpisodeDetector, IsSilentOnHealthyRuns) {
+  for (const std::uint64_t seed : {77, 78, 79})
+    EXPECT_TRUE(detected(healthy_log(10.0, seed)).empty()) << seed;
 }
 
 /// A fault and how late its alarm may come.
@@ -73,7 +73,7 @@ class EachFault : public testing::TestWithParam<Expected> {};
 TEST_P(EachFault, IsNamedAtItsJointSoonAndNotEarly) {
   const Expected& expected = GetParam();
   const auto episodes =
-      heard(faulty_log(expected.label.kind, expected.label.joint, expected.size, expected.length_s));
+      detected(faulty_log(expected.label.kind, expected.label.joint, expected.size, expected.length_s));
   ASSERT_FALSE(episodes.empty());
   const EpisodeEvidence& first = episodes.front();
   EXPECT_EQ(to_string(named(first)), to_string(expected.label));
@@ -96,121 +96,122 @@ INSTANTIATE_TEST_SUITE_P(Rrp, EachFault,
                                          Expected{{FaultKind::payload_change, 3}, 1.5, 1e9, 0.3},
                                          Expected{{FaultKind::collision, 1}, 40.0, 0.1, 0.05}));
 
-TEST(Listener, SegmentBordersChangeNothing) {
+TEST(EpisodeDetector, SegmentBordersChangeNothing) {
   const Log log = faulty_log(FaultKind::torque_loss, 3, 0.5);
-  const auto whole = heard(log, 1 << 20);
+  const auto whole = detected(log, 1 << 20);
   ASSERT_FALSE(whole.empty());
   for (const int rows : {1, 7, 100, 4096}) {
-    const auto cut = heard(log, rows);
+    const auto cut = detected(log, rows);
     ASSERT_EQ(cut.size(), whole.size()) << rows;
     for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_TRUE(same(cut[i], whole[i])) << rows;
   }
 }
 
-TEST(Listener, AFewMissingPositionsAreNoFault) {
+TEST(EpisodeDetector, AFewMissingPositionsAreNoFault) {
   Log log = healthy_log();
   for (int k = 500; k < 505; ++k) log.q[1][k] = kNaN;
   for (int k = 700; k < 705; ++k) log.dq[0][k] = kNaN;
-  EXPECT_TRUE(heard(log).empty());
+  EXPECT_TRUE(detected(log).empty());
 }
 
-TEST(Listener, ALogThatBeginsWithMissingValuesIsFollowedAllTheSame) {
+TEST(EpisodeDetector, ALogThatBeginsWithMissingValuesIsFollowedAllTheSame) {
   Log log = healthy_log();
   for (int k = 0; k < 20; ++k)
     for (int j = 0; j < 3; ++j) log.q[j][k] = log.dq[j][k] = kNaN;
-  EXPECT_TRUE(heard(log).empty());
+  EXPECT_TRUE(detected(log).empty());
 }
 
-TEST(Listener, AWildValueInOneRowIsNoFault) {
+TEST(EpisodeDetector, AWildValueInOneRowIsNoFault) {
   for (const double off : {0.05, -3.0, 1000.0}) {
     Log log = healthy_log();
     log.q[0][400] += off;
-    EXPECT_TRUE(heard(log).empty()) << "position off by " << off;
+    EXPECT_TRUE(detected(log).empty()) << "position off by " << off;
   }
   for (const double off : {1.0, -50.0}) {
     Log log = healthy_log();
     log.dq[1][600] += off;
-    EXPECT_TRUE(heard(log).empty()) << "velocity off by " << off;
+    EXPECT_TRUE(detected(log).empty()) << "velocity off by " << off;
   }
 }
 
-TEST(Listener, MissingTorquesAreNoFault) {
+TEST(EpisodeDetector, MissingTorquesAreNoFault) {
   Log log = healthy_log();
   log.tau[0][300] = kNaN;
   for (int k = 700; k < 720; ++k) log.tau[2][k] = kNaN;
-  EXPECT_TRUE(heard(log).empty());
+  EXPECT_TRUE(detected(log).empty());
 }
 
-TEST(Listener, NothingButMissingValuesIsNoFault) {
+TEST(EpisodeDetector, NothingButMissingValuesIsNoFault) {
   Log log = healthy_log(3.0);
   for (JointSignals* signals : {&log.q, &log.dq, &log.tau})
     for (auto& values : *signals) std::fill(values.begin(), values.end(), kNaN);
-  EXPECT_TRUE(heard(log).empty());
+  EXPECT_TRUE(detected(log).empty());
 }
 
-TEST(Listener, AGapInTimeStartsTheFilterAnew) {
+TEST(EpisodeDetector, AGapInTimeStartsTheFilterAnew) {
   Log log = healthy_log(), later = healthy_log(10.0, 78);
   for (double& t : later.time) t += log.time.back() + 60.0;
   append(log, later);
-  EXPECT_TRUE(heard(log).empty()) << "the robot was somewhere else after the gap";
+  EXPECT_TRUE(detected(log).empty()) << "the robot was somewhere else after the gap";
   Log no_gap = log;
   for (int k = 0; k < no_gap.rows(); ++k) no_gap.time[k] = 0.01 * k;
-  EXPECT_FALSE(heard(no_gap).empty()) << "without the gap the same jump of all joints is no healthy motion";
+  EXPECT_FALSE(detected(no_gap).empty())
+      << "without the gap the same jump of all joints is no healthy motion";
 }
 
-TEST(Listener, AFaultAcrossAGapIsJudgedWithWhatThereIs) {
+TEST(EpisodeDetector, AFaultAcrossAGapIsJudgedWithWhatThereIs) {
   Log log = faulty_log(FaultKind::free_swinging, 3);
   const auto row = static_cast<int>(kOnset_s / 0.01) + 12;
   ASSERT_GT(log.rows(), row + 2);
   for (int k = row; k < log.rows(); ++k) log.time[k] += 5.0;
-  const auto episodes = heard(log);
+  const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
   EXPECT_LT(episodes.front().judged_s, log.time[row]);
 }
 
-TEST(Listener, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
+TEST(EpisodeDetector, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
   Log log = faulty_log(FaultKind::free_swinging, 2);
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] > kOnset_s + 0.3) log.dq[0][k] = k % 2 ? 1e200 : -1e200;
-  const auto episodes = heard(log);
+  const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
   EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 2");
   EXPECT_GE(episodes.front().alarm_s, kOnset_s);
   EXPECT_LT(episodes.front().judged_s, kOnset_s + 0.31);
 }
 
-TEST(Listener, WithoutVelocitiesFaultsAreFoundLater) {
+TEST(EpisodeDetector, WithoutVelocitiesFaultsAreFoundLater) {
   Log log = healthy_log();
   log.dq.clear();
-  EXPECT_TRUE(heard(log).empty());
+  EXPECT_TRUE(detected(log).empty());
   log = faulty_log(FaultKind::free_swinging, 3);
   log.dq.clear();
-  const auto episodes = heard(log);
+  const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
   EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 3");
 }
 
-TEST(Listener, AJointHeldByAnEndStopIsNoFaultOfItsOwn) {
+TEST(EpisodeDetector, AJointHeldByAnEndStopIsNoFaultOfItsOwn) {
   SimulationSpec spec = rrp_run_with(FaultKind::free_swinging, 3, kOnset_s);
   spec.stops.low = {-3.0, -3.0, -0.42};
   spec.stops.high = {3.0, 3.0, 0.12};
   spec.duration_s = 8.0;
-  const auto episodes = heard(simulate(known_rrp(), spec, 5).log);
+  const auto episodes = detected(simulate(known_rrp(), spec, 5).log);
   ASSERT_FALSE(episodes.empty());
   EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 3");
   for (const EpisodeEvidence& episode : episodes) EXPECT_EQ(named(episode).joint, 3);
 }
 
-TEST(Listener, ALogWithoutNoiseIsFollowed) {
+TEST(EpisodeDetector, ALogWithoutNoiseIsFollowed) {
   SimulationSpec spec = rrp_run(8.0);
   spec.noise = {};
-  EXPECT_TRUE(heard(simulate(known_rrp(), spec, 4).log).empty());
+  EXPECT_TRUE(detected(simulate(known_rrp(), spec, 4).log).empty());
 }
 
-TEST(Listener, LogsOfNoneAndOneRowGiveNothing) {
+TEST(EpisodeDetector, LogsOfNoneAndOneRowGiveNothing) {
   const Log log = healthy_log(1.0);
-  EXPECT_TRUE(heard(slice(log, 0, 1)).empty());
-  EXPECT_TRUE(heard(slice(log, 0, 0)).empty());
+  EXPECT_TRUE(detected(slice(log, 0, 1)).empty());
+  EXPECT_TRUE(detected(slice(log, 0, 0)).empty());
 }
 
 TEST(CalibrateThresholds, KeepsHealthyLogsCalmWhenTheMassesAreOnePercentWrong) {
@@ -220,9 +221,9 @@ TEST(CalibrateThresholds, KeepsHealthyLogsCalmWhenTheMassesAreOnePercentWrong) {
   for (const auto& log : owners) logs.push_back(log.get());
   const auto bank = hypotheses_of(3, TorqueMeaning::commanded);
   const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {});
-  for (const auto& log : owners) EXPECT_TRUE(heard(log->log(), 4096, options, model).empty());
-  EXPECT_TRUE(heard(healthy_log(), 4096, options, model).empty()) << "nor in a run it did not see";
-  EXPECT_FALSE(heard(faulty_log(FaultKind::free_swinging, 3), 4096, options, model).empty());
+  for (const auto& log : owners) EXPECT_TRUE(detected(log->log(), 4096, options, model).empty());
+  EXPECT_TRUE(detected(healthy_log(), 4096, options, model).empty()) << "nor in a run it did not see";
+  EXPECT_FALSE(detected(faulty_log(FaultKind::free_swinging, 3), 4096, options, model).empty());
 }
 
 TEST(LearnMotionModel, RefusesAHandfulOfRows) {
