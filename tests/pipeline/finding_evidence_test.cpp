@@ -77,7 +77,7 @@ TEST(PushOnAllJoints, SaysNothingWhenItExplainsTheLogWorse) {
 TEST(PushOnAllJoints, TheBestOfItsDurationsCounts) {
   const Model model = agreed_on(kPush1);
   EpisodeEvidence episode = episode_of_fault(model, kPush1);
-  explain(episode, model, {FaultKind::collision, 0}, 95.0).impulse = {2.0, 2.0, 0.0};
+  explain(episode, model, {FaultKind::collision, 0}, 95.0).impulse = {2.0, 0.6, 0.0};
   for (std::size_t h = 0; h < model.bank.size(); ++h)
     if (is_everywhere(model.bank[h]) && model.bank[h].duration_s == 0.25) {
       episode.hypotheses[h].log_likelihood_ratio = 99.0;

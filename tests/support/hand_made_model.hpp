@@ -13,9 +13,11 @@ inline MotionModel hand_made_model(const Robot& robot) {
   model.chain = robot.chain;
   const auto n = static_cast<std::size_t>(robot.joints());
   model.noise.step_share = 0.0;
+  model.noise.torque_share = 0.02;
+  model.noise.rest_share = 0.3;
   for (std::size_t j = 0; j < n; ++j) {
     const bool turns = robot.chain.geometry[j].kind == AxisKind::revolute;
-    model.noise.floor.push_back(0.05);
+    model.noise.floor.push_back(0.2);
     model.q_std.push_back(turns ? 1e-4 : 2e-5);
     model.dq_std.push_back(turns ? 5e-3 : 1e-3);
     model.q_low.push_back(turns ? -2.0 : -0.35);
