@@ -18,6 +18,13 @@ inline Robot exact_slide() {
   return robot;
 }
 
+/// The same without friction: what a fault adds to the momentum is the fault alone.
+inline Robot slide_without_friction() {
+  Robot robot = exact_slide();
+  robot.chain.friction[0] = {};
+  return robot;
+}
+
 /// What identification would say of a robot whose parameters are known exactly.
 inline Identification exact_identification(Robot robot) {
   robot.log.torque_between_samples = TorqueTiming::held;
