@@ -155,6 +155,20 @@ TEST(Integrate, StiffFrictionStaysStableAndNearTheClosedForm) {
           << name_of(fault) << " over " << dt;
 }
 
+TEST(Integrate, ASlideThroughSharpFrictionIsExact) {
+  FaultyScara robot;
+  robot.fv = robot.fo = {0.0, 0.0, 0.0};
+  robot.width = {1e-4, 1e-4, 1e-4};
+  const Twin twin(robot);
+  State x{{0.0, 0.5, 0.0}, {0.0, 0.0, 1.0}};
+  const Triple hold = {0.0, 0.0, robot.m3 * 9.81};
+  constexpr double kStep_s = 0.073;
+  twin.dynamics.integrate(x.q.data(), x.dq.data(), hold.data(), kStep_s, nullptr, nullptr);
+  const double braking = 8.0 / robot.m3;
+  EXPECT_NEAR(x.dq[2], 1.0 - braking * kStep_s, 1e-9);
+  EXPECT_NEAR(x.q[2], kStep_s - 0.5 * braking * kStep_s * kStep_s, 1e-9);
+}
+
 /// The largest speed that is left of a slow motion which friction of that width stops for 20 steps.
 double speed_left(double width, double dt) {
   FaultyScara robot;

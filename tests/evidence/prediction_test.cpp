@@ -87,6 +87,19 @@ TEST(Predict, TheHealthyCovarianceIsThatOfTheNonlinearRobot) {
   }
 }
 
+TEST(Predict, DoubtOfAVelocityIsDampedAndBecomesDoubtOfThePosition) {
+  PredictionWorld world;
+  world.q_std = 0.0;
+  for (const double dt : {0.001, 0.004, 0.01, 0.02}) {
+    GaussianState state = world.before();
+    predict(state, world.model, world.dynamics, world.step(dt), nullptr, 0.0);
+    const double damping = 20.0 / 2.5, kept = std::exp(-damping * dt), way = (1.0 - kept) / damping;
+    EXPECT_NEAR(state.p(5, 5) / (world.dq_std * world.dq_std), kept * kept, 0.006) << dt;
+    EXPECT_NEAR(state.p(2, 2) / (world.dq_std * world.dq_std * way * way), 1.0, 0.1) << dt;
+    EXPECT_NEAR(state.p(2, 5) / (world.dq_std * world.dq_std * way * kept), 1.0, 0.06) << dt;
+  }
+}
+
 /// Covariance of the vertical joint, which is a mass of its own, after a step from an exact state.
 Eigen::Matrix2d noise_of_joint_3(const PredictionWorld& world, const Step& step) {
   GaussianState state = world.before();
