@@ -40,10 +40,20 @@ struct Example {
   }
 };
 
+std::vector<JointResidual> residuals_of(const std::vector<double>& velocity_rms) {
+  std::vector<JointResidual> residuals(velocity_rms.size());
+  for (std::size_t j = 0; j < velocity_rms.size(); ++j) residuals[j].velocity_rms = velocity_rms[j];
+  return residuals;
+}
+
+std::vector<double> features(const Example& example, const std::vector<double>& rms) {
+  return episode_features(example.episode, example.by_label(), residuals_of(rms), 3);
+}
+
 /// A feature by its name.
-double feature(const Example& example, const std::string& name, std::span<const double> rms) {
+double feature(const Example& example, const std::string& name, const std::vector<double>& rms) {
   const auto names = episode_feature_names(example.bank, 3);
-  const auto values = episode_features(example.episode, example.by_label(), rms);
+  const auto values = features(example, rms);
   const auto at = std::find(names.begin(), names.end(), name);
   EXPECT_NE(at, names.end()) << name;
   return values.at(static_cast<std::size_t>(at - names.begin()));
@@ -131,7 +141,7 @@ TEST(EpisodeFeatures, HaveANameEach) {
   const Example example;
   const std::vector<double> rms(3, 1.0);
   const auto names = episode_feature_names(example.bank, 3);
-  EXPECT_EQ(episode_features(example.episode, example.by_label(), rms).size(), names.size());
+  EXPECT_EQ(features(example, rms).size(), names.size());
   for (const std::string& name : names) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   const auto measured = hypotheses_of(3, TorqueMeaning::measured);
   EXPECT_EQ(names.size() - episode_feature_names(measured, 3).size(), 12u)
@@ -173,8 +183,7 @@ TEST(EpisodeFeatures, StayFiniteWhateverTheEvidence) {
   example.episode.samples = 0;
   example.episode.judged_s = example.episode.onset_s;
   const std::vector<double> rms = {0.0, 1e9, kNaN};
-  for (const double x : episode_features(example.episode, example.by_label(), rms))
-    EXPECT_TRUE(std::isfinite(x));
+  for (const double x : features(example, rms)) EXPECT_TRUE(std::isfinite(x));
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ std::size_t largest_page(int joints) {
     const int bins = 4 * options.all_details / (joints * options.most_details);
     details.curves.details.push_back(window(i + 1, 200.0 * i - 1.0, 200.0 * i + 3.0, bins));
   }
-  order_faults(d);
+  number_by_onset(d.faults);
   return render_html(d, details).size();
 }
 

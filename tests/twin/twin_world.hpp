@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/pipeline/twin.hpp"
+#include "lib/twin/twin.hpp"
 #include "tests/support/hand_made_model.hpp"
 
 namespace faultline {

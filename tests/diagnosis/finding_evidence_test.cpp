@@ -2,13 +2,13 @@
 // What a finding of decide_episode() lists besides its name: alternatives, sizes, numbers.
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/hand_made_episode.hpp"
+#include "tests/diagnosis/hand_made_episode.hpp"
 
 namespace faultline {
 namespace {
 
 FaultFinding decided(const Model& model, const EpisodeEvidence& episode) {
-  return decide_episode(episode, {}, model, empty_base(model));
+  return decide_episode({episode, {}}, model, empty_base(model));
 }
 
 Model agreed_on(const FaultLabel& label) { return hand_made_rrp({label, 0.9}, {label, 0.9}); }
@@ -133,11 +133,8 @@ TEST(EvidenceLines, TellTheRatioAndTheThreshold) {
 
 TEST(EvidenceLines, HaveAResidualOfEachJointThatHasOne) {
   const Model model = agreed_on(kLocked2);
-  std::vector<JointResidual> residuals(3);
-  residuals[0].velocity_rms = 1.1;
-  residuals[2].velocity_rms = 20.0;
-  const FaultFinding finding =
-      decide_episode(episode_of_fault(model, kLocked2), residuals, model, empty_base(model));
+  const FaultFinding finding = decide_episode(
+      {episode_of_fault(model, kLocked2), residuals_of({1.1, kNaN, 20.0})}, model, empty_base(model));
   EXPECT_EQ(item(finding, "mlp_velocity_residual_1")->value, 1.1);
   EXPECT_EQ(item(finding, "mlp_velocity_residual_2"), nullptr);
   EXPECT_EQ(item(finding, "mlp_velocity_residual_3")->value, 20.0);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/classify/episode_features.hpp"
-#include "lib/pipeline/decide_episode.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
 #include "tests/support/hand_made_model.hpp"
 
 namespace faultline {
@@ -15,8 +15,8 @@ inline constexpr FaultLabel kLocked2{FaultKind::locked, 2}, kStuck2{FaultKind::s
     kLoss1{FaultKind::torque_loss, 1}, kFree1{FaultKind::free_swinging, 1}, kUnknown{FaultKind::unknown, 0};
 
 /// Two networks that give the same opinion whatever they are shown.
-inline Judges judges_that_say(const CaseOpinion& mlp, const CaseOpinion& rbfn, int features) {
-  Judges judges;
+inline EpisodeClassifier judges_that_say(const Opinion& mlp, const Opinion& rbfn, int features) {
+  EpisodeClassifier judges;
   judges.labels = {mlp.label};
   if (rbfn.label != mlp.label) judges.labels.push_back(rbfn.label);
   judges.labels.push_back({FaultKind::none, 0});
@@ -50,9 +50,9 @@ inline std::vector<std::string> features_of(const Model& model) {
 }
 
 /// The same with judges of a fixed opinion.
-inline Model hand_made_rrp(const CaseOpinion& mlp, const CaseOpinion& rbfn) {
+inline Model hand_made_rrp(const Opinion& mlp, const Opinion& rbfn) {
   Model model = hand_made_rrp();
-  model.judges = judges_that_say(mlp, rbfn, static_cast<int>(features_of(model).size()));
+  model.episode_classifier = judges_that_say(mlp, rbfn, static_cast<int>(features_of(model).size()));
   return model;
 }
 
@@ -83,6 +83,24 @@ inline EpisodeEvidence episode_of_fault(const Model& model, const FaultLabel& la
   return episode;
 }
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Residuals of a joint each by their velocity_rms.
+inline std::vector<JointResidual> residuals_of(const std::vector<double>& velocity_rms) {
+  std::vector<JointResidual> residuals(velocity_rms.size());
+  for (std::size_t j = 0; j < velocity_rms.size(); ++j) {
+    residuals[j].joint = static_cast<int>(j) + 1;
+    residuals[j].velocity_rms = velocity_rms[j];
+  }
+  return residuals;
+}
+
+/// The episode as the case base compares it.
+inline Episode seen(const EpisodeEvidence& episode, const Model& model,
+                    const std::vector<JointResidual>& residuals = {}) {
+  return episode_of({episode, residuals}, evidence_by_label(episode, model.bank, model.motion), model);
+}
+
 /// An empty case base that compares what the model's judges are shown.
 inline CaseBase empty_base(const Model& model) { return CaseBase(features_of(model)); }
 
@@ -91,7 +109,7 @@ inline CaseBase base_of(const Model& model, const EpisodeEvidence& episode, cons
                         int count) {
   CaseBase base = empty_base(model);
   Case c;
-  c.episode = episode_of(episode, {}, model);
+  c.episode = seen(episode, model);
   c.decision = c.label = label;
   c.outcome = CaseOutcome::confirmed;
   c.what_was_done = "changed the brake";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/classify/judges.hpp"
+#include "lib/classify/episode_classifier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,14 +30,12 @@ std::vector<LabelledEpisode> draw_episodes(int each, std::uint64_t seed) {
   return episodes;
 }
 
-const Judges& trained() {
-  static const Judges judges = train_judges(draw_episodes(40, 1));
+const EpisodeClassifier& trained() {
+  static const EpisodeClassifier judges = train_episode_classifier(draw_episodes(40, 1));
   return judges;
 }
 
-bool same(const NetworkOpinion& a, const NetworkOpinion& b) {
-  return a.label == b.label && a.confidence == b.confidence;
-}
+bool same(const Opinion& a, const Opinion& b) { return a.label == b.label && a.confidence == b.confidence; }
 
 /// Points near the training episodes and far out.
 std::vector<std::vector<double>> probes() {
@@ -47,17 +45,17 @@ std::vector<std::vector<double>> probes() {
   return out;
 }
 
-nlohmann::json json_of(const Judges& judges) {
+nlohmann::json json_of(const EpisodeClassifier& judges) {
   nlohmann::json json;
   to_json(json, judges);
   return json;
 }
 
-TEST(Judges, NameFaultsTheyHaveNotSeen) {
+TEST(EpisodeClassifier, NamesFaultsItHasNotSeen) {
   int mlp = 0, rbfn = 0;
   const auto fresh = draw_episodes(50, 2);
   for (const LabelledEpisode& episode : fresh) {
-    const JudgeOpinions opinions = judge(trained(), episode.features);
+    const Opinions opinions = classify_episode(trained(), episode.features);
     mlp += opinions.mlp.label == episode.label;
     rbfn += opinions.rbfn.label == episode.label;
   }
@@ -65,18 +63,19 @@ TEST(Judges, NameFaultsTheyHaveNotSeen) {
   EXPECT_GE(rbfn, 147);
 }
 
-TEST(Judges, AreSurerInTheMiddleOfAFaultThanBetweenTwo) {
-  const JudgeOpinions middle = judge(trained(), {0.0, 0.0, 0.0}), between = judge(trained(), {1.5, 0.0, 0.0});
+TEST(EpisodeClassifier, IsSurerInTheMiddleOfAFaultThanBetweenTwo) {
+  const Opinions middle = classify_episode(trained(), {0.0, 0.0, 0.0}),
+                 between = classify_episode(trained(), {1.5, 0.0, 0.0});
   EXPECT_GT(middle.mlp.confidence, 0.9);
   EXPECT_GT(middle.rbfn.confidence, 0.75);
   EXPECT_LT(between.mlp.confidence, middle.mlp.confidence);
   EXPECT_LT(between.rbfn.confidence, middle.rbfn.confidence);
 }
 
-TEST(Judges, ConfidenceIsAShare) {
+TEST(EpisodeClassifier, ConfidenceIsAShare) {
   for (const auto& features : probes()) {
-    const JudgeOpinions opinions = judge(trained(), features);
-    for (const NetworkOpinion& opinion : {opinions.mlp, opinions.rbfn}) {
+    const Opinions opinions = classify_episode(trained(), features);
+    for (const Opinion& opinion : {opinions.mlp, opinions.rbfn}) {
       EXPECT_GE(opinion.confidence, 0.0);
       EXPECT_LE(opinion.confidence, 1.0);
     }
@@ -84,45 +83,45 @@ TEST(Judges, ConfidenceIsAShare) {
   }
 }
 
-TEST(Judges, LabelsAreSortedWhateverTheOrderOfTheEpisodes) {
+TEST(EpisodeClassifier, LabelsAreSortedWhateverTheOrderOfTheEpisodes) {
   EXPECT_EQ(trained().labels, kLabels);
   EXPECT_TRUE(trained().trained());
-  EXPECT_FALSE(Judges{}.trained());
+  EXPECT_FALSE(EpisodeClassifier{}.trained());
 }
 
-TEST(Judges, EachFeatureHasItsPlace) {
+TEST(EpisodeClassifier, EachFeatureHasItsPlace) {
   const std::vector<double> second = {3.0, 0.0, 0.0}, moved = {0.0, 0.0, 3.0};
-  const JudgeOpinions there = judge(trained(), second), elsewhere = judge(trained(), moved);
+  const Opinions there = classify_episode(trained(), second), elsewhere = classify_episode(trained(), moved);
   EXPECT_EQ(there.mlp.label, kLabels[1]);
   EXPECT_EQ(there.rbfn.label, kLabels[1]);
   EXPECT_EQ(elsewhere.mlp.label, kLabels[0]);
   EXPECT_EQ(elsewhere.rbfn.label, kLabels[0]);
 }
 
-TEST(Judges, JsonBringsBackTheSameOpinionsBitForBit) {
+TEST(EpisodeClassifier, JsonBringsBackTheSameOpinionsBitForBit) {
   const std::string text = json_of(trained()).dump();
-  const Judges read = judges_from_json(nlohmann::json::parse(text), "model.json");
+  const EpisodeClassifier read = episode_classifier_from_json(nlohmann::json::parse(text), "model.json");
   EXPECT_EQ(read.labels, trained().labels);
   for (const auto& features : probes()) {
-    const JudgeOpinions a = judge(trained(), features), b = judge(read, features);
+    const Opinions a = classify_episode(trained(), features), b = classify_episode(read, features);
     EXPECT_TRUE(same(a.mlp, b.mlp));
     EXPECT_TRUE(same(a.rbfn, b.rbfn));
   }
 }
 
-TEST(Judges, TheSameEpisodesAndSeedGiveTheSameJudges) {
+TEST(EpisodeClassifier, TheSameEpisodesAndSeedGiveTheSameClassifier) {
   const auto episodes = draw_episodes(15, 3);
-  EXPECT_EQ(json_of(train_judges(episodes)), json_of(train_judges(episodes)));
-  JudgeOptions other;
+  EXPECT_EQ(json_of(train_episode_classifier(episodes)), json_of(train_episode_classifier(episodes)));
+  EpisodeClassifierOptions other;
   other.seed = 2;
-  EXPECT_NE(json_of(train_judges(episodes)), json_of(train_judges(episodes, other)));
+  EXPECT_NE(json_of(train_episode_classifier(episodes)), json_of(train_episode_classifier(episodes, other)));
 }
 
-TEST(Judges, FewerThanTwoLabelsAreRefused) {
+TEST(EpisodeClassifier, FewerThanTwoLabelsAreRefused) {
   std::vector<LabelledEpisode> one = {{{1.0, 2.0}, kLabels[0]}, {{1.5, 2.5}, kLabels[0]}};
-  EXPECT_THROW(train_judges({}), Error);
+  EXPECT_THROW(train_episode_classifier({}), Error);
   try {
-    train_judges(one);
+    train_episode_classifier(one);
     FAIL() << "one label was accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("show 1 kinds of fault; at least two"), std::string::npos)
@@ -130,12 +129,12 @@ TEST(Judges, FewerThanTwoLabelsAreRefused) {
   }
 }
 
-TEST(JudgesJson, AMissingPartIsRefusedWithTheFilesName) {
+TEST(EpisodeClassifierJson, AMissingPartIsRefusedWithTheFilesName) {
   for (const char* part : {"labels", "scaler", "mlp", "rbfn"}) {
     nlohmann::json json = json_of(trained());
     json.erase(part);
     try {
-      judges_from_json(json, "model.json");
+      episode_classifier_from_json(json, "model.json");
       FAIL() << part;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find("model.json"), std::string::npos) << error.what();
@@ -143,22 +142,22 @@ TEST(JudgesJson, AMissingPartIsRefusedWithTheFilesName) {
   }
 }
 
-TEST(JudgesJson, NetworksThatDoNotFitTheLabelsAreRefused) {
+TEST(EpisodeClassifierJson, NetworksThatDoNotFitTheLabelsAreRefused) {
   nlohmann::json json = json_of(trained());
   json["labels"].push_back({"collision", 1});
-  EXPECT_THROW(judges_from_json(json, "model.json"), Error);
+  EXPECT_THROW(episode_classifier_from_json(json, "model.json"), Error);
 }
 
-TEST(JudgesJson, NetworksThatDoNotFitTheFeaturesAreRefused) {
-  Judges judges = trained();
+TEST(EpisodeClassifierJson, NetworksThatDoNotFitTheFeaturesAreRefused) {
+  EpisodeClassifier judges = trained();
   judges.scaler = {Eigen::VectorXd::Zero(4), Eigen::VectorXd::Ones(4)};
-  EXPECT_THROW(judges_from_json(json_of(judges), "model.json"), Error);
+  EXPECT_THROW(episode_classifier_from_json(json_of(judges), "model.json"), Error);
 }
 
-TEST(JudgesJson, AFaultNobodyKnowsIsRefused) {
+TEST(EpisodeClassifierJson, AFaultNobodyKnowsIsRefused) {
   nlohmann::json json = json_of(trained());
   json["labels"][0][0] = "haunted";
-  EXPECT_THROW(judges_from_json(json, "model.json"), Error);
+  EXPECT_THROW(episode_classifier_from_json(json, "model.json"), Error);
 }
 
 }  // namespace

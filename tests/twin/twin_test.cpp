@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/pipeline/twin.hpp"
+#include "lib/twin/twin.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/twin_world.hpp"
+#include "tests/twin/twin_world.hpp"
 
 namespace faultline {
 namespace {
