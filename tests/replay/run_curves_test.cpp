@@ -98,17 +98,17 @@ void detail_lies_around_the_fault_and_holds_both_networks() {
   EXPECT_GT(largest(detail.joints[0].residual), curves.healthy_residual.at(0));
 }
 
-void what_is_foretold_is_near_what_is_measured_when_healthy() {
+void what_is_predicted_is_near_what_is_measured_when_healthy() {
   MemorySource source(simulate(small_robot(), small_run(7.0), 33).log, "run.csv");
   const Diagnosis d = diagnose(source, learned().model, learned().cases);
   ASSERT_EQ(d.verdict, Verdict::healthy);
   const JointCurves joint = run_curves(source, learned().model, d).whole.joints.at(0);
-  ASSERT_EQ(joint.q.values.size(), joint.q_foretold.values.size());
+  ASSERT_EQ(joint.q.values.size(), joint.q_predicted.values.size());
   int compared = 0;
   for (std::size_t i = 2; i < joint.q.values.size(); ++i) {
-    if (!std::isfinite(joint.q_foretold.values[i])) continue;
+    if (!std::isfinite(joint.q_predicted.values[i])) continue;
     ++compared;
-    EXPECT_NEAR(joint.q.values[i], joint.q_foretold.values[i], 0.01) << i;
+    EXPECT_NEAR(joint.q.values[i], joint.q_predicted.values[i], 0.01) << i;
   }
   EXPECT_GT(compared, 500);
 }
@@ -139,7 +139,7 @@ void evidence_grows_from_the_onset_past_the_threshold() {
 // Learning takes seconds, so these share one model in one process.
 TEST(RunCurves, ShowTheRun) {
   no_peak_is_lost_however_few_the_bins();
-  what_is_foretold_is_near_what_is_measured_when_healthy();
+  what_is_predicted_is_near_what_is_measured_when_healthy();
   log_without_a_span_of_time_gives_none();
   detail_lies_around_the_fault_and_holds_both_networks();
   evidence_grows_from_the_onset_past_the_threshold();
