@@ -15,7 +15,7 @@ namespace {
 
 std::string fault_list(const BatchRow& row) {
   std::string list;
-  for (const BatchFault& fault : row.faults)
+  for (const FaultEvent& fault : row.faults)
     list +=
         (list.empty() ? "" : "<br>") +
         escaped_markup(fmt::format("{} at {}, {:.0f} %", plain_words(fault.label),
@@ -26,7 +26,7 @@ std::string fault_list(const BatchRow& row) {
 
 std::string kinds(const BatchRow& row) {
   std::set<std::string> names;
-  for (const BatchFault& fault : row.faults) names.insert(to_string(fault.label.kind));
+  for (const FaultEvent& fault : row.faults) names.insert(to_string(fault.label.kind));
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
   return list;

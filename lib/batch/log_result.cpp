@@ -29,17 +29,17 @@ std::string render_page(LogSource& log, const Model& model, const Diagnosis& dia
 
 /// From this log alone, on one thread and a limited number of rows: quick, and precise enough for a trend.
 /// None where the log does not suffice.
-std::vector<BatchParameter> parameters_in(LogSource& log, const Robot& robot) {
+std::vector<ParameterValue> parameters_in(LogSource& log, const Robot& robot) {
   IdentifyOptions options;
   options.threads = 1;
   options.max_rows = 4000;
   options.max_iterations = 12;
-  std::vector<BatchParameter> parameters;
+  std::vector<ParameterValue> parameters;
   LogSource* const logs[] = {&log};
   log.rewind();
   try {
     for (const ParameterEstimate& p : identify(logs, robot, options).base_parameters)
-      if (p.identifiable) parameters.push_back({p.name, p.value, p.std});
+      if (p.identifiable) parameters.push_back(value_of(p));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::input) throw;
   }
