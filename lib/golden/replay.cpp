@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
+#include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/pipeline/diagnose.hpp"
 

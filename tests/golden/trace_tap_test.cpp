@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/trace.hpp"
+#include "lib/golden/trace_tap.hpp"
 
 #include <gtest/gtest.h>
 
