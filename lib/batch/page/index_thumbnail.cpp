@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_thumbnail.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "lib/batch/index_table.hpp"
 
 namespace faultline {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_trends.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "lib/batch/index_table.hpp"
 #include "lib/plot/line_plot.hpp"
 #include "lib/report/layout.hpp"
 

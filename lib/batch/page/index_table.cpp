@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/index_table.hpp"
+#include "lib/batch/page/index_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
+#include "lib/batch/page/index_thumbnail.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/layout.hpp"
