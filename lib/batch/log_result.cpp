@@ -46,9 +46,10 @@ std::vector<ParameterValue> parameters_in(LogSource& log, const Robot& robot) {
   return parameters;
 }
 
-/// Reads the file a second time only when it was written to meanwhile.
+/// Reads the file a second time only when it was written to meanwhile and may have the same content.
 void refuse_changed(const BatchLog& log, const FileStamp& before, const std::string& sha256_read) {
-  if (stamp_of(log.path) == before || sha256_of_file(log.path) == sha256_read) return;
+  const FileStamp now = stamp_of(log.path);
+  if (now == before || (now.bytes == before.bytes && sha256_of_file(log.path) == sha256_read)) return;
   throw Error(ErrorCode::input, log.path, "changed while it was read; run again when it is complete");
 }
 
