@@ -8,7 +8,7 @@
 
 #include "lib/html/html_report.hpp"
 #include "lib/html/report_details.hpp"
-#include "lib/replay/envelope_builder.hpp"
+#include "lib/pipeline/diagnose.hpp"
 #include "tests/pipeline/small_robot.hpp"
 
 namespace faultline {
@@ -57,29 +57,6 @@ void no_peak_is_lost_however_few_the_bins() {
   ASSERT_EQ(joint.tau.values.size(), 10u);
   EXPECT_EQ(largest(joint.tau.values), 777.0f);
   EXPECT_EQ(*std::min_element(joint.q.values.begin(), joint.q.values.end()), -55.0f);
-}
-
-TEST(RunCurves, ExtremesStandInTheOrderInWhichTheyCame) {
-  EnvelopeBuilder builder(3);
-  for (const double v : {2.0, 5.0, 1.0, 3.0}) builder.add(0, v);
-  for (const double v : {2.0, 1.0, 5.0}) builder.add(1, v);
-  builder.add(2, std::nan(""));
-  const std::vector<float> values = builder.envelope().values;
-  EXPECT_EQ(std::vector<float>(values.begin(), values.begin() + 4), (std::vector<float>{5, 1, 1, 5}));
-  EXPECT_TRUE(std::isnan(values[4]) && std::isnan(values[5]));
-}
-
-TEST(RunCurves, AJitteringClockLeavesNoGapsButMissingValuesAndLongGapsDo) {
-  EnvelopeBuilder builder(8);
-  builder.add(0, 1.0);
-  builder.add(2, 2.0);  // nothing fell into bin 1
-  builder.add(3, std::nan(""));
-  builder.add(4, 3.0);
-  builder.add(7, 4.0);  // nor into 5 and 6
-  const std::vector<float> values = builder.envelope().values;
-  EXPECT_EQ(values[2], 1.0f);
-  EXPECT_EQ(values[3], 1.0f);
-  for (const int bin : {3, 5}) EXPECT_TRUE(std::isnan(values[2 * bin])) << bin;
 }
 
 void detail_lies_around_the_fault_and_holds_both_networks() {
