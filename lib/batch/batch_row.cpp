@@ -43,8 +43,7 @@ BatchRow row_of(const Diagnosis& d) {
     row.residual_rms.push_back(residual.velocity_rms);
     row.residual_peak.push_back(residual.velocity_peak);
   }
-  for (const FaultFinding& f : d.faults)
-    row.faults.push_back({f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence});
+  row.faults = events_of(d.faults);
   return row;
 }
 

@@ -29,27 +29,9 @@ std::vector<double> numbers_in(const Json& json) {
   return values;
 }
 
-Json fault_json(const BatchFault& fault) {
-  return {{"kind", to_string(fault.label.kind)},
-          {"joint", fault.label.joint > 0 ? Json(fault.label.joint) : Json(nullptr)},
-          {"onset_s", number(fault.onset_s)},
-          {"alarm_s", number(fault.alarm_s)},
-          {"end_s", number(fault.end_s)},
-          {"confidence", number(fault.confidence)}};
-}
-
-BatchFault fault_from(const Json& json) {
-  return {{fault_kind_from(json.at("kind").get<std::string>()),
-           json.at("joint").is_null() ? 0 : json.at("joint").get<int>()},
-          number_in(json.at("onset_s")),
-          number_in(json.at("alarm_s")),
-          number_in(json.at("end_s")),
-          number_in(json.at("confidence"))};
-}
-
-Json parameters_json(const std::vector<BatchParameter>& parameters) {
+Json parameters_json(const std::vector<ParameterValue>& parameters) {
   Json json = Json::object();
-  for (const BatchParameter& p : parameters)
+  for (const ParameterValue& p : parameters)
     json[p.name] = {{"value", number(p.value)}, {"std", number(p.std)}};
   return json;
 }
@@ -72,7 +54,7 @@ std::string cell(const std::string& value) {
 
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-std::string fault_words(const BatchFault& fault) {
+std::string fault_words(const FaultEvent& fault) {
   std::string words = to_string(fault.label.kind);
   if (fault.label.joint > 0) words += fmt::format(" {}", fault.label.joint);
   return std::isfinite(fault.onset_s) ? words + fmt::format(" @{}", fault.onset_s) : words;
@@ -82,7 +64,7 @@ std::string fault_words(const BatchFault& fault) {
 
 std::string to_json_line(const BatchRow& row) {
   Json faults = Json::array();
-  for (const BatchFault& fault : row.faults) faults.push_back(fault_json(fault));
+  for (const FaultEvent& fault : row.faults) faults.push_back(to_json(fault));
   const Json json = {{"log", row.log},
                      {"sha256", text(row.sha256)},
                      {"report", report_json(row)},
@@ -112,7 +94,7 @@ BatchRow row_from_json(const std::string& line) {
   row.result = result_from(json.at("report"));
   row.verdict = json.at("verdict").get<std::string>();
   row.reason = text_in(json.at("reason"));
-  for (const Json& fault : json.at("faults")) row.faults.push_back(fault_from(fault));
+  for (const Json& fault : json.at("faults")) row.faults.push_back(fault_event_from_json(fault));
   row.format = text_in(json.at("format"));
   row.rows = json.at("rows").get<std::int64_t>();
   row.rows_used = json.at("rows_used").get<std::int64_t>();
@@ -125,7 +107,7 @@ BatchRow row_from_json(const std::string& line) {
   row.residual_rms = numbers_in(json.at("residual_rms"));
   row.residual_peak = numbers_in(json.at("residual_peak"));
   for (const auto& [name, p] : json.at("parameters").items())
-    row.parameters.push_back({name, number_in(p.at("value")), number_in(p.at("std"))});
+    row.parameters.push_back({name, number_in(p.at("value")), number_in(p.at("std")), ""});
   return row;
 }
 
@@ -136,9 +118,9 @@ std::string batch_csv_header() {
 
 std::string to_csv_line(const BatchRow& row) {
   std::string all, first = ",,,,,";
-  for (const BatchFault& fault : row.faults) all += (all.empty() ? "" : ";") + fault_words(fault);
+  for (const FaultEvent& fault : row.faults) all += (all.empty() ? "" : ";") + fault_words(fault);
   if (!row.faults.empty()) {
-    const BatchFault& f = row.faults.front();
+    const FaultEvent& f = row.faults.front();
     first = fmt::format("{},{},{},{},{},{}", to_string(f.label.kind),
                         f.label.joint > 0 ? std::to_string(f.label.joint) : "", cell(f.onset_s),
                         cell(f.end_s), cell(f.alarm_s), cell(f.confidence));

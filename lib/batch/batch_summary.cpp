@@ -80,7 +80,7 @@ BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& fac
   for (const BatchRow& row : rows) {
     all.push_back(&row);
     folders[folder_of(row)].push_back(&row);
-    for (const BatchFault& fault : row.faults)
+    for (const FaultEvent& fault : row.faults)
       ++summary.kinds[to_string(fault.label.kind)][fault.label.joint];
     summary.status = std::max(summary.status, status_of(row));
   }

@@ -17,14 +17,13 @@ std::string name_of(const FaultLabel& label) {
                          : to_string(label.kind);
 }
 
-std::string line_of(const GoldenEvent& e) {
+std::string line_of(const FaultEvent& e) {
   return fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
                      time_text(e.onset_s), time_text(e.alarm_s), time_text(e.end_s), e.confidence);
 }
 
 /// The unused event of that label whose onset is nearest; -1 for none.
-int nearest(const GoldenEvent& wanted, const std::vector<GoldenEvent>& events,
-            const std::vector<char>& used) {
+int nearest(const FaultEvent& wanted, const std::vector<FaultEvent>& events, const std::vector<char>& used) {
   int best = -1;
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -38,7 +37,7 @@ int nearest(const GoldenEvent& wanted, const std::vector<GoldenEvent>& events,
 }
 
 /// Adds what is not within its tolerance; whether something was.
-bool compare_pair(const GoldenEvent& expected, const GoldenEvent& actual, const ToleranceChain& tolerances,
+bool compare_pair(const FaultEvent& expected, const FaultEvent& actual, const ToleranceChain& tolerances,
                   std::vector<Difference>& differences) {
   const std::size_t before = differences.size();
   const auto number = [&](const char* channel, double wanted, double got, double time) {
@@ -56,10 +55,10 @@ bool compare_pair(const GoldenEvent& expected, const GoldenEvent& actual, const 
 
 }  // namespace
 
-void compare_events(const std::vector<GoldenEvent>& expected, const std::vector<GoldenEvent>& actual,
+void compare_events(const std::vector<FaultEvent>& expected, const std::vector<FaultEvent>& actual,
                     const ToleranceChain& tolerances, Comparison& comparison) {
   std::vector<char> used(actual.size(), 0);
-  for (const GoldenEvent& event : expected) {
+  for (const FaultEvent& event : expected) {
     const int partner = nearest(event, actual, used);
     if (partner < 0) {
       comparison.differences.push_back({"event", event.onset_s, name_of(event.label), "", kNoNumber});

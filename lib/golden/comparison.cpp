@@ -71,18 +71,12 @@ void compare_residuals(const Observation& expected, const Observation& actual,
   }
 }
 
-std::string line_of(const ObservedParameter& p) {
+std::string line_of(const ParameterValue& p) {
   if (std::isnan(p.std)) return fmt::format("{} {} {} (not identifiable)", p.name, value(p.value), p.unit);
   return fmt::format("{} {} {}, std {}", p.name, value(p.value), p.unit, value(p.std));
 }
 
-const ObservedParameter* find(const std::vector<ObservedParameter>& parameters, const std::string& name) {
-  for (const ObservedParameter& p : parameters)
-    if (p.name == name) return &p;
-  return nullptr;
-}
-
-void compare_parameter(const ObservedParameter& expected, const ObservedParameter* actual,
+void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
   if (!actual) {
     comparison.differences.push_back({expected.name, kNoNumber, value(expected.value), "", kNoNumber});
@@ -118,10 +112,10 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
   compare_words("status", expected.status, actual.status, comparison);
   if (!comparison.same() && !actual.reason.empty()) comparison.lines.back().actual += ": " + actual.reason;
   compare_words("method", expected.method, actual.method, comparison);
-  for (const ObservedParameter& p : expected.parameters)
-    compare_parameter(p, find(actual.parameters, p.name), tolerances, comparison);
-  for (const ObservedParameter& p : actual.parameters) {
-    if (find(expected.parameters, p.name)) continue;
+  for (const ParameterValue& p : expected.parameters)
+    compare_parameter(p, find_value(actual.parameters, p.name), tolerances, comparison);
+  for (const ParameterValue& p : actual.parameters) {
+    if (find_value(expected.parameters, p.name)) continue;
     comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
     comparison.lines.push_back({"", line_of(p), true});
   }

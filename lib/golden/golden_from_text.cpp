@@ -49,8 +49,8 @@ void read_length_rule(const TomlTable& table, Tolerances& into) {
   if (table.has("length_may_differ")) into.length_may_differ = table.flag("length_may_differ", false);
 }
 
-GoldenEvent event(const TomlTable& table) {
-  GoldenEvent e;
+FaultEvent event(const TomlTable& table) {
+  FaultEvent e;
   std::vector<std::string> kinds;
   for (int i = 0; i < kFaultKinds; ++i) kinds.push_back(to_string(static_cast<FaultKind>(i)));
   e.label.kind = fault_kind_from(table.choice("kind", kinds));

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -18,14 +18,6 @@ std::vector<double> numbers(const Json& list) {
   std::vector<double> values;
   for (const Json& value : list) values.push_back(number(value));
   return values;
-}
-
-GoldenEvent event(const Json& json) {
-  return {{fault_kind_from(json.at("kind")), json.at("joint").get<int>()},
-          number(json.at("onset_s")),
-          number(json.at("alarm_s")),
-          number(json.at("end_s")),
-          number(json.at("confidence"))};
 }
 
 JointResidual residual(const Json& json) {
@@ -50,7 +42,7 @@ GoldenRun::Log log(const Json& json, const std::string& where) {
   o.verdict = json.at("verdict");
   o.reason = json.at("reason");
   o.rows = json.at("rows");
-  for (const Json& one : json.at("events")) o.events.push_back(event(one));
+  for (const Json& one : json.at("events")) o.events.push_back(fault_event_from_json(one));
   for (const Json& one : json.at("residuals")) o.residuals.push_back(residual(one));
   o.trace = trace(json.at("trace"), where);
   return read;

@@ -42,10 +42,10 @@ Json json_of(const CheckedItem& item) {
   return json;
 }
 
-Json json_of(const GoldenEvent& e) {
-  return {{"kind", to_string(e.label.kind)}, {"joint", e.label.joint},
-          {"onset_s", number(e.onset_s)},    {"alarm_s", number(e.alarm_s)},
-          {"end_s", number(e.end_s)},        {"confidence", number(e.confidence)}};
+Json json_of(const FaultEvent& event) {
+  Json json = to_json(event);
+  json["joint"] = event.label.joint;  // 0 for none in this schema
+  return json;
 }
 
 Json json_of(const JointResidual& r) {
@@ -66,7 +66,7 @@ Json json_of(const GoldenRun::Log& log) {
   const Observation& o = log.observation;
   Json json{{"name", text(log.name)}, {"verdict", o.verdict}, {"reason", text(o.reason)}, {"rows", o.rows}};
   json["events"] = Json::array();
-  for (const GoldenEvent& event : o.events) json["events"].push_back(json_of(event));
+  for (const FaultEvent& event : o.events) json["events"].push_back(json_of(event));
   json["residuals"] = Json::array();
   for (const JointResidual& r : o.residuals) json["residuals"].push_back(json_of(r));
   json["trace"] = json_of(o.trace);
@@ -78,7 +78,7 @@ Json json_of(const ObservedIdentification& identification) {
             {"method", identification.method},
             {"reason", text(identification.reason)}};
   json["parameters"] = Json::array();
-  for (const ObservedParameter& p : identification.parameters)
+  for (const ParameterValue& p : identification.parameters)
     json["parameters"].push_back(
         {{"name", text(p.name)}, {"value", number(p.value)}, {"std", number(p.std)}, {"unit", text(p.unit)}});
   return json;

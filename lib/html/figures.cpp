@@ -59,9 +59,9 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
     add_curve(figure, window, "measured", id + n, measured.values, 0);
     return figure;
   };
-  return {pair("q", "position", turns ? "rad" : "m", joint.q, joint.q_foretold, "foretold"),
-          pair("dq", "velocity", turns ? "rad/s" : "m/s", joint.dq, joint.dq_foretold, "foretold"),
-          pair("tau", turns ? "torque" : "force", turns ? "N m" : "N", joint.tau, joint.tau_needed,
+  return {pair("q", "position", turns ? "rad" : "m", joint.q, joint.q_predicted, "foretold"),
+          pair("dq", "velocity", turns ? "rad/s" : "m/s", joint.dq, joint.dq_predicted, "foretold"),
+          pair("tau", turns ? "torque" : "force", turns ? "N m" : "N", joint.tau, joint.tau_required,
                "needed by the healthy robot")};
 }
 

@@ -50,11 +50,11 @@ Json window_json(const CurveWindow& window) {
     const JointCurves& joint = window.joints[j];
     put(keys, "r" + n, joint.residual);
     put(keys, "q" + n, joint.q.values);
-    put(keys, "q" + n + "h", joint.q_foretold.values);
+    put(keys, "q" + n + "h", joint.q_predicted.values);
     put(keys, "dq" + n, joint.dq.values);
-    put(keys, "dq" + n + "h", joint.dq_foretold.values);
+    put(keys, "dq" + n + "h", joint.dq_predicted.values);
     put(keys, "tau" + n, joint.tau.values);
-    put(keys, "tau" + n + "h", joint.tau_needed.values);
+    put(keys, "tau" + n + "h", joint.tau_required.values);
   }
   for (std::size_t i = 0; i < window.networks.size(); ++i) {
     const std::string key = "n" + std::to_string(window.fault_id) + "-" + std::to_string(i);

@@ -154,7 +154,7 @@ std::size_t largest_page(int joints) {
     std::minstd_rand random(1);
     for (JointCurves& joint : w.joints)
       for (Envelope* e :
-           {&joint.q, &joint.q_foretold, &joint.dq, &joint.dq_foretold, &joint.tau, &joint.tau_needed})
+           {&joint.q, &joint.q_predicted, &joint.dq, &joint.dq_predicted, &joint.tau, &joint.tau_required})
         for (float& value : e->values) value = static_cast<float>(random() % 10000);
     return w;
   };

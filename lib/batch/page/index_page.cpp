@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/index_page.hpp"
+#include "lib/batch/page/index_page.hpp"
 
 #include <fmt/format.h>
 
-#include "lib/batch/index_assets.hpp"
-#include "lib/batch/index_table.hpp"
+#include "lib/batch/page/index_assets.hpp"
+#include "lib/batch/page/index_table.hpp"
+#include "lib/batch/page/index_trends.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/html/base64.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/trace.hpp"
+#include "lib/golden/trace_tap.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,20 @@ Trace empty_trace(int joints) {
       trace.channels.push_back(fmt::format("{}{}", quantity, joint));
   trace.values.resize(trace.channels.size());
   return trace;
+}
+
+Transitions columns_of(const Transitions& all, const std::vector<Eigen::Index>& columns) {
+  Transitions some;
+  for (const Eigen::Index column : columns) some.row.push_back(all.row[static_cast<std::size_t>(column)]);
+  some.time = all.time(columns);
+  some.duration = all.duration(columns);
+  some.q = all.q(Eigen::all, columns);
+  some.dq = all.dq(Eigen::all, columns);
+  some.tau = all.tau(Eigen::all, columns);
+  some.mean_tau = all.mean_tau(Eigen::all, columns);
+  some.next_q = all.next_q(Eigen::all, columns);
+  some.next_dq = all.next_dq(Eigen::all, columns);
+  return some;
 }
 
 void keep_every_second(std::vector<double>& values) {
@@ -43,16 +57,23 @@ void TraceTap::rewind() {
 }
 
 void TraceTap::take(const Log& segment) {
-  const Transitions transitions = collect_transitions(segment, generator_.shape, state_);
-  Eigen::MatrixXd foretold = predicted_change(generator_, transitions);
-  foretold.topRows(generator_.joints()) += transitions.q;
-  foretold.bottomRows(generator_.joints()) += transitions.dq;
+  const Transitions all = collect_transitions(segment, generator_.shape, state_);
+  const std::int64_t before = std::exchange(seen_, seen_ + all.count());
+  while ((seen_ + stride_ - 1) / stride_ > max_points_) thin();
+  std::vector<Eigen::Index> columns;
+  for (std::int64_t i = (stride_ - before % stride_) % stride_; i < all.count(); i += stride_)
+    columns.push_back(i);
+  keep(columns_of(all, columns));
+}
+
+void TraceTap::keep(const Transitions& transitions) {
+  Eigen::MatrixXd predicted = predicted_change(generator_, transitions);
+  predicted.topRows(generator_.joints()) += transitions.q;
+  predicted.bottomRows(generator_.joints()) += transitions.dq;
   for (int i = 0; i < transitions.count(); ++i) {
-    if (seen_++ % stride_ != 0) continue;
     trace_.time.push_back(transitions.time[i]);
     for (std::size_t c = 0; c < trace_.values.size(); ++c)
-      trace_.values[c].push_back(foretold(static_cast<Eigen::Index>(c), i));
-    if (trace_.points() > max_points_) thin();
+      trace_.values[c].push_back(predicted(static_cast<Eigen::Index>(c), i));
   }
 }
 

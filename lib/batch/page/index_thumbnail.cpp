@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_thumbnail.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "lib/batch/index_table.hpp"
 
 namespace faultline {
 namespace {
@@ -24,7 +24,7 @@ std::string bar(const char* kind, double from, double to, int y) {
                      std::max(to - from, 1.0));
 }
 
-std::string fault_bars(const BatchFault& fault, const Scale& scale, int y) {
+std::string fault_bars(const FaultEvent& fault, const Scale& scale, int y) {
   if (!std::isfinite(fault.onset_s)) return "";
   const double onset = scale.x(fault.onset_s);
   const double alarm = std::isfinite(fault.alarm_s) ? std::max(scale.x(fault.alarm_s), onset) : onset;
@@ -39,14 +39,14 @@ std::string index_thumbnail(const BatchRow& row) {
   const Scale scale{row.start_s, row.end_s};
   if (!(scale.end_s > scale.start_s)) return "";
   int first = 1, last = std::max(row.joints, 1);
-  for (const BatchFault& fault : row.faults) {
+  for (const FaultEvent& fault : row.faults) {
     first = std::min(first, fault.label.joint);
     last = std::max(last, fault.label.joint);
   }
   std::string lanes, bars;
   for (int joint = first; joint <= last; ++joint)
     lanes += fmt::format("M0 {}h{}", (joint - first) * kLane + 3, kWidth);
-  for (const BatchFault& fault : row.faults)
+  for (const FaultEvent& fault : row.faults)
     bars += fault_bars(fault, scale, (fault.label.joint - first) * kLane + 1);
   return fmt::format("<svg class=\"t\" viewBox=\"0 0 160 {}\" aria-hidden=\"true\"><path d=\"{}\"/>{}</svg>",
                      (last - first + 1) * kLane, lanes, bars);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_trends.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "lib/batch/index_table.hpp"
 #include "lib/plot/line_plot.hpp"
 #include "lib/report/layout.hpp"
 
@@ -69,9 +70,8 @@ PlotPanel folder_panel(const std::vector<const BatchRow*>& judged) {
 }
 
 double parameter_in(const BatchRow& row, const std::string& name) {
-  for (const BatchParameter& p : row.parameters)
-    if (p.name == name) return p.value;
-  return std::nan("");
+  const ParameterValue* parameter = find_value(row.parameters, name);
+  return parameter ? parameter->value : std::nan("");
 }
 
 double median(std::vector<double> values) {
@@ -86,7 +86,7 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
   std::map<std::string, std::vector<double>> found;
   std::vector<std::string> names;
   for (const BatchRow* row : judged)
-    for (const BatchParameter& p : row->parameters) {
+    for (const ParameterValue& p : row->parameters) {
       if (found[p.name].empty()) names.push_back(p.name);
       if (std::abs(p.value) > 3.0 * p.std) found[p.name].push_back(p.value);
     }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Puts the style and the script of a batch's index into a source file.
-set(batch_assets ${CMAKE_CURRENT_SOURCE_DIR}/batch)
+set(batch_assets ${CMAKE_CURRENT_SOURCE_DIR}/batch/page)
 file(READ ${batch_assets}/index_page.css INDEX_STYLE)
 file(READ ${batch_assets}/index_page.js INDEX_SCRIPT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${batch_assets}/index_page.css

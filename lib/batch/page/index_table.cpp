@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/index_table.hpp"
+#include "lib/batch/page/index_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
+#include "lib/batch/page/index_thumbnail.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/layout.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 std::string fault_list(const BatchRow& row) {
   std::string list;
-  for (const BatchFault& fault : row.faults)
+  for (const FaultEvent& fault : row.faults)
     list +=
         (list.empty() ? "" : "<br>") +
         escaped_markup(fmt::format("{} at {}, {:.0f} %", plain_words(fault.label),
@@ -26,7 +27,7 @@ std::string fault_list(const BatchRow& row) {
 
 std::string kinds(const BatchRow& row) {
   std::set<std::string> names;
-  for (const BatchFault& fault : row.faults) names.insert(to_string(fault.label.kind));
+  for (const FaultEvent& fault : row.faults) names.insert(to_string(fault.label.kind));
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
   return list;
