@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/replay/run_curves.hpp"
 
-#include "lib/pipeline/diagnose.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
