@@ -52,15 +52,13 @@ std::vector<JointResidualSummary> residual_table(const std::vector<JointResidual
   return table;
 }
 
-bool passes(FaultKind kind) { return kind == FaultKind::collision; }
-
 /// A fault that stays is one finding, however often the log looks healthy in between (a joint at rest hides
 /// most faults): later episodes on the same joint extend it.
 void merge_continued(std::vector<FaultFinding>& faults) {
   std::vector<FaultFinding> merged;
   for (FaultFinding& fault : faults) {
     const auto same = std::find_if(merged.begin(), merged.end(), [&](const FaultFinding& earlier) {
-      return !passes(earlier.label.kind) && earlier.label.joint == fault.label.joint;
+      return !describe(earlier.label.kind).passes && earlier.label.joint == fault.label.joint;
     });
     if (same == merged.end()) {
       merged.push_back(std::move(fault));

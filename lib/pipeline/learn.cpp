@@ -196,10 +196,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.judges = train_judges(training.episodes, judging);
   out.cases = fill_case_base(training, model, judging);
   std::vector<FaultLabel> sample_labels = labels_to_simulate(model.bank, kSampleRunsPerLabel, options.kinds);
-  // A bias or a drift shows in the residual of its first sample only: after it, their samples look healthy.
-  std::erase_if(sample_labels, [](const FaultLabel& label) {
-    return label.kind == FaultKind::sensor_bias || label.kind == FaultKind::sensor_drift;
-  });
+  std::erase_if(sample_labels,
+                [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
   sample_labels.insert(sample_labels.end(), kHealthySampleRuns, FaultLabel{});
   model.samples = learn_sample_mode(twin, model, sample_labels, seed + kSampleSeeds, options.threads);
   model.validation = validate(

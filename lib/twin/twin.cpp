@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/evidence/size_scale.hpp"
+
 namespace faultline {
 namespace {
 
@@ -22,6 +24,13 @@ double log_uniform(Random& random, double low, double high) {
 }
 
 double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
+
+double draw(const DrawRange& range, double scale, Random& random) {
+  const double sign = range.either_sign ? random_sign(random) : 1.0;
+  const double share = range.spread == Spread::log_uniform ? log_uniform(random, range.low, range.high)
+                                                           : random.uniform(range.low, range.high);
+  return sign * share * scale;
+}
 
 /// Length of a move over which the twin is about as fast as the logs: a quintic over a third of the range has
 /// an rms speed of 1.2 times its mean.
@@ -79,31 +88,15 @@ FaultEvent fault_event(const Twin& twin, const FaultLabel& label, double onset_s
   fault.kind = label.kind;
   fault.joint = label.joint;
   fault.onset_s = onset_s;
-  const int j = label.joint - 1;
-  const double range = motion.q_high[j] - motion.q_low[j];
-  switch (label.kind) {
-    case FaultKind::torque_loss:
-      fault.size = random.uniform(0.2, 0.9);
-      break;
-    case FaultKind::sensor_bias:
-      fault.size = random_sign(random) * log_uniform(random, 0.003, 0.04) * range;
-      break;
-    case FaultKind::sensor_drift:
-      fault.size = random_sign(random) * log_uniform(random, 0.003, 0.04) * range;
-      break;
-    case FaultKind::friction_increase:
-      fault.size = log_uniform(random, 0.4, 3.0) * motion.priors.coulomb_increase[j];
-      fault.viscous = random.uniform(0.0, 3.0) * motion.priors.viscous_increase[j];
-      break;
-    case FaultKind::payload_change:
-      fault.size = log_uniform(random, 0.15, 1.2) * 2.0 * motion.priors.payload;
-      break;
-    case FaultKind::collision:
-      fault.size = random_sign(random) * log_uniform(random, 0.15, 1.0) * motion.torque_scale[j];
-      fault.end_s = onset_s + std::max(log_uniform(random, 0.02, 0.2), twin.sample_period_s);
-      break;
-    default:
-      break;
+  const std::span<const FaultSize> sizes = describe(label.kind).sizes();
+  auto drawn = [&](const FaultSize& size) {
+    return draw(size.twin, usual_size(motion, size.measure, label.joint - 1), random);
+  };
+  if (!sizes.empty()) fault.size = drawn(sizes.back());
+  if (sizes.size() > 1) fault.viscous = drawn(sizes.front());
+  if (describe(label.kind).passes) {
+    const double length_s = draw(describe(label.kind).twin_length_s, 1.0, random);
+    fault.end_s = onset_s + std::max(length_s, twin.sample_period_s);
   }
   return fault;
 }
@@ -144,7 +137,7 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
     run.onset_s = random.uniform(0.25, 0.7) * spec.duration_s;
     spec.faults.push_back(fault_event(twin, label, run.onset_s, random));
     run.end_s = spec.faults.front().end_s;
-    if (label.kind == FaultKind::collision) push_another_joint(motion, spec.faults, random);
+    if (describe(label.kind).passes) push_another_joint(motion, spec.faults, random);
   }
   run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;
   if (!twin.has_velocity) run.log.dq.clear();
