@@ -151,6 +151,7 @@ void calibrate_on_twin(Model& model, const std::vector<HeardRun>& healthy) {
 
 void LearnOptions::check() const {
   identify.check();
+  twin.check();
   auto at_least = [](const char* name, int value, int bound) {
     if (value < bound)
       throw Error(ErrorCode::usage, std::string("LearnOptions.") + name,
@@ -181,7 +182,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.motion = learn_motion_model(healthy, identified_motion(out.identification), {});
   model.evidence = calibrate_thresholds(healthy, model.motion, model.bank, {});
 
-  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity};
+  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
+                  options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
   calibrate_on_twin(model, hear_twin_runs(twin, model, calm, seed + kHealthySeeds, options.threads, {}));
