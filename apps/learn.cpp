@@ -19,6 +19,8 @@
 #include "lib/core/error.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "lib/twin/twin_json.hpp"
+#include "lib/twin/twin_text.hpp"
 
 namespace faultline {
 namespace {
@@ -26,6 +28,7 @@ namespace {
 struct LearnArguments {
   std::vector<std::string> logs;
   std::string robot, labels, model, cases, json;
+  bool show_twin = false;
   LearnOptions options;
 };
 
@@ -146,6 +149,14 @@ void write_model(const Learned& learned, const LearnArguments& arguments) {
   model.commit();
 }
 
+int show_twin(const LearnArguments& arguments) {
+  const nlohmann::ordered_json json{{"schema", "faultline/twin/1"},
+                                    {"twin", twin_to_json(arguments.options.twin)}};
+  if (!arguments.json.empty()) write_file(arguments.json, json.dump(2) + "\n");
+  if (arguments.json != "-") print(twin_text(arguments.options.twin));
+  return kNothingFound;
+}
+
 int run_learn(const LearnArguments& arguments, ColorChoice color) {
   const Robot robot = load_robot_file(arguments.robot);
   const OpenLogs logs = open_logs(arguments, robot);
@@ -183,8 +194,19 @@ void add_learn(CLI::App& app, Program& program) {
   command->add_option("--seed", arguments->options.seed, "Of every random choice")->capture_default_str();
   command->add_option("--threads", arguments->options.threads, "0 = one a core; changes no byte")
       ->capture_default_str();
+  command->add_flag_callback(
+      "--show-twin",
+      [arguments, command] {
+        arguments->show_twin = true;
+        for (CLI::Option* option : command->get_options()) option->required(false);
+      },
+      "Show how the faults to learn from are simulated, and do nothing else; needs no other argument");
   command->footer("Example: faultline learn healthy_*.csv --robot robot.toml -o robot.model");
   command->callback([arguments, &program] {
+    if (arguments->show_twin) {
+      program.run = [arguments] { return show_twin(*arguments); };
+      return;
+    }
     if (arguments->cases.empty()) arguments->cases = arguments->model + ".cases.db";
     arguments->options.identify.threads = arguments->options.threads;
     program.run = [arguments, &program] { return run_learn(*arguments, program.color); };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
@@ -14,9 +16,8 @@ namespace faultline {
 /// What the bank makes of an episode by label: for each the best of its hypotheses.
 struct LabelEvidence {
   FaultLabel label;
-  double log_likelihood_ratio = 0.0;  ///< against healthy
-  double size = 0.0;                  ///< in units of its prior (a loss: share of the torque)
-  double second_size = 0.0;           ///< of friction: Coulomb, in units of its prior
+  double log_likelihood_ratio = 0.0;      ///< against healthy
+  std::array<double, kMostSizes> size{};  ///< as the catalogue lists them, over their feature_scale()
 };
 
 /// One entry a label of the bank, in a fixed order. A collision that pushes all joints counts for the joint

@@ -12,31 +12,16 @@
 namespace faultline {
 namespace {
 
-std::string size_text(const EpisodeEvidence& episode, const Model& model, const FaultLabel& label) {
+/// How large the fault is by the likeliest hypothesis of its label; empty when no hypothesis bears the label.
+std::string size_words(const EpisodeEvidence& observed, const Model& model, const FaultLabel& label) {
   const HypothesisEvidence* best = nullptr;
   for (std::size_t h = 0; h < model.bank.size(); ++h)
     if (model.bank[h].label == label &&
-        (!best || episode.hypotheses[h].log_likelihood_ratio > best->log_likelihood_ratio))
-      best = &episode.hypotheses[h];
+        (!best || observed.hypotheses[h].log_likelihood_ratio > best->log_likelihood_ratio))
+      best = &observed.hypotheses[h];
   if (!best) return "";
   const bool turns = model.robot.chain.geometry[label.joint - 1].kind == AxisKind::revolute;
-  const char* length = turns ? "rad" : "m";
-  const char* torque = turns ? "N m" : "N";
-  switch (label.kind) {
-    case FaultKind::torque_loss:
-      return fmt::format("about {:.0f} % of the torque is lost", 100.0 * best->size[0]);
-    case FaultKind::sensor_bias:
-      return fmt::format("the position reads {:+.4g} {} too much", best->size[0], length);
-    case FaultKind::sensor_drift:
-      return fmt::format("the position drifts by {:+.3g} {}/s", best->size[0], length);
-    case FaultKind::friction_increase:
-      return fmt::format("friction rose by {:.3g} {} plus {:.3g} {} s/{} of speed", best->size[1], torque,
-                         best->size[0], torque, length);
-    case FaultKind::payload_change:
-      return fmt::format("the load at the tip changed by {:+.3g} kg", best->size[0]);
-    default:
-      return "";
-  }
+  return size_text(label, best->size, turns);
 }
 
 EvidenceItem remark(const char* name, std::string text) {
@@ -53,7 +38,7 @@ std::vector<EvidenceItem> evidence_for(const Decision& decision, const DecisionB
                    fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)",
                                model.evidence.threshold)});
   if (decision.label.joint > 0)
-    if (std::string size = size_text(observed.evidence, model, decision.label); !size.empty())
+    if (std::string size = size_words(observed.evidence, model, decision.label); !size.empty())
       items.push_back(remark("size", std::move(size)));
   for (const JointResidual& residual : observed.residuals)
     if (std::isfinite(residual.velocity_rms))

@@ -6,10 +6,10 @@
 #include <limits>
 #include <tuple>
 
+#include "lib/fault/fault_catalogue.hpp"
+
 namespace faultline {
 namespace {
-
-bool passes(FaultKind kind) { return kind == FaultKind::collision; }
 
 double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
@@ -25,7 +25,7 @@ std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults) {
   std::vector<FaultFinding> merged;
   for (FaultFinding& fault : faults) {
     const auto same = std::find_if(merged.begin(), merged.end(), [&](const FaultFinding& earlier) {
-      return fault.decided_by != DecidedBy::criterion && !passes(earlier.label.kind) &&
+      return fault.decided_by != DecidedBy::criterion && !describe(earlier.label.kind).passes &&
              earlier.label.joint == fault.label.joint;
     });
     if (same == merged.end())

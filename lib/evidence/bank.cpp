@@ -20,13 +20,6 @@ double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, in
   return -std::log(share) + 0.5 * at.chi_square[j];
 }
 
-SensorError sensor_error(const Hypothesis& hypothesis, int size_index, double age_s) {
-  if (hypothesis.label.kind == FaultKind::sensor_bias) return {size_index, 1.0, 0.0};
-  if (hypothesis.label.kind == FaultKind::sensor_drift)
-    return {size_index, std::max(age_s, 1e-9), hypothesis.variant ? 1.0 : 0.0};
-  return {};
-}
-
 }  // namespace
 
 Bank::Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses)
@@ -79,9 +72,9 @@ void Bank::judge(RunningHypothesis& running, const FollowedSample& at) const {
     if (!at.pressed[j]) running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
   }
   clamp_sizes(running.state, hypothesis, model_);
-  if (hypothesis.label.kind != FaultKind::collision) return;
+  if (describe(hypothesis.label.kind).course != SizeCourse::pulse) return;
   for (int s = 0; s < hypothesis.sizes; ++s)
-    running.impulse[joint >= 0 ? joint : s] += running.state.mean[2 * n + s] * at.dt;
+    running.impulse[joint_of_size(hypothesis, s)] += running.state.mean[2 * n + s] * at.dt;
 }
 
 HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/evidence/fault_load.hpp"
 #include "lib/evidence/small_inverse.hpp"
 #include "lib/robot/dynamics.hpp"
 
@@ -73,36 +74,14 @@ Acceleration FaultDynamics::evaluate(const double* q_in, const double* dq_in, co
     const bool rubs = f.coulomb != 0.0 || (j == joint && kind == FaultKind::friction_increase);
     const double sign = rubs ? saturating_tanh(dq[j] / f.width) : 0.0;
     const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
-    double viscous = f.viscous, coulomb = f.coulomb, drive = torque[j];
-    out.size_torque[0][j] = out.size_torque[1][j] = 0.0;
-    if (j == joint) {
-      switch (kind) {
-        case FaultKind::free_swinging:
-          drive = 0.0;
-          break;
-        case FaultKind::torque_loss:
-          out.size_torque[0][j] = -drive;
-          drive *= 1.0 - sizes[0];
-          break;
-        case FaultKind::friction_increase:
-          viscous += sizes[0];
-          coulomb += sizes[1];
-          out.size_torque[0][j] = -dq[j];
-          out.size_torque[1][j] = -sign;
-          break;
-        case FaultKind::collision:
-        case FaultKind::unknown:
-          drive += sizes[0];
-          out.size_torque[0][j] = 1.0;
-          break;
-        default:
-          break;
-      }
-    }
-    if (everywhere) drive += sizes[j];
-    out.friction_slope[j] = viscous + coulomb * sharpness;
-    out.stiffness = std::max(out.stiffness, out.inverse_inertia[j * n + j] * (viscous + coulomb / f.width));
-    net[j] = drive - bias[j] - viscous * dq[j] - coulomb * sign - f.offset;
+    JointLoad load{torque[j], f.viscous, f.coulomb, {}};
+    if (j == joint) load_joint(kind, sizes, dq[j], sign, load);
+    if (everywhere) load.drive += sizes[j];
+    for (int s = 0; s < kMostSizes; ++s) out.size_torque[s][j] = load.size_torque[s];
+    out.friction_slope[j] = load.viscous + load.coulomb * sharpness;
+    out.stiffness =
+        std::max(out.stiffness, out.inverse_inertia[j * n + j] * (load.viscous + load.coulomb / f.width));
+    net[j] = load.drive - bias[j] - load.viscous * dq[j] - load.coulomb * sign - f.offset;
   }
   for (int i = 0; i < n; ++i) {
     double sum = 0.0;

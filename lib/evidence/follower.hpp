@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "lib/evidence/fault_load.hpp"
 #include "lib/evidence/prediction.hpp"
 #include "lib/log/log.hpp"
 
@@ -33,13 +34,6 @@ Step step_to(const FollowedSample& at, const double* torque_before, const bool* 
 
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
-
-/// A fault size that falsifies what a joint's sensor reads.
-struct SensorError {
-  int size_index = -1;  ///< in the state; -1 for none
-  double on_q = 0.0;    ///< reading = truth + on_q * size
-  double on_dq = 0.0;
-};
 
 /// Observes the measured channels of joint j.
 struct JointObservation {

@@ -3,36 +3,47 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace faultline {
 namespace {
 
-constexpr std::array<double, 3> kCollisionDurations = {0.04, 0.1, 0.25};  // s
+constexpr std::array<double, 3> kPulses_s = {0.04, 0.1, 0.25};  // a knock, a bump, a push aside
+constexpr std::array<double, 1> kLasting = {0.0};
+
+/// A lock may be rigid, a drift may be read as velocity too.
+bool has_variant(FaultKind kind) { return kind == FaultKind::locked || kind == FaultKind::sensor_drift; }
+
+void add_at_joints(std::vector<Hypothesis>& bank, const Hypothesis& like, int joints) {
+  const bool at_tip = describe(like.label.kind).place == FaultPlace::tip;
+  for (int j = at_tip ? joints : 1; j <= joints; ++j) {
+    bank.push_back(like);
+    bank.back().label.joint = j;
+  }
+}
+
+void add_kind(std::vector<Hypothesis>& bank, const FaultDescription& fault, int joints) {
+  const std::span<const double> durations_s = fault.passes ? std::span<const double>(kPulses_s) : kLasting;
+  for (const double duration_s : durations_s) {
+    add_at_joints(bank, {{fault.kind, 0}, duration_s, false, fault.size_count}, joints);
+    if (has_variant(fault.kind))
+      add_at_joints(bank, {{fault.kind, 0}, duration_s, true, fault.size_count}, joints);
+    if (fault.passes && joints > 1) bank.push_back({{fault.kind, 0}, duration_s, false, joints});
+  }
+}
 
 }  // namespace
 
 std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
   std::vector<Hypothesis> bank;
-  auto each_joint = [&](FaultKind kind, int sizes, double duration_s = 0.0, bool variant = false) {
-    for (int j = 1; j <= joints; ++j) bank.push_back({{kind, j}, duration_s, variant, sizes});
-  };
-  if (torque != TorqueMeaning::measured) {
-    each_joint(FaultKind::free_swinging, 0);
-    each_joint(FaultKind::torque_loss, 1);
+  for (const bool hidden : {true, false}) {
+    if (hidden && torque == TorqueMeaning::measured) continue;
+    for (int k = 0; k < kFaultKinds; ++k) {
+      const FaultDescription& fault = describe(static_cast<FaultKind>(k));
+      if (fault.place != FaultPlace::nowhere && fault.hidden_by_measured_torque == hidden)
+        add_kind(bank, fault, joints);
+    }
   }
-  each_joint(FaultKind::locked, 0);
-  each_joint(FaultKind::locked, 0, 0.0, true);
-  each_joint(FaultKind::sensor_bias, 1);
-  each_joint(FaultKind::stuck_encoder, 0);
-  each_joint(FaultKind::sensor_drift, 1);
-  each_joint(FaultKind::sensor_drift, 1, 0.0, true);
-  each_joint(FaultKind::friction_increase, 2);
-  bank.push_back({{FaultKind::payload_change, joints}, 0.0, false, 1});
-  for (const double duration_s : kCollisionDurations) {
-    each_joint(FaultKind::collision, 1, duration_s);
-    if (joints > 1) bank.push_back({{FaultKind::collision, 0}, duration_s, false, joints});
-  }
-  each_joint(FaultKind::unknown, 1);
   bank.push_back({{FaultKind::none, 0}, 0.0, false, 0});
   return bank;
 }
@@ -45,11 +56,6 @@ HypothesisLabels labels_of(const std::vector<Hypothesis>& bank) {
     if (found == out.labels.end()) out.labels.push_back(hypothesis.label);
   }
   return out;
-}
-
-std::string to_string(const FaultLabel& label) {
-  const std::string kind = to_string(label.kind);
-  return label.joint > 0 ? kind + " " + std::to_string(label.joint) : kind;
 }
 
 }  // namespace faultline

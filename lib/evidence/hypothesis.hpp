@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -41,8 +40,17 @@ inline bool is_everywhere(const Hypothesis& hypothesis) {
   return hypothesis.label.kind == FaultKind::collision && hypothesis.label.joint == 0;
 }
 
-/// The bank: every kind at every joint. Loss of torque is left out where the logged torque is measured behind
-/// the drive, since it is then inside the measurement.
+/// What the catalogue says of size `s` of the hypothesis (a push on all joints has one size a joint, all
+/// alike), and the joint it belongs to, from 0.
+inline const FaultSize& described_size(const Hypothesis& hypothesis, int s) {
+  return describe(hypothesis.label.kind).size[is_everywhere(hypothesis) ? 0 : s];
+}
+inline int joint_of_size(const Hypothesis& hypothesis, int s) {
+  return is_everywhere(hypothesis) ? s : hypothesis.joint_index();
+}
+
+/// The bank: every kind at every joint, first the kinds that a torque measured behind the drive hides, which
+/// are left out where it is measured there, then the others in the order of the catalogue.
 std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque);
 
 /// The distinct labels of a bank in its order; `label_of[i]` is the label of hypothesis i.
@@ -51,8 +59,5 @@ struct HypothesisLabels {
   std::vector<int> label_of;
 };
 HypothesisLabels labels_of(const std::vector<Hypothesis>& bank);
-
-/// Such as "torque_loss 2".
-std::string to_string(const FaultLabel& label);
 
 }  // namespace faultline

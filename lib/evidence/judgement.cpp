@@ -22,11 +22,6 @@ constexpr double kWorthRefining = 25.0;
 constexpr int kMostRefined = 6;
 constexpr int kFewestConfirm = 16;  // samples
 
-bool creeps(FaultKind kind) {
-  return kind == FaultKind::torque_loss || kind == FaultKind::friction_increase ||
-         kind == FaultKind::payload_change || kind == FaultKind::sensor_drift || kind == FaultKind::unknown;
-}
-
 bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
   return a.log_likelihood_ratio > b.log_likelihood_ratio;
 }
@@ -56,7 +51,7 @@ RunningHypothesis Judgement::run(int hypothesis, std::int64_t onset) const {
 void Judgement::begin_at(std::int64_t onset, bool slow_only) {
   if (onset < earliest_ || history_[trigger_].time - history_[onset].time > kLookBack_s) return;
   for (std::size_t h = 0; h < bank_.hypotheses().size(); ++h)
-    if (!slow_only || creeps(bank_.hypotheses()[h].label.kind))
+    if (!slow_only || describe(bank_.hypotheses()[h].label.kind).creeps)
       running_.push_back(run(static_cast<int>(h), onset));
 }
 

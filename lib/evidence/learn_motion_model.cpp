@@ -7,7 +7,6 @@
 #include "lib/core/error.hpp"
 #include "lib/evidence/episode_detector.hpp"
 #include "lib/evidence/follower.hpp"
-#include "lib/evidence/healthy_statistics.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -27,31 +26,6 @@ std::vector<double> inertia_scale(const MotionModel& model) {
   std::vector<double> diagonal;
   for (int j = 0; j < model.joints(); ++j) diagonal.push_back(inertia(j, j));
   return diagonal;
-}
-
-/// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns.
-double carried_mass(const MotionModel& model) {
-  for (int j = model.joints() - 1; j >= 0; --j)
-    if (model.chain.geometry[j].kind == AxisKind::prismatic) return model.inertia_scale[j];
-  double reach = 0.0;
-  for (const double l : model.chain.length) reach += l;
-  return model.inertia_scale[0] / std::max(reach * reach, 1e-6);
-}
-
-SizePriors priors_of(const MotionModel& model, const HealthyStatistics& healthy) {
-  SizePriors priors;
-  for (int j = 0; j < model.joints(); ++j) {
-    const double range = model.q_high[j] - model.q_low[j];
-    const double torque = healthy.torque_rms[j], velocity = std::max(healthy.velocity_rms[j], 1e-6);
-    const Friction<double>& friction = model.chain.friction[j];
-    priors.bias.push_back(0.02 * range);
-    priors.drift.push_back(0.02 * range);
-    priors.viscous_increase.push_back(std::max(std::abs(friction.viscous), 0.05 * torque / velocity));
-    priors.coulomb_increase.push_back(std::max(std::abs(friction.coulomb), 0.05 * torque));
-    priors.external_torque.push_back(0.5 * model.torque_scale[j]);
-  }
-  priors.payload = 0.5 * carried_mass(model);
-  return priors;
 }
 
 /// The same number of rows from the middle of every log.
@@ -166,7 +140,7 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
     model.noise.floor.push_back(std::max(0.001 * torque, 1e-9));
   if (identified.torque_is_held) model.noise.step_share = 0.0;
   model.inertia_scale = inertia_scale(model);
-  model.priors = priors_of(model, healthy);
+  model.priors = size_priors(model, healthy, options.priors);
   match_noise(model, excerpts(logs, options.excerpt_rows), identified.torque_is_held);
   ProcessNoise& noise = model.noise;
   noise.torque_share = std::max(options.safety * noise.torque_share, options.least_torque_share);

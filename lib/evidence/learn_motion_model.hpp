@@ -4,7 +4,7 @@
 #include <span>
 
 #include "lib/evidence/evidence_options.hpp"
-#include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/size_priors.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -24,6 +24,7 @@ struct LearnMotionOptions {
       0.003;  ///< floors that keep a model of perfect logs from trusting itself too much
   double least_rest_share = 0.05;
   double safety = 1.25;  ///< the matched process noise is taken this much larger
+  SizePriorOptions priors{};
 };
 
 /// A motion model whose process noise is matched to the innovations of the healthy logs by maximum

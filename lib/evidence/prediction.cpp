@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "lib/evidence/process_noise.hpp"
+#include "lib/evidence/size_scale.hpp"
 #include "lib/evidence/transition.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kUnknownTorqueTime_s = 0.1;  // an unknown disturbance changes by its scale in this time
+constexpr double kWanderingTime_s = 0.1;  // a size that wanders changes by its scale in this time
 
 JointArray mean_torque(const MotionModel& model, const Step& step) {
   JointArray torque;
@@ -74,21 +75,22 @@ JointArray stopping(const double* mean, const FaultDynamics& dynamics, const Hyp
   return change;
 }
 
-bool changes_motion(FaultKind kind) {
-  return kind != FaultKind::none && kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
-         kind != FaultKind::stuck_encoder;
-}
-
-/// The pulse of a collision has any shape while it lasts and is over at its duration.
-void shape_collision(GaussianState& state, const Hypothesis& hypothesis, double age_s, double dt,
-                     const SizePriors& priors, int first) {
-  for (int s = first; s < state.size; ++s) {
+/// What the sizes do over the step: most stay what they are; a pulse has any shape while it lasts and is over
+/// at its duration.
+void move_sizes(GaussianState& state, const Hypothesis& hypothesis, double age_s, double dt,
+                const MotionModel& model) {
+  const SizeCourse course = describe(hypothesis.label.kind).course;
+  if (course == SizeCourse::stays) return;
+  for (int s = 0; s < hypothesis.sizes; ++s) {
+    const int index = 2 * model.joints() + s;
     const double scale =
-        priors.external_torque[hypothesis.label.joint > 0 ? hypothesis.joint_index() : s - first];
-    if (age_s > hypothesis.duration_s)
-      zero_state(state, s);
+        prior_scale(model.priors, described_size(hypothesis, s).measure, joint_of_size(hypothesis, s));
+    if (course == SizeCourse::wanders)
+      state.p(index, index) += scale * scale * dt / kWanderingTime_s;
+    else if (age_s > hypothesis.duration_s)
+      zero_state(state, index);
     else
-      state.p(s, s) += 2.0 * scale * scale * dt / hypothesis.duration_s;
+      state.p(index, index) += 2.0 * scale * scale * dt / hypothesis.duration_s;
   }
 }
 
@@ -102,18 +104,14 @@ void predict(GaussianState& state, const MotionModel& model, const FaultDynamics
   if (!hypothesis) return;
   if (hypothesis->label.kind == FaultKind::locked)
     zero_state(state, model.joints() + hypothesis->joint_index());
-  if (hypothesis->label.kind == FaultKind::collision)
-    shape_collision(state, *hypothesis, age_s, step.dt, model.priors, 2 * model.joints());
-  if (hypothesis->label.kind == FaultKind::unknown) {
-    const double scale = model.priors.external_torque[hypothesis->joint_index()];
-    state.p(state.size - 1, state.size - 1) += scale * scale * step.dt / kUnknownTorqueTime_s;
-  }
+  move_sizes(state, *hypothesis, age_s, step.dt, model);
 }
 
 void predict_onset(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics,
                    const Step& step, const Hypothesis& hypothesis) {
   const int n = model.joints();
-  if (!changes_motion(hypothesis.label.kind)) return predict(state, model, dynamics, step, nullptr, 0.0);
+  if (describe(hypothesis.label.kind).acts_on != FaultActsOn::motion)
+    return predict(state, model, dynamics, step, nullptr, 0.0);
   const bool locks = hypothesis.label.kind == FaultKind::locked;
   std::array<double, kMaxStates> prior_variance;
   for (int s = 2 * n; s < state.size; ++s) prior_variance[s] = state.p(s, s);
@@ -136,49 +134,23 @@ void predict_onset(GaussianState& state, const MotionModel& model, const FaultDy
 GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothesis,
                          const SizePriors& priors) {
   GaussianState state = extended(healthy, healthy.size + hypothesis.sizes);
-  const int j = hypothesis.joint_index(), first = healthy.size;
-  auto prior = [&](int index, double mean, double std) {
-    state.mean[index] = mean;
-    state.p(index, index) = std * std;
-  };
-  switch (hypothesis.label.kind) {
-    case FaultKind::torque_loss:
-      prior(first, 0.5, 0.3);
-      break;
-    case FaultKind::sensor_bias:
-      prior(first, 0.0, priors.bias[j]);
-      break;
-    case FaultKind::sensor_drift:
-      prior(first, 0.0, priors.drift[j]);
-      break;
-    case FaultKind::friction_increase:
-      prior(first, priors.viscous_increase[j], priors.viscous_increase[j]);
-      prior(first + 1, priors.coulomb_increase[j], priors.coulomb_increase[j]);
-      break;
-    case FaultKind::payload_change:
-      prior(first, 0.0, priors.payload);
-      break;
-    case FaultKind::collision:
-      for (int s = 0; s < hypothesis.sizes; ++s)
-        prior(first + s, 0.0, priors.external_torque[j >= 0 ? j : s]);
-      break;
-    case FaultKind::unknown:
-      prior(first, 0.0, priors.external_torque[j]);
-      break;
-    default:
-      break;
+  for (int s = 0; s < hypothesis.sizes; ++s) {
+    const FaultSize& size = described_size(hypothesis, s);
+    const double scale = prior_scale(priors, size.measure, joint_of_size(hypothesis, s));
+    const double std = size.prior_std * scale;
+    state.mean[healthy.size + s] = size.prior_mean * scale;
+    state.p(healthy.size + s, healthy.size + s) = std * std;
   }
   return state;
 }
 
 void clamp_sizes(GaussianState& state, const Hypothesis& hypothesis, const MotionModel& model) {
-  const int first = 2 * model.joints();
-  if (hypothesis.label.kind == FaultKind::torque_loss)
-    state.mean[first] = std::clamp(state.mean[first], 0.0, 1.0);
-  if (hypothesis.label.kind == FaultKind::friction_increase)
-    for (int s = 0; s < 2; ++s) state.mean[first + s] = std::max(state.mean[first + s], 0.0);
-  if (hypothesis.label.kind == FaultKind::payload_change)
-    state.mean[first] = std::max(state.mean[first], -1.8 * model.priors.payload);
+  for (int s = 0; s < hypothesis.sizes; ++s) {
+    const FaultSize& size = described_size(hypothesis, s);
+    const double scale = prior_scale(model.priors, size.measure, joint_of_size(hypothesis, s));
+    double& mean = state.mean[2 * model.joints() + s];
+    mean = std::clamp(mean, size.low * scale, size.high * scale);
+  }
 }
 
 }  // namespace faultline

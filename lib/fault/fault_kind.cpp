@@ -2,25 +2,25 @@
 #include "lib/fault/fault_kind.hpp"
 
 #include "lib/core/error.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
-namespace {
 
-constexpr std::array<const char*, kFaultKinds> kNames = {
-    "none",         "free_swinging",     "locked",         "torque_loss", "sensor_bias", "stuck_encoder",
-    "sensor_drift", "friction_increase", "payload_change", "collision",   "unknown"};
-
-}  // namespace
-
-const char* to_string(FaultKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+const char* to_string(FaultKind kind) { return describe(kind).name; }
 
 FaultKind fault_kind_from(const std::string& name) {
   std::string known;
   for (int i = 0; i < kFaultKinds; ++i) {
-    if (name == kNames[i]) return static_cast<FaultKind>(i);
-    known += (i ? ", " : "") + std::string(kNames[i]);
+    const FaultKind kind = static_cast<FaultKind>(i);
+    if (name == to_string(kind)) return kind;
+    known += (i ? ", " : "") + std::string(to_string(kind));
   }
   throw Error(ErrorCode::usage, "fault", "\"" + name + "\" is no fault name; expected one of " + known);
+}
+
+std::string to_string(const FaultLabel& label) {
+  const std::string kind = to_string(label.kind);
+  return label.joint > 0 ? kind + " " + std::to_string(label.joint) : kind;
 }
 
 }  // namespace faultline

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <string>
 
 namespace faultline {
 
+/// A kind of fault. What is to be known of it stands in fault_catalogue.cpp, in the same order.
 enum class FaultKind {
   none,
   free_swinging,      ///< no torque reaches the joint
@@ -17,10 +17,10 @@ enum class FaultKind {
   friction_increase,  ///< more viscous and Coulomb friction
   payload_change,     ///< mass added at, or taken from, the tip
   collision,          ///< a short external force
-  unknown,            ///< a fault like none of these
+  unknown,            ///< a fault like none of these; the last one
 };
 
-inline constexpr int kFaultKinds = 11;
+inline constexpr int kFaultKinds = static_cast<int>(FaultKind::unknown) + 1;
 
 /// The name used in labels, JSON and reports, such as "free_swinging".
 const char* to_string(FaultKind kind);
@@ -34,5 +34,8 @@ struct FaultLabel {
 
   bool operator==(const FaultLabel&) const = default;
 };
+
+/// Such as "torque_loss 2", or "unknown" for a label of no joint.
+std::string to_string(const FaultLabel& label);
 
 }  // namespace faultline

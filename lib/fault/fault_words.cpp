@@ -4,52 +4,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstddef>
 
 namespace faultline {
 namespace {
-
-struct KindWords {
-  const char* name;        ///< as a heading
-  const char* of_a_joint;  ///< after "joint N "
-  const char* check;       ///< "{}" stands for the joint
-};
-
-constexpr std::array<KindWords, kFaultKinds> kWords = {{
-    {"no fault", "shows no fault", "Nothing to do."},
-    {"free-swinging joint (no torque)", "swings freely (no torque)",
-     "Switch off and turn {} by hand: if the motor does not turn with it, look at coupling, belt and gear; "
-     "if it does, look at motor cable, drive enable and drive fault memory."},
-    {"locked joint", "is locked",
-     "Check that the brake of {} releases (supply, wiring, wear), then look for a mechanical jam, a "
-     "collision or a blocked end stop."},
-    {"loss of torque", "lost a part of its torque",
-     "Compare the motor current of {} with its command: a missing phase, a drive in current limit, a hot or "
-     "weak motor, or a slipping belt lose torque."},
-    {"position sensor offset", "reads a shifted position",
-     "Move {} to its reference mark and compare the reading: look for a slipped encoder coupling, lost "
-     "counts or a wrong home offset, then home again."},
-    {"stuck encoder", "repeats the same reading",
-     "Check the encoder of {}: cable, connector, supply and the status bits of its interface; move the joint "
-     "by hand and watch whether the count changes."},
-    {"position sensor drift", "reads a position that drifts",
-     "Move {} to its reference mark several times in a row: a reading that walks away points to a slipping "
-     "encoder coupling, lost counts or a warm sensor."},
-    {"more friction", "turns against more friction",
-     "Feel {} by hand with power off: look at bearings, seals, gear, brake drag and lubrication, and compare "
-     "the motor current at slow constant speed in both directions."},
-    {"changed payload", "carries another load",
-     "Check what the gripper holds or lost, and the payload set in the controller; weigh the tool if in "
-     "doubt."},
-    {"collision or outside force", "was hit or pushed",
-     "Look for contact marks and for what stood in the way at that time; check the tool and the tightness of "
-     "{}, and that cables do not pull."},
-    {"unknown fault", "shows an unknown fault",
-     "No known fault and no recorded case fits. Look at the residuals of the joints around this time; when "
-     "the cause is found, record it with `faultline cases add`, so that it is known the next time."},
-}};
-
-const KindWords& words_of(FaultKind kind) { return kWords[static_cast<std::size_t>(kind)]; }
 
 struct Alike {
   FaultKind a, b;
@@ -86,16 +43,23 @@ bool covers(const Alike& pair, const FaultLabel& a, const FaultLabel& b) {
 
 }  // namespace
 
-const char* plain_name(FaultKind kind) { return words_of(kind).name; }
+const char* plain_name(FaultKind kind) { return describe(kind).heading; }
 
 std::string plain_words(const FaultLabel& label) {
-  if (label.joint <= 0) return words_of(label.kind).name;
-  return fmt::format("joint {} {}", label.joint, words_of(label.kind).of_a_joint);
+  if (label.joint <= 0) return describe(label.kind).heading;
+  return fmt::format("joint {} {}", label.joint, describe(label.kind).of_a_joint);
 }
 
 std::string next_check_for(const FaultLabel& label) {
   const std::string joint = label.joint > 0 ? fmt::format("joint {}", label.joint) : "the joint";
-  return fmt::format(fmt::runtime(words_of(label.kind).check), joint);
+  return fmt::format(fmt::runtime(describe(label.kind).next_check), joint);
+}
+
+std::string size_text(const FaultLabel& label, const std::array<double, kMostSizes>& sizes, bool turns) {
+  return fmt::format(fmt::runtime(describe(label.kind).size_words), fmt::arg("first", sizes[0]),
+                     fmt::arg("second", sizes[1]), fmt::arg("percent", 100.0 * sizes[0]),
+                     fmt::arg("length", unit_of(SizeMeasure::length, turns)),
+                     fmt::arg("torque", unit_of(SizeMeasure::torque, turns)));
 }
 
 std::string why_alike(const FaultLabel& a, const FaultLabel& b) {

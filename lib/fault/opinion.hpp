@@ -17,6 +17,8 @@ struct Opinion {
 struct Opinions {
   Opinion mlp;
   Opinion rbfn;
+
+  bool operator==(const Opinions&) const = default;
 };
 
 }  // namespace faultline

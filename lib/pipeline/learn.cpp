@@ -47,10 +47,7 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
 std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
                                       const std::vector<FaultKind>& kinds) {
   std::vector<FaultLabel> labels = labels_to_simulate(bank, kSampleRunsPerLabel, kinds);
-  // A bias or a drift shows in the residual of its first sample only: after it, their samples look healthy.
-  std::erase_if(labels, [](const FaultLabel& label) {
-    return label.kind == FaultKind::sensor_bias || label.kind == FaultKind::sensor_drift;
-  });
+  std::erase_if(labels, [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
   labels.insert(labels.end(), kHealthySampleRuns, FaultLabel{});
   return labels;
 }
@@ -82,7 +79,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.motion = learn_motion_model(healthy, identified_motion(out.identification), {});
   model.evidence = calibrate_thresholds(healthy, model.motion, model.bank, {});
 
-  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity};
+  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
+                  options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
   auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part) {
     return monitored_twin_runs(twin, model, labels, seed + stream, options.threads, part);

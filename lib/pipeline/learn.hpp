@@ -12,6 +12,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/model/model.hpp"
 #include "lib/residual/learn_residual.hpp"
+#include "lib/twin/twin_options.hpp"
 
 namespace faultline {
 
@@ -25,6 +26,7 @@ struct LabelledLog {
 struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
+  TwinOptions twin{};              ///< how faults are simulated
   int runs_per_label = 14;         ///< simulated to train the judges and fill the case base
   int validation_per_label = 5;    ///< simulated to measure the model, trained on by nothing
   int healthy_runs = 40;           ///< simulated to calibrate thresholds; as many again measure false alarms

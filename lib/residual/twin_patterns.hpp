@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-struct TwinOptions {
+struct TwinPatternOptions {
   double position_spread =
       0.3;  ///< standard deviations added to the logged starts, as a share of half the range
   double velocity_spread = 0.3;
@@ -20,7 +20,7 @@ struct TwinOptions {
 /// that a network also learns the states between and beyond the moves of a few healthy logs, where a faulty
 /// robot goes. Throws nothing; transitions that run away to non-finite numbers are left out.
 Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape,
-                             const Chain<double>& chain, int count, const TwinOptions& options = {});
+                             const Chain<double>& chain, int count, const TwinPatternOptions& options = {});
 
 /// The columns of `first`, then those of `second`.
 Transitions joined(const Transitions& first, const Transitions& second);

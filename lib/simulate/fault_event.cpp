@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {
@@ -22,9 +23,7 @@ void check_size(const Robot& robot, const FaultEvent& fault) {
   if (fault.kind == FaultKind::friction_increase &&
       (fault.size < 0.0 || fault.viscous < 0.0 || fault.size + fault.viscous == 0.0))
     bad("size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
-  const bool sized = fault.kind == FaultKind::sensor_bias || fault.kind == FaultKind::sensor_drift ||
-                     fault.kind == FaultKind::payload_change || fault.kind == FaultKind::collision;
-  if (sized && fault.size == 0.0)
+  if (describe(fault.kind).size_count == 1 && fault.size == 0.0)
     bad("size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
   if (fault.kind == FaultKind::payload_change && robot.chain.links.back().mass + fault.size <= 0.0)
     bad("size",
@@ -36,36 +35,51 @@ void check_size(const Robot& robot, const FaultEvent& fault) {
 void check_fault(const Robot& robot, const FaultEvent& fault) {
   if (fault.kind == FaultKind::none) return;
   if (fault.kind == FaultKind::unknown) bad("kind", "\"unknown\" cannot be simulated; name a kind");
-  if (fault.kind != FaultKind::payload_change && (fault.joint < 1 || fault.joint > robot.joints()))
+  if (describe(fault.kind).place != FaultPlace::tip && (fault.joint < 1 || fault.joint > robot.joints()))
     bad("joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
   if (!(fault.onset_s >= 0.0 && std::isfinite(fault.onset_s)))
     bad("onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
   if (!(fault.end_s > fault.onset_s))
     bad("end_s", fmt::format("expected a time after onset_s = {}, found {}", fault.onset_s, fault.end_s));
-  if (fault.kind == FaultKind::collision && !std::isfinite(fault.end_s))
-    bad("end_s", "a collision is a pulse and needs an end_s (or a duration)");
+  if (describe(fault.kind).passes && !std::isfinite(fault.end_s))
+    bad("end_s", fmt::format("a {} is a pulse and needs an end_s (or a duration)", to_string(fault.kind)));
   check_size(robot, fault);
 }
 
-std::string size_unit(const Robot& robot, const FaultEvent& fault) {
-  if (fault.joint < 1 || fault.joint > robot.joints())
-    return fault.kind == FaultKind::payload_change ? "kg" : "";
-  const bool turns = robot.chain.geometry[fault.joint - 1].kind == AxisKind::revolute;
+MachineFault machine_fault(const FaultEvent& fault) {
   switch (fault.kind) {
+    case FaultKind::none:
+    case FaultKind::unknown:
+      return {};
+    case FaultKind::free_swinging:
+      return {.torque_gain = 0.0};
+    case FaultKind::locked:
+      return {.locks = true};
     case FaultKind::torque_loss:
-      return "1";
+      return {.torque_gain = 1.0 - fault.size};
     case FaultKind::sensor_bias:
-      return turns ? "rad" : "m";
+      return {.reading_offset = fault.size};
+    case FaultKind::stuck_encoder:
+      return {.reading_sticks = true};
     case FaultKind::sensor_drift:
-      return turns ? "rad/s" : "m/s";
+      return {.reading_drift_per_s = fault.size};
     case FaultKind::friction_increase:
-    case FaultKind::collision:
-      return turns ? "N m" : "N";
+      return {.coulomb = fault.size, .viscous = fault.viscous};
     case FaultKind::payload_change:
-      return "kg";
-    default:
-      return "";
+      return {.tip_mass = fault.size};
+    case FaultKind::collision:
+      return {.external_torque = fault.size};
   }
+  return {};
+}
+
+std::string size_unit(const Robot& robot, const FaultEvent& fault) {
+  const std::span<const FaultSize> sizes = describe(fault.kind).sizes();
+  if (sizes.empty()) return "";
+  const bool at_joint = fault.joint >= 1 && fault.joint <= robot.joints();
+  if (!at_joint && describe(fault.kind).place != FaultPlace::tip) return "";
+  const bool turns = at_joint && robot.chain.geometry[fault.joint - 1].kind == AxisKind::revolute;
+  return unit_of(sizes.back().measure, turns);
 }
 
 }  // namespace faultline

@@ -22,6 +22,20 @@ struct FaultEvent {
   double viscous = 0.0;  ///< friction_increase: added viscous friction, N m s/rad or N s/m
 };
 
+/// What a fault does to the machine while it acts; nothing by default.
+struct MachineFault {
+  double torque_gain = 1.0;      ///< of the joint's drive
+  double external_torque = 0.0;  ///< on the joint, N m or N
+  double coulomb = 0.0;          ///< added friction, N m or N
+  double viscous = 0.0;          ///< added friction, N m s/rad or N s/m
+  double tip_mass = 0.0;         ///< added, kg
+  bool locks = false;
+  double reading_offset = 0.0;       ///< rad or m
+  double reading_drift_per_s = 0.0;  ///< rad/s or m/s, since the onset
+  bool reading_sticks = false;       ///< of position and velocity
+};
+MachineFault machine_fault(const FaultEvent& fault);
+
 /// Throws Error(usage) that says what is wrong when `fault` cannot happen to `robot`.
 void check_fault(const Robot& robot, const FaultEvent& fault);
 

@@ -120,29 +120,13 @@ void Plant::enter(double now) {
     if (now < fault.onset_s || now >= fault.end_s) continue;
     const int i = fault.joint - 1;
     altered_ = true;
-    switch (fault.kind) {
-      case FaultKind::free_swinging:
-        gain_[i] = 0.0;
-        break;
-      case FaultKind::torque_loss:
-        gain_[i] *= 1.0 - fault.size;
-        break;
-      case FaultKind::collision:
-        external_[i] += fault.size;
-        break;
-      case FaultKind::locked:
-        locked_ |= 1u << i;
-        break;
-      case FaultKind::payload_change:
-        add_payload(chain, fault.size);
-        break;
-      case FaultKind::friction_increase:
-        chain.friction[i].coulomb += fault.size;
-        chain.friction[i].viscous += fault.viscous;
-        break;
-      default:
-        break;
-    }
+    const MachineFault change = machine_fault(fault);
+    gain_[i] *= change.torque_gain;
+    external_[i] += change.external_torque;
+    chain.friction[i].coulomb += change.coulomb;
+    chain.friction[i].viscous += change.viscous;
+    if (change.locks) locked_ |= 1u << i;
+    if (change.tip_mass != 0.0) add_payload(chain, change.tip_mass);
   }
   choose_steps(chain);
   dynamics_ = FastDynamics(chain);

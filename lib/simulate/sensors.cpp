@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {
@@ -29,9 +30,7 @@ Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<FaultEven
       resolution_(for_joints(joints, noise.q_resolution, "noise.q_resolution")),
       random_(random) {
   for (const FaultEvent& fault : faults)
-    if (fault.kind == FaultKind::sensor_bias || fault.kind == FaultKind::sensor_drift ||
-        fault.kind == FaultKind::stuck_encoder)
-      faults_.push_back(fault);
+    if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
   q = dq = JointVector<double>::Zero(joints);
 }
 
@@ -41,12 +40,9 @@ void Sensors::read(double t, const JointVector<double>& true_q, const JointVecto
     bool stuck = false;
     for (const FaultEvent& fault : faults_) {
       if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
-      if (fault.kind == FaultKind::sensor_bias)
-        position += fault.size;
-      else if (fault.kind == FaultKind::sensor_drift)
-        position += fault.size * (t - fault.onset_s);
-      else
-        stuck = true;
+      const MachineFault change = machine_fault(fault);
+      position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);
+      stuck = stuck || change.reading_sticks;
     }
     if (q_noise_[i] > 0.0) position += q_noise_[i] * random_.normal();
     if (dq_noise_[i] > 0.0) speed += dq_noise_[i] * random_.normal();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/simulate/sensors.hpp"
 
 namespace faultline {
@@ -68,7 +69,7 @@ std::vector<FaultEvent> real_faults(const Robot& robot, const SimulationSpec& sp
   std::vector<FaultEvent> faults;
   for (FaultEvent fault : spec.faults) {
     if (fault.kind == FaultKind::none) continue;
-    if (fault.kind == FaultKind::payload_change) fault.joint = robot.joints();
+    if (describe(fault.kind).place == FaultPlace::tip) fault.joint = robot.joints();
     faults.push_back(fault);
   }
   std::stable_sort(faults.begin(), faults.end(),

@@ -10,6 +10,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -74,7 +75,8 @@ FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
   std::vector<std::string> kinds;
   for (int k = 0; k < kFaultKinds; ++k) kinds.emplace_back(to_string(static_cast<FaultKind>(k)));
   fault.kind = fault_kind_from(table.choice("kind", kinds));
-  fault.joint = small_integer(table, "joint", fault.kind == FaultKind::payload_change ? robot.joints() : 0);
+  fault.joint =
+      small_integer(table, "joint", describe(fault.kind).place == FaultPlace::tip ? robot.joints() : 0);
   fault.onset_s = table.number("onset_s", 0.0);
   if (!table.has("onset_s") && fault.kind != FaultKind::none) table.number("onset_s");
   if (table.has("end_s") && table.has("duration_s"))
@@ -214,7 +216,7 @@ std::string label_lines(const SimulationFile& file, const RunSpec& spec, const S
     lines +=
         fmt::format("{},{},{},{},{},{},{},{},{},{}", start, to_string(fault.kind), fault.joint, fault.onset_s,
                     fault.end_s, robot, unit.empty() ? "" : fmt::format("{}", fault.size), unit,
-                    fault.kind == FaultKind::friction_increase ? fmt::format("{}", fault.viscous) : "", end);
+                    describe(fault.kind).size_count > 1 ? fmt::format("{}", fault.viscous) : "", end);
   }
   return lines;
 }

@@ -8,6 +8,7 @@
 #include "lib/evidence/motion_model.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/simulate/simulate.hpp"
+#include "lib/twin/twin_options.hpp"
 
 namespace faultline {
 
@@ -17,6 +18,7 @@ struct Twin {
   const MotionModel* motion = nullptr;
   double sample_period_s = 0.0;
   bool has_velocity = true;
+  TwinOptions options{};
 };
 
 /// A simulated run with the one fault it was asked for; FaultKind::none for a healthy one.

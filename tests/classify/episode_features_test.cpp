@@ -75,7 +75,7 @@ TEST(EvidenceByLabel, TakesTheBestHypothesisOfALabelWithItsSize) {
   example.of(drift, 0) = {30.0, 1.0, {0.08}, {}, {}};
   example.of(drift, 1) = {50.0, 1.0, {-0.04}, {}, {}};
   EXPECT_EQ(example.entry(drift).log_likelihood_ratio, 50.0);
-  EXPECT_NEAR(example.entry(drift).size, -0.5, 1e-12);
+  EXPECT_NEAR(example.entry(drift).size[0], -0.5, 1e-12);
 }
 
 TEST(EvidenceByLabel, SizesAreInUnitsOfTheirPriors) {
@@ -85,12 +85,12 @@ TEST(EvidenceByLabel, SizesAreInUnitsOfTheirPriors) {
   example.of({FaultKind::friction_increase, 2}).size = {6.0, 2.0};
   example.of({FaultKind::payload_change, 3}).size = {2.5};
   example.of({FaultKind::unknown, 1}).size = {5.0};
-  EXPECT_NEAR(example.entry({FaultKind::torque_loss, 1}).size, 0.7, 1e-12);
-  EXPECT_NEAR(example.entry({FaultKind::sensor_bias, 3}).size, 0.5, 1e-12);
-  EXPECT_NEAR(example.entry({FaultKind::friction_increase, 2}).size, 2.0, 1e-12);
-  EXPECT_NEAR(example.entry({FaultKind::friction_increase, 2}).second_size, 0.5, 1e-12);
-  EXPECT_NEAR(example.entry({FaultKind::payload_change, 3}).size, 2.0, 1e-12);
-  EXPECT_NEAR(example.entry({FaultKind::unknown, 1}).size, 0.5, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::torque_loss, 1}).size[0], 0.7, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::sensor_bias, 3}).size[0], 0.5, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::friction_increase, 2}).size[0], 2.0, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::friction_increase, 2}).size[1], 0.5, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::payload_change, 3}).size[0], 2.0, 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::unknown, 1}).size[0], 0.5, 1e-12);
 }
 
 TEST(EvidenceByLabel, APushOnAllJointsCountsForTheOneItPushesMost) {
@@ -99,7 +99,7 @@ TEST(EvidenceByLabel, APushOnAllJointsCountsForTheOneItPushesMost) {
   push.log_likelihood_ratio = 60.0;
   push.impulse = {1.0, -0.8, 1.0};  // torque scales 20, 10, 40
   EXPECT_EQ(example.entry({FaultKind::collision, 2}).log_likelihood_ratio, 60.0);
-  EXPECT_NEAR(example.entry({FaultKind::collision, 2}).size, -0.8 / (10.0 * 0.05), 1e-12);
+  EXPECT_NEAR(example.entry({FaultKind::collision, 2}).size[0], -0.8 / (10.0 * 0.05), 1e-12);
   EXPECT_EQ(example.entry({FaultKind::collision, 1}).log_likelihood_ratio, -40.0);
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/evidence/healthy_statistics.hpp"
+#include "lib/evidence/motion_model.hpp"
+
+namespace faultline {
+
+/// How large faults are thought to be before anything is seen of them, against what the healthy logs show.
+/// Wide enough for every size that the twin draws, and no wider: a wide prior costs likelihood.
+struct SizePriorOptions {
+  double bias_share = 0.02;   ///< of the joint's range: some degrees, a few teeth of a slipped coupling
+  double drift_share = 0.02;  ///< of the joint's range, in a second
+  double friction_share =
+      0.05;  ///< of the joint's usual torque: added friction at least, where there was none
+  double external_share = 0.5;  ///< of the joint's largest torque: pushes, and what nobody knows
+  double payload_share = 0.5;   ///< of what the robot carries: size_scale.cpp takes it that this is a half
+};
+
+/// `model` has its chain, ranges, scales of torque and inertia.
+SizePriors size_priors(const MotionModel& model, const HealthyStatistics& healthy,
+                       const SizePriorOptions& options);
+
+}  // namespace faultline

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "lib/fault/fault_catalogue.hpp"
+
+namespace faultline {
+namespace {
+
+/// An offset, or what it grows by in a second: from what a technician would notice to a twenty-fifth of the
+/// range, beyond which nobody needs a program to see it.
+constexpr DrawRange kShareOfRange{
+    .low = 0.003, .high = 0.04, .spread = Spread::log_uniform, .either_sign = true};
+
+constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
+    {
+        .kind = FaultKind::none,
+        .name = "none",
+        .heading = "no fault",
+        .of_a_joint = "shows no fault",
+        .next_check = "Nothing to do.",
+        .place = FaultPlace::nowhere,
+    },
+    {
+        .kind = FaultKind::free_swinging,
+        .name = "free_swinging",
+        .heading = "free-swinging joint (no torque)",
+        .of_a_joint = "swings freely (no torque)",
+        .next_check =
+            "Switch off and turn {} by hand: if the motor does not turn with it, look at coupling, belt and "
+            "gear; if it does, look at motor cable, drive enable and drive fault memory.",
+        .acts_on = FaultActsOn::motion,
+        .hidden_by_measured_torque = true,
+    },
+    {
+        .kind = FaultKind::locked,
+        .name = "locked",
+        .heading = "locked joint",
+        .of_a_joint = "is locked",
+        .next_check =
+            "Check that the brake of {} releases (supply, wiring, wear), then look for a mechanical jam, a "
+            "collision or a blocked end stop.",
+        .acts_on = FaultActsOn::motion,
+    },
+    {
+        .kind = FaultKind::torque_loss,
+        .name = "torque_loss",
+        .heading = "loss of torque",
+        .of_a_joint = "lost a part of its torque",
+        .next_check =
+            "Compare the motor current of {} with its command: a missing phase, a drive in current limit, a "
+            "hot or weak motor, or a slipping belt lose torque.",
+        .size_words = "about {percent:.0f} % of the torque is lost",
+        .acts_on = FaultActsOn::motion,
+        .creeps = true,
+        .hidden_by_measured_torque = true,
+        .size = {{{
+            .measure = SizeMeasure::torque_share,
+            .prior_mean = 0.5,
+            .prior_std = 0.3,
+            .low = 0.0,
+            .high = 1.0,
+            .twin = {.low = 0.2, .high = 0.9},  // less is wear, more is free-swinging
+        }}},
+        .size_count = 1,
+    },
+    {
+        .kind = FaultKind::sensor_bias,
+        .name = "sensor_bias",
+        .heading = "position sensor offset",
+        .of_a_joint = "reads a shifted position",
+        .next_check =
+            "Move {} to its reference mark and compare the reading: look for a slipped encoder coupling, lost "
+            "counts or a wrong home offset, then home again.",
+        .size_words = "the position reads {first:+.4g} {length} too much",
+        .acts_on = FaultActsOn::sensor,
+        .shows_in_each_sample = false,  // only in its first: after it, samples look healthy
+        .size = {{{.measure = SizeMeasure::length, .twin = kShareOfRange}}},
+        .size_count = 1,
+    },
+    {
+        .kind = FaultKind::stuck_encoder,
+        .name = "stuck_encoder",
+        .heading = "stuck encoder",
+        .of_a_joint = "repeats the same reading",
+        .next_check =
+            "Check the encoder of {}: cable, connector, supply and the status bits of its interface; move the "
+            "joint by hand and watch whether the count changes.",
+        .acts_on = FaultActsOn::sensor,
+    },
+    {
+        .kind = FaultKind::sensor_drift,
+        .name = "sensor_drift",
+        .heading = "position sensor drift",
+        .of_a_joint = "reads a position that drifts",
+        .next_check =
+            "Move {} to its reference mark several times in a row: a reading that walks away points to a "
+            "slipping encoder coupling, lost counts or a warm sensor.",
+        .size_words = "the position drifts by {first:+.3g} {length}/s",
+        .acts_on = FaultActsOn::sensor,
+        .creeps = true,
+        .shows_in_each_sample = false,  // nor does a drift: from one sample to the next it is next to nothing
+        .size = {{{.measure = SizeMeasure::length_per_s, .twin = kShareOfRange}}},
+        .size_count = 1,
+    },
+    {
+        .kind = FaultKind::friction_increase,
+        .name = "friction_increase",
+        .heading = "more friction",
+        .of_a_joint = "turns against more friction",
+        .next_check =
+            "Feel {} by hand with power off: look at bearings, seals, gear, brake drag and lubrication, and "
+            "compare the motor current at slow constant speed in both directions.",
+        .size_words = "friction rose by {second:.3g} {torque} plus {first:.3g} {torque} s/{length} of speed",
+        .acts_on = FaultActsOn::motion,
+        .creeps = true,
+        .size = {{{
+                      .measure = SizeMeasure::viscous_friction,
+                      .prior_mean = 1.0,
+                      .low = 0.0,
+                      .twin = {.low = 0.0, .high = 3.0},  // dry friction may rise alone
+                  },
+                  {
+                      .measure = SizeMeasure::coulomb_friction,
+                      .feature_name = "coulomb",
+                      .prior_mean = 1.0,
+                      .low = 0.0,
+                      .twin = {.low = 0.4, .high = 3.0, .spread = Spread::log_uniform},
+                  }}},
+        .size_count = 2,
+    },
+    {
+        .kind = FaultKind::payload_change,
+        .name = "payload_change",
+        .heading = "changed payload",
+        .of_a_joint = "carries another load",
+        .next_check =
+            "Check what the gripper holds or lost, and the payload set in the controller; weigh the tool if in "
+            "doubt.",
+        .size_words = "the load at the tip changed by {first:+.3g} kg",
+        .acts_on = FaultActsOn::motion,
+        .place = FaultPlace::tip,
+        .creeps = true,
+        .size = {{{
+            .measure = SizeMeasure::mass,
+            .low = -1.8,  // of half the mass carried: the tip keeps a tenth
+            .twin = {.low = 0.15, .high = 1.2, .spread = Spread::log_uniform},
+        }}},
+        .size_count = 1,
+    },
+    {
+        .kind = FaultKind::collision,
+        .name = "collision",
+        .heading = "collision or outside force",
+        .of_a_joint = "was hit or pushed",
+        .next_check =
+            "Look for contact marks and for what stood in the way at that time; check the tool and the "
+            "tightness of {}, and that cables do not pull.",
+        .acts_on = FaultActsOn::motion,
+        .passes = true,
+        .course = SizeCourse::pulse,
+        .size = {{{
+            .measure = SizeMeasure::torque,
+            .feature = SizeMeasure::impulse,
+            .twin = {.low = 0.15, .high = 1.0, .spread = Spread::log_uniform, .either_sign = true},
+        }}},
+        .size_count = 1,
+        .twin_length_s = {.low = 0.02, .high = 0.2, .spread = Spread::log_uniform},  // a bump, not a push
+    },
+    {
+        .kind = FaultKind::unknown,
+        .name = "unknown",
+        .heading = "unknown fault",
+        .of_a_joint = "shows an unknown fault",
+        .next_check =
+            "No known fault and no recorded case fits. Look at the residuals of the joints around this time; "
+            "when the cause is found, record it with `faultline cases add`, so that it is known the next time.",
+        .acts_on = FaultActsOn::motion,
+        .creeps = true,
+        .course = SizeCourse::wanders,
+        .size = {{{.measure = SizeMeasure::torque}}},
+        .size_count = 1,
+    },
+}};
+
+constexpr bool every_kind_is_at_its_place() {
+  for (int i = 0; i < kFaultKinds; ++i)
+    if (kCatalogue[i].kind != static_cast<FaultKind>(i)) return false;
+  return true;
+}
+static_assert(every_kind_is_at_its_place(), "a kind is missing in the catalogue or not in the enum's order");
+
+}  // namespace
+
+const FaultDescription& describe(FaultKind kind) { return kCatalogue[static_cast<std::size_t>(kind)]; }
+
+}  // namespace faultline

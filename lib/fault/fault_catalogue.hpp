@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/fault_size.hpp"
+
+namespace faultline {
+
+/// What a kind of fault makes different from a healthy robot.
+enum class FaultActsOn {
+  nothing,
+  motion,  ///< the joints move otherwise
+  sensor,  ///< only what is read of them is false
+};
+
+enum class FaultPlace {
+  nowhere,
+  joint,  ///< any
+  tip,    ///< the joint nearest the tip stands for it
+};
+
+/// How the sizes go on after the onset.
+enum class SizeCourse {
+  stays,
+  pulse,    ///< any shape, and over after a short time
+  wanders,  ///< a random walk
+};
+
+inline constexpr int kMostSizes = 2;
+
+/// All that is to be known of a kind of fault, but for its dynamics: what it does to the joint is said in
+/// fault_load.hpp (lib/evidence) for the filters and, apart from it on purpose, in fault_event.cpp
+/// (lib/simulate) for the plant.
+struct FaultDescription {
+  FaultKind kind = FaultKind::none;
+  const char* name = "";        ///< in labels, JSON and reports; never changes
+  const char* heading = "";     ///< in words
+  const char* of_a_joint = "";  ///< in words, after "joint N "
+  const char* next_check = "";  ///< sentences to a technician; "{}" stands for the joint
+  /// How its size is said: {first} and {second} size, {percent} of the first, units {length} and {torque}.
+  const char* size_words = "";
+
+  FaultActsOn acts_on = FaultActsOn::nothing;
+  FaultPlace place = FaultPlace::joint;
+  bool creeps = false;  ///< it can have begun long before it is noticed: onsets far back are tried
+  bool passes = false;  ///< it is over by itself, so that each time it is a fault of its own
+  /// Residuals show it for as long as it lasts, so that it can be told sample by sample.
+  bool shows_in_each_sample = true;
+  bool hidden_by_measured_torque = false;  ///< a torque measured behind the drive holds it
+
+  SizeCourse course = SizeCourse::stays;
+  /// In the order of the filter's state. The last one is FaultEvent::size (lib/simulate), the first of two
+  /// its `viscous`.
+  std::array<FaultSize, kMostSizes> size{};
+  int size_count = 0;
+  DrawRange twin_length_s{};  ///< of one that passes
+
+  std::span<const FaultSize> sizes() const { return {size.data(), static_cast<std::size_t>(size_count)}; }
+};
+
+const FaultDescription& describe(FaultKind kind);
+
+}  // namespace faultline

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/core/random.hpp"
+#include "lib/twin/twin.hpp"
+
+namespace faultline {
+
+/// Length of a move over which the twin is about as fast as the logs.
+double usual_move_s(const Twin& twin);
+
+// One draw each of what a run is made of.
+MotionSpec draw_motion(const Twin& twin, Random& random);
+/// PD holds fewer robots than computed torque: a second attempt does without it.
+ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random);
+/// Somewhere outside the range seen in the logs, or none.
+JointStops draw_stops(const Twin& twin, Random& random);
+/// The fault asked for, and of one that passes perhaps a second push.
+std::vector<FaultEvent> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
+                                    Random& random);
+
+}  // namespace faultline

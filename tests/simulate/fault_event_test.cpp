@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/fault_event.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/fault/fault_catalogue.hpp"
+#include "tests/support/rrp_runs.hpp"
+
+namespace faultline {
+namespace {
+
+bool changes_motion(const MachineFault& f) {
+  return f.torque_gain != 1.0 || f.external_torque != 0.0 || f.coulomb != 0.0 || f.viscous != 0.0 ||
+         f.tip_mass != 0.0 || f.locks;
+}
+
+bool changes_readings(const MachineFault& f) {
+  return f.reading_offset != 0.0 || f.reading_drift_per_s != 0.0 || f.reading_sticks;
+}
+
+TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
+  for (int k = 0; k < static_cast<int>(FaultKind::unknown); ++k) {
+    const FaultDescription& kind = describe(static_cast<FaultKind>(k));
+    const MachineFault fault =
+        machine_fault({.kind = kind.kind, .joint = 1, .onset_s = 1.0, .size = 0.5, .viscous = 0.25});
+    EXPECT_EQ(changes_motion(fault), kind.acts_on == FaultActsOn::motion) << kind.name;
+    EXPECT_EQ(changes_readings(fault), kind.acts_on == FaultActsOn::sensor) << kind.name;
+  }
+}
+
+TEST(SizeUnit, IsThatOfTheJoint) {
+  const Robot robot = known_rrp();
+  auto unit = [&](FaultKind kind, int joint) { return size_unit(robot, {.kind = kind, .joint = joint}); };
+  EXPECT_EQ(unit(FaultKind::torque_loss, 1), "1");
+  EXPECT_EQ(unit(FaultKind::sensor_bias, 1), "rad");
+  EXPECT_EQ(unit(FaultKind::sensor_bias, 3), "m");
+  EXPECT_EQ(unit(FaultKind::sensor_drift, 3), "m/s");
+  EXPECT_EQ(unit(FaultKind::friction_increase, 1), "N m") << "its size is the Coulomb friction";
+  EXPECT_EQ(unit(FaultKind::collision, 3), "N");
+  EXPECT_EQ(unit(FaultKind::payload_change, 0), "kg");
+  EXPECT_EQ(unit(FaultKind::locked, 1), "");
+  EXPECT_EQ(unit(FaultKind::collision, 9), "");
+}
+
+}  // namespace
+}  // namespace faultline
