@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -50,17 +51,17 @@ void check_fault(const Robot& robot, const FaultEvent& fault) {
 std::string size_unit(const Robot& robot, const FaultEvent& fault) {
   if (fault.joint < 1 || fault.joint > robot.joints())
     return fault.kind == FaultKind::payload_change ? "kg" : "";
-  const bool turns = robot.chain.geometry[fault.joint - 1].kind == AxisKind::revolute;
+  const AxisKind axis = robot.chain.geometry[fault.joint - 1].kind;
   switch (fault.kind) {
     case FaultKind::torque_loss:
       return "1";
     case FaultKind::sensor_bias:
-      return turns ? "rad" : "m";
+      return position_unit(axis);
     case FaultKind::sensor_drift:
-      return turns ? "rad/s" : "m/s";
+      return velocity_unit(axis);
     case FaultKind::friction_increase:
     case FaultKind::collision:
-      return turns ? "N m" : "N";
+      return torque_unit(axis);
     case FaultKind::payload_change:
       return "kg";
     default:
