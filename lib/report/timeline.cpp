@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/plot/plot_axis.hpp"
 #include "lib/report/layout.hpp"
 
 namespace faultline {
@@ -89,17 +90,9 @@ std::string rendered(const Bar& bar, const TimelineOptions& options) {
   return fmt::format("  {:<{}}{}\n", bar.label, kLabelWidth - 2, line);
 }
 
-/// 1, 2 or 5 times a power of ten, so that about six ticks stand on the axis.
-double tick_step(double span_s) {
-  const double rough = span_s / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10.0 * power;
-}
-
 std::string axis(const Scale& scale) {
   const double zero_s = time_zero(scale.start_s);
-  const double step = tick_step(scale.end_s - scale.start_s);
+  const double step = tick_step(scale.end_s - scale.start_s, 6);
   std::string line(kLabelWidth + scale.cells + 12, ' ');
   std::size_t free_from = 0;
   for (double k = std::ceil(scale.start_s / step); k * step <= scale.end_s; k += 1.0) {
