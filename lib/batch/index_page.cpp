@@ -5,23 +5,13 @@
 
 #include "lib/batch/index_assets.hpp"
 #include "lib/batch/index_table.hpp"
-#include "lib/core/hash.hpp"
 #include "lib/core/markup.hpp"
-#include "lib/html/base64.hpp"
 #include "lib/html/elements.hpp"
+#include "lib/html/source_hash.hpp"
 #include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
-
-/// As Content-Security-Policy names an inline script or style.
-std::string policy_hash(std::string_view content) {
-  const std::string hex = sha256_hex(content);
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return "'sha256-" + base64(bytes) + "'";
-}
 
 std::string head(const BatchSummary& summary) {
   return fmt::format(
@@ -29,7 +19,7 @@ std::string head(const BatchSummary& summary) {
       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src {}; "
       "base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>{} logs, model {}</title>\n<style>{}</style>\n</head>\n",
-      policy_hash(index_script()), policy_hash(index_style()), summary.all.logs,
+      source_hash(index_script()), source_hash(index_style()), summary.all.logs,
       escaped_markup(printable(summary.facts.model.name).substr(0, 200)), index_style());
 }
 
