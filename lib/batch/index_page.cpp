@@ -6,9 +6,10 @@
 #include "lib/batch/index_assets.hpp"
 #include "lib/batch/index_table.hpp"
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/html/source_hash.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -97,9 +98,8 @@ std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSumm
   const BatchFacts& facts = summary.facts;
   std::string text = head(summary) + "<body>\n";
   text += fmt::format(
-      "<h1>{} log{}, {} fault{}</h1>\n<p class=\"sub\">Model {}{}</p>\n", summary.all.logs,
-      summary.all.logs == 1 ? "" : "s", summary.all.faults, summary.all.faults == 1 ? "" : "s",
-      escaped_markup(printable(facts.model.name).substr(0, 200)),
+      "<h1>{}, {}</h1>\n<p class=\"sub\">Model {}{}</p>\n", counted(summary.all.logs, "log"),
+      counted(summary.all.faults, "fault"), escaped_markup(printable(facts.model.name).substr(0, 200)),
       facts.shards > 1 ? fmt::format("; part {} of {} of {} logs", facts.shard, facts.shards, facts.logs)
                        : "");
   text += counts_line(summary.all) + folder_table(summary) + kind_table(summary) + index_trends(rows);

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/core/number_text.hpp"
+#include "lib/core/paint.hpp"
 #include "lib/plot/plot_axis.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -85,7 +86,7 @@ std::string rendered(const Bar& bar, const TimelineOptions& options) {
   for (std::size_t i = 0; i < bar.cells.size(); ++i) {
     const bool marked = bar.marks[i] != ' ';
     const std::string text = marked ? std::string(1, bar.marks[i]) : glyph(bar.cells[i], options.unicode);
-    line += bar.cells[i] == Cell::fine && !marked ? text : painted(text, Paint::red, options.color);
+    line += bar.cells[i] == Cell::fine && !marked ? text : painted(text, Paint::bold_red, options.color);
   }
   return fmt::format("  {:<{}}{}\n", bar.label, kLabelWidth - 2, line);
 }
