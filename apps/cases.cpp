@@ -15,9 +15,10 @@
 #include "lib/cases/case_json.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/case_from_json.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {

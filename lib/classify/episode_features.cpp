@@ -7,6 +7,7 @@
 
 #include "lib/evidence/size_scale.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
@@ -122,11 +123,11 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
 
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints) {
   std::vector<std::string> names;
-  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + to_string(label));
+  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + label_text(label));
   for (const FaultLabel& label : distinct_labels(bank)) {
-    names.push_back("size " + to_string(label));
+    names.push_back("size " + label_text(label));
     for (int s = 1; s < describe(label.kind).size_count; ++s)
-      names.push_back(describe(label.kind).size[s].feature_name + (" " + to_string(label)));
+      names.push_back(describe(label.kind).size[s].feature_name + (" " + label_text(label)));
   }
   names.insert(names.end(), {"strength", "samples", "duration"});
   for (int j = 1; j <= joints; ++j) names.push_back("mlp residual " + std::to_string(j));

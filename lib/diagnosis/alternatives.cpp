@@ -72,7 +72,9 @@ void add_pushed_joints(Alternatives& alternatives, const FaultLabel& collision,
                        const std::vector<LabelEvidence>& evidence, const EpisodeEvidence& observed,
                        const Model& model, const DecisionOptions& options) {
   const HypothesisEvidence* everywhere = push_on_all_joints(observed, model);
-  if (!everywhere || everywhere->log_likelihood_ratio < best_ratio(evidence) - options.close_ratio) return;
+  if (!everywhere || collision.joint < 1 ||
+      everywhere->log_likelihood_ratio < best_ratio(evidence) - options.close_ratio)
+    return;
   auto push = [&](int j) { return std::abs(everywhere->impulse[j]) / model.motion.torque_scale[j]; };
   for (int j = 0; j < model.robot.joints(); ++j)
     if (push(j) > kLeastPush * push(collision.joint - 1))

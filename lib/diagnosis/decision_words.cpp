@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "lib/fault/label_text.hpp"
+
 namespace faultline {
 namespace {
 
-std::string words(const FaultLabel& label) {
-  return label.joint > 0 ? fmt::format("{} at joint {}", to_string(label.kind), label.joint)
-                         : to_string(label.kind);
-}
+std::string words(const FaultLabel& label) { return label_text(label, " at joint "); }
 
 std::string disagreement(const Episode& episode) {
   return fmt::format("the networks disagree (MLP {}, RBFN {})", words(episode.mlp.label),

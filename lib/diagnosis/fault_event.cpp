@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnosis/fault_event.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "lib/core/json_values.hpp"
 
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-double number_in(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
 
 }  // namespace
 
@@ -25,21 +20,17 @@ std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings) {
 }
 
 Json to_json(const FaultEvent& event) {
-  return {{"kind", to_string(event.label.kind)},
-          {"joint", event.label.joint > 0 ? Json(event.label.joint) : Json(nullptr)},
-          {"onset_s", number(event.onset_s)},
-          {"alarm_s", number(event.alarm_s)},
-          {"end_s", number(event.end_s)},
-          {"confidence", number(event.confidence)}};
+  return {{"kind", to_string(event.label.kind)},      {"joint", count_or_null(event.label.joint)},
+          {"onset_s", number_or_null(event.onset_s)}, {"alarm_s", number_or_null(event.alarm_s)},
+          {"end_s", number_or_null(event.end_s)},     {"confidence", number_or_null(event.confidence)}};
 }
 
 FaultEvent fault_event_from_json(const Json& json) {
-  const Json& joint = json.at("joint");
-  return {{fault_kind_from(json.at("kind").get<std::string>()), joint.is_null() ? 0 : joint.get<int>()},
-          number_in(json.at("onset_s")),
-          number_in(json.at("alarm_s")),
-          number_in(json.at("end_s")),
-          number_in(json.at("confidence"))};
+  return {{fault_kind_from(json.at("kind").get<std::string>()), count_or_zero(json.at("joint"))},
+          number_or_nan(json.at("onset_s")),
+          number_or_nan(json.at("alarm_s")),
+          number_or_nan(json.at("end_s")),
+          number_or_nan(json.at("confidence"))};
 }
 
 }  // namespace faultline

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/number_text.hpp"
 #include "lib/golden/compare_events.hpp"
 #include "lib/golden/compare_trace.hpp"
 
 namespace faultline {
 namespace {
 
-std::string value(double number) { return fmt::format("{:.6g}", number); }
+std::string value(double number) { return digits_text(number, 6); }
 
 void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
                    Comparison& comparison) {

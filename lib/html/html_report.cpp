@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/html/assets.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/html/finding.hpp"
@@ -13,7 +15,6 @@
 #include "lib/html/plot_data.hpp"
 #include "lib/html/timeline.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

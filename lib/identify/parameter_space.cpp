@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/random.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -141,10 +142,10 @@ std::string ParameterSpace::unit(int p) const {
   if (p == timing()) return "samples";
   const bool is_width = p > timing();
   const int joint = is_width ? p - timing() - 1 : (p - rigid()) % joints();
-  const bool revolute = chain.geometry[joint].kind == AxisKind::revolute;
-  if (is_width) return revolute ? "rad/s" : "m/s";
-  if ((p - rigid()) / joints() == 0) return revolute ? "N m s/rad" : "N s/m";
-  return revolute ? "N m" : "N";
+  const AxisKind axis = chain.geometry[joint].kind;
+  if (is_width) return velocity_unit(axis);
+  if ((p - rigid()) / joints() == 0) return viscous_unit(axis);
+  return torque_unit(axis);
 }
 
 ParameterSpace parameter_space(const Robot& robot) {

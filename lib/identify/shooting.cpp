@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/core/statistics.hpp"
 #include "lib/identify/shooting_evaluation.hpp"
 
 namespace faultline {
@@ -125,9 +126,7 @@ Eigen::VectorXd measure_noise(const std::vector<Eigen::MatrixXd>& residuals,
   for (Eigen::Index c = 0; c < n2; ++c) {
     auto& s = size[c];
     if (s.empty()) continue;
-    auto middle = s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2);
-    std::nth_element(s.begin(), middle, s.end());
-    const double cut = kShootingOutlierStd * std::max(1.4826 * *middle, floor[c]);
+    const double cut = kShootingOutlierStd * std::max(1.4826 * upper_median_of(s), floor[c]);
     double sum = 0.0, count = 0.0;
     for (double v : s)
       if (v <= cut) sum += v * v, count += 1.0;

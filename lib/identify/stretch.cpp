@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 constexpr double kSmoothSpan_s = 0.012;
 constexpr int kSmallestStretch = 4;
 constexpr double kOutlier = 20.0;  ///< times the distance that nine samples in ten keep
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Half the number of neighbours that a local quadratic uses; 0 on logs too slow for it.
 int half_span(double period_s) {
@@ -73,7 +67,7 @@ void mark_outliers(const Eigen::RowVectorXd& y, int row, Eigen::MatrixXi& out) {
   const int n = static_cast<int>(y.size());
   std::vector<double> bends;
   for (int k = 1; k + 1 < n; ++k) bends.push_back(std::abs(y[k] - 0.5 * (y[k - 1] + y[k + 1])));
-  const double usual = std::max(quantile(bends, 0.9), 1e-9 * (1.0 + y.cwiseAbs().mean()));
+  const double usual = std::max(upper_quantile(bends, 0.9), 1e-9 * (1.0 + y.cwiseAbs().mean()));
   for (int k = 1; k + 1 < n; ++k)
     if (bends[k - 1] > kOutlier * usual && bends[k - 1] > 2.0 * std::abs(y[k + 1] - y[k - 1]))
       out(row, k) = 1;
@@ -127,7 +121,7 @@ class StretchCutter {
   void measure_period() {
     std::vector<double> steps;
     for (std::size_t k = 1; k < time_.size(); ++k) steps.push_back(time_[k] - time_[k - 1]);
-    if (steps.size() >= 3) period_ = quantile(steps, 0.5);
+    if (steps.size() >= 3) period_ = upper_median_of(steps);
   }
 
   void flush() {

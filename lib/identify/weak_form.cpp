@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/statistics.hpp"
+
 namespace faultline {
 namespace {
 
@@ -75,9 +77,7 @@ double robust_scale(const Eigen::VectorXd& r, int joint, int n) {
   std::vector<double> size;
   for (Eigen::Index k = joint; k < r.size(); k += n) size.push_back(std::abs(r[k]));
   if (size.empty()) return 1.0;
-  auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return 1.4826 * *middle;
+  return 1.4826 * upper_median_of(size);
 }
 
 /// Columns of the weighted system that stand on their own, chosen by pivoted QR of the scaled columns.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "lib/log/channel_names.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
@@ -70,19 +70,6 @@ std::vector<int> judge(const std::vector<double>& time, std::int64_t first_row, 
   return kept;
 }
 
-template <typename Visit>
-void visit_channels(Log& log, Visit visit) {
-  auto each = [&](JointSignals& signals, Quantity quantity) {
-    for (std::size_t j = 0; j < signals.size(); ++j)
-      visit(signals[j], Channel{quantity, static_cast<int>(j) + 1});
-  };
-  each(log.q, Quantity::q);
-  each(log.dq, Quantity::dq);
-  each(log.tau, Quantity::tau);
-  each(log.q_ref, Quantity::q_ref);
-  each(log.dq_ref, Quantity::dq_ref);
-}
-
 void blank_implausible(std::vector<double>& values, Channel channel, const std::vector<double>& time,
                        std::int64_t first_row, Issues& issues) {
   bool fine = true;
@@ -106,7 +93,7 @@ void keep_rows(std::vector<double>& values, const std::vector<int>& kept) {
 }
 
 void keep_rows(Log& log, const std::vector<int>& kept) {
-  visit_channels(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
+  for_each_joint_channel(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
   for (ExtraChannel& extra : log.extra) keep_rows(extra.values, kept);
   keep_rows(log.time, kept);
 }
@@ -137,7 +124,7 @@ Log clean(Log& segment, std::int64_t first_row, bool at_end, CleanState& state, 
     waiting = slice(segment, rows - 1, rows);
     resize_like(segment, segment, rows - 1);
   }
-  visit_channels(segment, [&](std::vector<double>& values, Channel channel) {
+  for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
     blank_implausible(values, channel, segment.time, first_row, issues);
   });
   if (!in_order && static_cast<int>(kept.size()) < segment.rows()) keep_rows(segment, kept);

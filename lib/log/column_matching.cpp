@@ -38,10 +38,10 @@ class Matcher {
     match_mapped();
     match_time();
     find_families();
-    match_quantity(Quantity::q);
-    require_positions();
-    for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref})
+    for (const Quantity quantity : kJointQuantities) {
       match_quantity(quantity);
+      if (quantity == Quantity::q) require_positions();
+    }
     finish();
     return std::move(matching_);
   }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/log/channel_names.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
@@ -16,15 +16,9 @@ constexpr std::int64_t kFewestValues = 20;
 
 template <typename Visit>
 void visit_channels(const Log& log, Visit visit) {
-  auto each = [&](const JointSignals& signals, Quantity quantity) {
-    for (std::size_t j = 0; j < signals.size(); ++j)
-      visit(to_string({quantity, static_cast<int>(j) + 1}), std::string(), true, signals[j]);
-  };
-  each(log.q, Quantity::q);
-  each(log.dq, Quantity::dq);
-  each(log.tau, Quantity::tau);
-  each(log.q_ref, Quantity::q_ref);
-  each(log.dq_ref, Quantity::dq_ref);
+  for_each_joint_channel(log, [&](const std::vector<double>& values, Channel channel) {
+    visit(to_string(channel), std::string(), true, values);
+  });
   for (const ExtraChannel& extra : log.extra) visit(extra.name, extra.unit, false, extra.values);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/identified_model.hpp"
 
-#include <algorithm>
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
@@ -9,8 +9,7 @@ namespace {
 double usual_period_s(const Identification& identification) {
   std::vector<double> periods;
   for (const IdentifiedLog& log : identification.logs) periods.push_back(log.sample_period_s);
-  std::sort(periods.begin(), periods.end());
-  return periods.empty() ? 0.0 : periods[periods.size() / 2];
+  return periods.empty() ? 0.0 : upper_median(periods);
 }
 
 /// What a model keeps of the identification for those who ask how good it is.

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
@@ -15,12 +16,6 @@ namespace {
 
 constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
 constexpr double kMostRaised = 2.0;  // times the threshold before
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
@@ -106,8 +101,8 @@ Validation validate(std::span<const MonitoredRun> faulty, std::span<const Monito
     count(run, episode->evidence.alarm_s, finding, row, delays[run.label.kind]);
   }
   for (auto& [kind, row] : rows) {
-    row.median_delay_s = quantile(delays[kind], 0.5);
-    row.p90_delay_s = quantile(delays[kind], 0.9);
+    row.median_delay_s = lower_quantile(delays[kind], 0.5);
+    row.p90_delay_s = lower_quantile(delays[kind], 0.9);
     validation.rows.push_back(row);
   }
   for (const MonitoredRun& run : healthy) {

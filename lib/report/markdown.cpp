@@ -5,9 +5,10 @@
 
 #include <string_view>
 
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <ranges>
 
+#include "lib/core/number_text.hpp"
+#include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -39,8 +41,8 @@ std::string header(const Diagnosis& d, const TimelineOptions& options) {
 }
 
 Paint paint_of(Verdict verdict) {
-  if (verdict == Verdict::healthy) return Paint::green;
-  return verdict == Verdict::faulty ? Paint::red : Paint::yellow;
+  if (verdict == Verdict::healthy) return Paint::bold_green;
+  return verdict == Verdict::faulty ? Paint::bold_red : Paint::yellow;
 }
 
 class FaultBlock {

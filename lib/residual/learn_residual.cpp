@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/residual/fit_residual.hpp"
 #include "lib/residual/pattern_pool.hpp"
 #include "lib/residual/twin_patterns.hpp"
@@ -29,12 +30,6 @@ struct Survey {
   std::int64_t rows = 0;
   VectorXd low, high;  // of q
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void widen(Survey& survey, const Log& segment) {
   for (int j = 0; j < segment.joints(); ++j)
@@ -70,7 +65,7 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
     }
   }
   if (periods.empty()) throw Error(ErrorCode::input, "healthy logs", "have no two rows to learn from");
-  survey.period_s = median(std::move(periods));
+  survey.period_s = upper_median_of(periods);
   return survey;
 }
 

@@ -9,6 +9,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/log_meaning_file.hpp"
+#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
@@ -71,14 +72,13 @@ Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& jo
     table.fail("joint", fmt::format("expected at most {} joints, found {}", kMaxJoints, joints.size()));
   Robot robot;
   for (const TomlTable& joint : joints) {
-    const bool revolute = joint.choice("kind", {"revolute", "prismatic"}) == "revolute";
     JointGeometry geometry;
-    geometry.kind = revolute ? AxisKind::revolute : AxisKind::prismatic;
+    geometry.kind = joint.choice_of("kind", {AxisKind::revolute, AxisKind::prismatic});
     const bool on_last_axis = robot.chain.geometry.empty() || joint.has("offset") ||
                               robot.chain.geometry.back().kind == AxisKind::prismatic;
     if (on_last_axis) geometry.direction.setZero();
     robot.chain.geometry.push_back(geometry);
-    robot.shapes.push_back(revolute ? LinkShape::rod : LinkShape::point);
+    robot.shapes.push_back(geometry.kind == AxisKind::revolute ? LinkShape::rod : LinkShape::point);
   }
   const std::size_t n = joints.size();
   robot.chain.links.resize(n);
@@ -97,19 +97,16 @@ void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
                                   : unit_vector(joints[i], "direction", geometry.direction);
     if (i == 0 && !geometry.direction.isZero())
       joints[i].fail("direction", "the first joint has no link before it; place it with offset");
-    const char* kind = geometry.kind == AxisKind::revolute ? "revolute" : "prismatic";
-    if (joints[i].has("kind") && joints[i].choice("kind", {"revolute", "prismatic"}) != kind)
-      joints[i].fail("kind",
-                     fmt::format("contradicts axes = \"{}\", in which this joint is {}", robot.axes, kind));
+    if (joints[i].has("kind") &&
+        joints[i].choice_of("kind", {AxisKind::revolute, AxisKind::prismatic}) != geometry.kind)
+      joints[i].fail("kind", fmt::format("contradicts axes = \"{}\", in which this joint is {}", robot.axes,
+                                         to_string(geometry.kind)));
   }
 }
 
 void read_link(Robot& robot, int i, const TomlTable& table) {
   if (table.has("shape")) {
-    const std::string shape = table.choice("shape", {"rod", "point", "general"});
-    robot.shapes[i] = shape == "rod"     ? LinkShape::rod
-                      : shape == "point" ? LinkShape::point
-                                         : LinkShape::general;
+    robot.shapes[i] = table.choice_of("shape", {LinkShape::rod, LinkShape::point, LinkShape::general});
   } else if (table.has("inertia") || table.has("centre") || table.has("inertia_at_joint")) {
     robot.shapes[i] = LinkShape::general;
   }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 
@@ -190,8 +191,7 @@ std::string TomlTable::text(const std::string& key, const std::string& fallback)
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key, int count) const {
-  const std::string expected =
-      count < 0 ? "a list of numbers" : fmt::format("a list of {} number{}", count, count == 1 ? "" : "s");
+  const std::string expected = count < 0 ? "a list of numbers" : "a list of " + counted(count, "number");
   const toml::node& node = required(*data_, key, expected.c_str());
   const toml::array* list = node.as_array();
   if (!list) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));

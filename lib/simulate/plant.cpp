@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/runge_kutta.hpp"
 
 namespace faultline {
 namespace {
@@ -175,36 +176,14 @@ void Plant::accelerate(const JointVector<double>& at, const JointVector<double>&
 }
 
 void Plant::integrate(double length, const JointVector<double>& tau) {
+  const auto acceleration = [&](double, const JointVector<double>& at, const JointVector<double>& rate,
+                                JointVector<double>& out) { accelerate(at, rate, tau, out); };
   JointVector<double> a1(dq.size());
   while (length > 1e-12) {
     accelerate(q, dq, tau, a1);
     const double h = length / std::max(1.0, std::ceil(length / safe_step(a1) - 1e-9));
-    runge_kutta(h, tau, a1);
+    runge_kutta_step(h, a1, acceleration, q, dq);
     length -= h;
-  }
-}
-
-void Plant::runge_kutta(double h, const JointVector<double>& tau, const JointVector<double>& a1) {
-  const int n = dynamics_.joints();
-  JointVector<double> a2(n), a3(n), a4(n), v2(n), v3(n), v4(n), x(n);
-  for (int i = 0; i < n; ++i) {
-    v2[i] = dq[i] + 0.5 * h * a1[i];
-    x[i] = q[i] + 0.5 * h * dq[i];
-  }
-  accelerate(x, v2, tau, a2);
-  for (int i = 0; i < n; ++i) {
-    v3[i] = dq[i] + 0.5 * h * a2[i];
-    x[i] = q[i] + 0.5 * h * v2[i];
-  }
-  accelerate(x, v3, tau, a3);
-  for (int i = 0; i < n; ++i) {
-    v4[i] = dq[i] + h * a3[i];
-    x[i] = q[i] + h * v3[i];
-  }
-  accelerate(x, v4, tau, a4);
-  for (int i = 0; i < n; ++i) {
-    q[i] += h / 6.0 * (dq[i] + 2.0 * v2[i] + 2.0 * v3[i] + v4[i]);
-    dq[i] += h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
   }
 }
 

@@ -37,7 +37,6 @@ class Plant {
   double safe_step(const JointVector<double>& ddq) const;
   void impact();
   void integrate(double length, const JointVector<double>& tau);
-  void runge_kutta(double h, const JointVector<double>& tau, const JointVector<double>& a1);
   void accelerate(const JointVector<double>& at, const JointVector<double>& rate,
                   const JointVector<double>& tau, JointVector<double>& out) const;
 

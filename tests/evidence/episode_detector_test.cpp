@@ -8,6 +8,7 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
+#include "lib/fault/label_text.hpp"
 #include "tests/support/rrp_runs.hpp"
 
 namespace faultline {
@@ -66,7 +67,7 @@ struct Expected {
   double latest_s;
 };
 
-void PrintTo(const Expected& expected, std::ostream* out) { *out << to_string(expected.label); }
+void PrintTo(const Expected& expected, std::ostream* out) { *out << label_text(expected.label); }
 
 class EachFault : public testing::TestWithParam<Expected> {};
 
@@ -76,7 +77,7 @@ TEST_P(EachFault, IsNamedAtItsJointSoonAndNotEarly) {
       detected(faulty_log(expected.label.kind, expected.label.joint, expected.size, expected.length_s));
   ASSERT_FALSE(episodes.empty());
   const EpisodeEvidence& first = episodes.front();
-  EXPECT_EQ(to_string(named(first)), to_string(expected.label));
+  EXPECT_EQ(label_text(named(first)), label_text(expected.label));
   EXPECT_GE(first.alarm_s, kOnset_s);
   EXPECT_LE(first.alarm_s - kOnset_s, expected.latest_s);
   EXPECT_LE(first.onset_s, first.alarm_s);
@@ -175,7 +176,7 @@ TEST(EpisodeDetector, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
     if (log.time[k] > kOnset_s + 0.3) log.dq[0][k] = k % 2 ? 1e200 : -1e200;
   const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
-  EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 2");
+  EXPECT_EQ(label_text(named(episodes.front())), "free_swinging 2");
   EXPECT_GE(episodes.front().alarm_s, kOnset_s);
   EXPECT_LT(episodes.front().judged_s, kOnset_s + 0.31);
 }
@@ -188,7 +189,7 @@ TEST(EpisodeDetector, WithoutVelocitiesFaultsAreFoundLater) {
   log.dq.clear();
   const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
-  EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 3");
+  EXPECT_EQ(label_text(named(episodes.front())), "free_swinging 3");
 }
 
 TEST(EpisodeDetector, AJointHeldByAnEndStopIsNoFaultOfItsOwn) {
@@ -198,7 +199,7 @@ TEST(EpisodeDetector, AJointHeldByAnEndStopIsNoFaultOfItsOwn) {
   spec.duration_s = 8.0;
   const auto episodes = detected(simulate(known_rrp(), spec, 5).log);
   ASSERT_FALSE(episodes.empty());
-  EXPECT_EQ(to_string(named(episodes.front())), "free_swinging 3");
+  EXPECT_EQ(label_text(named(episodes.front())), "free_swinging 3");
   for (const EpisodeEvidence& episode : episodes) EXPECT_EQ(named(episode).joint, 3);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lib/evidence/trigger.hpp"
+#include "lib/fault/label_text.hpp"
 #include "tests/support/hand_made_model.hpp"
 
 namespace faultline {
@@ -98,7 +99,7 @@ struct Expected {
   double onset_within_s;
 };
 
-void PrintTo(const Expected& expected, std::ostream* out) { *out << to_string(expected.label); }
+void PrintTo(const Expected& expected, std::ostream* out) { *out << label_text(expected.label); }
 
 class JudgedFault : public testing::TestWithParam<Expected> {};
 
@@ -111,7 +112,7 @@ TEST_P(JudgedFault, IsTheBestHypothesisAndBeganWhenItDid) {
   ASSERT_TRUE(watch.judgement().alarmed());
   EXPECT_EQ(watch.judgement().misread(), nullptr);
   const EpisodeEvidence evidence = watch.judgement().evidence();
-  EXPECT_EQ(to_string(watch.label(evidence)), to_string(expected.label));
+  EXPECT_EQ(label_text(watch.label(evidence)), label_text(expected.label));
   EXPECT_NEAR(evidence.onset_s, kOnset_s, expected.onset_within_s);
   EXPECT_GE(evidence.alarm_s, kOnset_s);
   EXPECT_NEAR(evidence.judged_s, watch.time(), 1e-12);
@@ -133,7 +134,7 @@ TEST(Judgement, AHealthyLogGivesNoAlarm) {
   Watch asked(healthy_log());
   ASSERT_TRUE(asked.wake(kMovingRow));
   asked.advance(60);
-  EXPECT_FALSE(asked.judgement().alarmed()) << to_string(asked.label(asked.judgement().evidence()));
+  EXPECT_FALSE(asked.judgement().alarmed()) << label_text(asked.label(asked.judgement().evidence()));
   EXPECT_LT(asked.judgement().largest_ratio(), 18.0);
 }
 

@@ -6,6 +6,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/evidence/fault_dynamics.hpp"
+#include "lib/fault/label_text.hpp"
 #include "tests/evidence/faulty_scara.hpp"
 #include "tests/support/hand_made_model.hpp"
 
@@ -67,7 +68,7 @@ inline std::vector<Fault> every_fault() {
   return all;
 }
 
-inline std::string name_of(const Fault& fault) { return to_string(fault.hypothesis.label); }
+inline std::string name_of(const Fault& fault) { return label_text(fault.hypothesis.label); }
 
 /// A robot somewhere in motion; a locked joint is at rest.
 inline FaultyScara::State draw_state(Random& random, const Fault& fault) {

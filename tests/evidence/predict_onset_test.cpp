@@ -2,6 +2,7 @@
 // predict_onset(): the step within which a fault begins.
 #include <gtest/gtest.h>
 
+#include "lib/fault/label_text.hpp"
 #include "tests/evidence/prediction_world.hpp"
 
 namespace faultline {
@@ -79,7 +80,7 @@ TEST(PredictOnset, BlendsAFaultOfAllTheStepAndOneOfNone) {
       const GaussianState state = onset_of(world, hypothesis, exact, dt);
       const Blend expected = blend_of(world, hypothesis, dt);
       const Eigen::MatrixXd p = covariance_of(state);
-      const auto what = to_string(hypothesis.label) + " over " + std::to_string(dt);
+      const auto what = label_text(hypothesis.label) + " over " + std::to_string(dt);
       EXPECT_LT((mean_of(state).head(6) - expected.mean).cwiseAbs().maxCoeff(), 3e-4) << what;
       const bool coarse = dt == 0.01 && hypothesis.label.kind == FaultKind::payload_change;
       const double tolerance = coarse ? 0.45 : 0.15;  // the analytic transition takes the slope at the start
@@ -110,11 +111,11 @@ TEST(PredictOnset, VelocitiesAreThoseOfAFaultAtAnyMomentOfTheStep) {
     const Eigen::Index count = after.size - first;
     const Eigen::VectorXd off = mean_of(after) - sampled.mean;
     for (int i = first; i < after.size; ++i)
-      EXPECT_LT(std::abs(off[i]), 0.06 * std::sqrt(sampled.covariance(i, i))) << to_string(hypothesis.label);
+      EXPECT_LT(std::abs(off[i]), 0.06 * std::sqrt(sampled.covariance(i, i))) << label_text(hypothesis.label);
     EXPECT_LT(distance(covariance_of(after).bottomRightCorner(count, count),
                        sampled.covariance.bottomRightCorner(count, count)),
               0.06)
-        << to_string(hypothesis.label);
+        << label_text(hypothesis.label);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/fault/label_text.hpp"
 #include "tests/evidence/prediction_world.hpp"
 
 namespace faultline {
@@ -38,7 +39,7 @@ TEST(Predict, TheMeanFollowsTheClosedForm) {
       const Eigen::VectorXd x = mean_of(state);
       predict(state, world.model, world.dynamics, world.step(dt), &hypothesis, 0.0);
       expect_near_truth(state, robot_under(hypothesis, x).after(state_of(x), world.torque, dt),
-                        dt < 0.05 ? 1e-3 : 0.02, to_string(hypothesis.label));
+                        dt < 0.05 ? 1e-3 : 0.02, label_text(hypothesis.label));
       for (int s = 6; s < state.size; ++s) EXPECT_EQ(state.mean[s], x[s]) << "a size stays what it is";
     }
 }
@@ -71,7 +72,7 @@ TEST(Predict, TheCovarianceIsThatOfTheNonlinearRobot) {
         return robot_under(hypothesis, x).after(state_of(x), world.torque, dt, 4);
       });
       EXPECT_LT(distance(covariance_of(after), sampled.covariance), dt == 0.01 ? 0.12 : 0.06)
-          << to_string(hypothesis.label) << " over " << dt;
+          << label_text(hypothesis.label) << " over " << dt;
     }
 }
 

@@ -13,7 +13,6 @@
 #include "lib/report/csv.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 
@@ -247,22 +246,6 @@ TEST(Timeline, TimesOutsideTheLogStayInside) {
   EXPECT_FALSE(render_timeline(d).empty());
   d.log.end_s = d.log.start_s;
   EXPECT_TRUE(render_timeline(d).empty());
-}
-
-TEST(Layout, WrapsAtWordsAndCountsCharactersNotBytes) {
-  EXPECT_EQ(wrapped("one two three", "  ", 9), "  one two\n  three\n");
-  EXPECT_EQ(wrapped("\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9", "", 5), "\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9\n");
-  EXPECT_EQ(wrapped("", "  ", 9), "");
-}
-
-TEST(Layout, PrintableDropsEscapes) {
-  EXPECT_EQ(printable("a\x1b[2J\tb\x7f\xc2\x9b\xc3\xa9"), "a?[2J b??\xc3\xa9");
-}
-
-TEST(Layout, TimesShowSingleSamples) {
-  EXPECT_EQ(time_text(1.23456, 0.073), "1.235 s");
-  EXPECT_EQ(time_text(1.23456, 0.0001), "1.2346 s");
-  EXPECT_EQ(time_text(std::nan(""), 0.1), "unknown");
 }
 
 }  // namespace

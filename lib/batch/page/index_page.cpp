@@ -6,23 +6,14 @@
 #include "lib/batch/page/index_assets.hpp"
 #include "lib/batch/page/index_table.hpp"
 #include "lib/batch/page/index_trends.hpp"
-#include "lib/core/hash.hpp"
 #include "lib/core/markup.hpp"
-#include "lib/html/base64.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/html/elements.hpp"
-#include "lib/report/layout.hpp"
+#include "lib/html/source_hash.hpp"
 
 namespace faultline {
 namespace {
-
-/// As Content-Security-Policy names an inline script or style.
-std::string policy_hash(std::string_view content) {
-  const std::string hex = sha256_hex(content);
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return "'sha256-" + base64(bytes) + "'";
-}
 
 std::string head(const BatchSummary& summary) {
   return fmt::format(
@@ -30,7 +21,7 @@ std::string head(const BatchSummary& summary) {
       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src {}; "
       "base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>{} logs, model {}</title>\n<style>{}</style>\n</head>\n",
-      policy_hash(index_script()), policy_hash(index_style()), summary.all.logs,
+      source_hash(index_script()), source_hash(index_style()), summary.all.logs,
       escaped_markup(printable(summary.facts.model.name).substr(0, 200)), index_style());
 }
 
@@ -108,9 +99,8 @@ std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSumm
   const BatchFacts& facts = summary.facts;
   std::string text = head(summary) + "<body>\n";
   text += fmt::format(
-      "<h1>{} log{}, {} fault{}</h1>\n<p class=\"sub\">Model {}{}</p>\n", summary.all.logs,
-      summary.all.logs == 1 ? "" : "s", summary.all.faults, summary.all.faults == 1 ? "" : "s",
-      escaped_markup(printable(facts.model.name).substr(0, 200)),
+      "<h1>{}, {}</h1>\n<p class=\"sub\">Model {}{}</p>\n", counted(summary.all.logs, "log"),
+      counted(summary.all.faults, "fault"), escaped_markup(printable(facts.model.name).substr(0, 200)),
       facts.shards > 1 ? fmt::format("; part {} of {} of {} logs", facts.shard, facts.shards, facts.logs)
                        : "");
   text += counts_line(summary.all) + folder_table(summary) + kind_table(summary) + index_trends(rows);

@@ -8,8 +8,9 @@
 
 #include "lib/batch/page/index_thumbnail.hpp"
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -17,10 +18,10 @@ namespace {
 std::string fault_list(const BatchRow& row) {
   std::string list;
   for (const FaultEvent& fault : row.faults)
-    list +=
-        (list.empty() ? "" : "<br>") +
-        escaped_markup(fmt::format("{} at {}, {:.0f} %", plain_words(fault.label),
-                                   time_text(fault.onset_s, row.sample_period_s), 100.0 * fault.confidence));
+    list += (list.empty() ? "" : "<br>") +
+            escaped_markup(fmt::format("{} at {}, {}", plain_words(fault.label),
+                                       time_text(fault.onset_s, row.sample_period_s),
+                                       percent_text(fault.confidence)));
   if (list.empty() && row.verdict != "healthy") list = escaped_markup(printable(row.reason).substr(0, 400));
   return list;
 }

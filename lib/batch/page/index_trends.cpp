@@ -8,8 +8,9 @@
 #include <map>
 #include <set>
 
+#include "lib/core/statistics.hpp"
+#include "lib/core/text.hpp"
 #include "lib/plot/line_plot.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -74,11 +75,6 @@ double parameter_in(const BatchRow& row, const std::string& name) {
   return parameter ? parameter->value : std::nan("");
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// Parameters of inertia and friction as changes from their median over all logs; those near zero have no
 /// such share and are left out.
 PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
@@ -92,7 +88,7 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
     }
   for (const std::string& name : names) {
     if (found[name].size() < 2 || panel.series.size() == static_cast<std::size_t>(kJoints)) continue;
-    const double usual = median(found[name]);
+    const double usual = upper_median(found[name]);
     panel.series.push_back(curve(printable(name), judged, false, [&](const BatchRow& row) {
       return 100.0 * (parameter_in(row, name) / usual - 1.0);
     }));

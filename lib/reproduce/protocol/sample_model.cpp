@@ -2,6 +2,7 @@
 #include "lib/reproduce/protocol/sample_model.hpp"
 
 #include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/robot/runge_kutta.hpp"
 
 namespace faultline {
 namespace {
@@ -48,18 +49,16 @@ JointState SampleModel::next(const JointState& now, const Vector& tau, const Vec
   };
   const double h = kSamplePeriod / kSteps;
   JointState x = now;
-  Vector a1, a2, a3, a4;
+  Vector a1;
   for (int i = 0; i < kSteps; ++i) {
     const double t = i * h;
     acceleration(t, x.q, x.dq, a1);
-    const Vector v2 = x.dq + 0.5 * h * a1;
-    acceleration(t + 0.5 * h, x.q + 0.5 * h * x.dq, v2, a2);
-    const Vector v3 = x.dq + 0.5 * h * a2;
-    acceleration(t + 0.5 * h, x.q + 0.5 * h * v2, v3, a3);
-    const Vector v4 = x.dq + h * a3;
-    acceleration(t + h, x.q + h * v3, v4, a4);
-    x.q += h / 6.0 * (x.dq + 2.0 * v2 + 2.0 * v3 + v4);
-    x.dq += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    runge_kutta_step(
+        h, a1,
+        [&](double after, const Vector& q, const Vector& dq, Vector& ddq) {
+          acceleration(t + after, q, dq, ddq);
+        },
+        x.q, x.dq);
   }
   return x;
 }
