@@ -224,16 +224,20 @@ TEST(TwinRunLength, IsAFewMovesAndEnoughSamples) {
 
 TEST(TwinRun, SomePushesReachASecondJoint) {
   const TwinWorld world(known_rrp());
-  int reached = 0;
+  int reached = 0, alike = 0;
   constexpr int kRuns = 24;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     const TwinRun pushed = world.run(FaultKind::collision, seed, 1), calm = world.run(FaultKind::none, seed);
-    const int row = row_at(pushed.log, pushed.onset_s);
-    reached +=
-        std::abs(pushed.log.dq[2][row] - calm.log.dq[2][row]) > 1e-6;  // joint 3 feels joint 1 in no way
+    const int row = row_at(pushed.log, pushed.onset_s) + 1;
+    if (pushed.log.q[2][row - 2] != calm.log.q[2][row - 2])
+      continue;  // a controller drawn anew for one of them
+    ++alike;
+    // Joint 3 feels joint 1 in no way; a push of its own gives it at least 4 mm/s in a sample.
+    reached += std::abs(pushed.log.dq[2][row] - calm.log.dq[2][row]) > 1e-3;
   }
   EXPECT_GE(reached, 1) << "0.4 of the pushes, half of them on joint 3";
   EXPECT_LE(reached, kRuns / 2);
+  EXPECT_GE(alike, kRuns / 2);
 }
 
 }  // namespace
