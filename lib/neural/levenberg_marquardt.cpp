@@ -53,7 +53,7 @@ bool solve(const MatrixXd& normal, const VectorXd& gradient, double damping, Vec
 
 TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
                                      const LevenbergMarquardtOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, training, validation, options.stop, progress, "Levenberg-Marquardt training");
+  TrainingWatch watch(start, {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
   VectorXd weights = parameters_of(mlp), step;
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
