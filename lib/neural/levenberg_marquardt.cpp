@@ -23,7 +23,7 @@ void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
   }
 }
 
-/// Damping between Gauss-Newton and gradient descent, moved by how well the quadratic model foretold a step.
+/// Damping between Gauss-Newton and gradient descent, moved by how well the quadratic model predicted a step.
 struct Damping {
   double value = 0.0;
   double growth = 2.0;

@@ -110,4 +110,25 @@ Transitions collect_transitions(const Log& segment, const TransitionShape& shape
   return out;
 }
 
+Transitions joined(const Transitions& first, const Transitions& second) {
+  Transitions all = first;
+  all.row.insert(all.row.end(), second.row.begin(), second.row.end());
+  const auto append = [](auto& mine, const auto& more) {
+    const Eigen::Index before = mine.cols();
+    mine.conservativeResize(Eigen::NoChange, before + more.cols());
+    mine.rightCols(more.cols()) = more;
+  };
+  all.time.conservativeResize(all.count());
+  all.time.tail(second.count()) = second.time;
+  all.duration.conservativeResize(all.count());
+  all.duration.tail(second.count()) = second.duration;
+  append(all.q, second.q);
+  append(all.dq, second.dq);
+  append(all.tau, second.tau);
+  append(all.mean_tau, second.mean_tau);
+  append(all.next_q, second.next_q);
+  append(all.next_dq, second.next_dq);
+  return all;
+}
+
 }  // namespace faultline

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lib/core/random.hpp"
-#include "lib/residual/twin_patterns.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {

@@ -22,7 +22,4 @@ struct TwinOptions {
 Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape,
                              const Chain<double>& chain, int count, const TwinOptions& options = {});
 
-/// The columns of `first`, then those of `second`.
-Transitions joined(const Transitions& first, const Transitions& second);
-
 }  // namespace faultline
