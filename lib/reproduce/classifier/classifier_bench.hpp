@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "lib/reproduce/classifier/classifier_recipe.hpp"
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/residual/residual_generator.hpp"
 

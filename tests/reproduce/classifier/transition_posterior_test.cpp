@@ -18,7 +18,7 @@ class TransitionPosterior : public testing::TestWithParam<ControllerReading> {
   const Experiment experiment = experiment_on(bench_robot(), GetParam(), 2);
 };
 
-TEST(SampleModel, ForetellsEachClassUnderHeldAndPd) {
+TEST(SampleModel, PredictsEachClassUnderHeldAndPd) {
   const Robot robot = bench_robot();
   for (const ControllerReading controller : {ControllerReading::held, ControllerReading::pd}) {
     const Experiment experiment = experiment_on(robot, controller, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/protocol/identified_robot.hpp"
+#include "lib/reproduce/generator/identified_robot.hpp"
 
 #include <memory>
 #include <vector>

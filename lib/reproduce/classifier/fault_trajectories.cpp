@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 
 #include <vector>
 
