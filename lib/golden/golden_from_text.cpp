@@ -7,6 +7,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/golden/golden_set.hpp"
+#include "lib/robot/nearest_word.hpp"
 #include "lib/robot/toml_table.hpp"
 
 namespace faultline {

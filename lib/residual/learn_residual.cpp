@@ -11,8 +11,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/residual/fit_residual.hpp"
-#include "lib/residual/pattern_pool.hpp"
-#include "lib/residual/twin_patterns.hpp"
+#include "lib/residual/transition_reservoir.hpp"
+#include "lib/residual/twin_transitions.hpp"
 
 namespace faultline {
 namespace {
@@ -93,7 +93,7 @@ std::int64_t block_size(const Survey& survey, const TransitionShape& shape) {
 
 /// Transitions for training, validation and measuring, from blocks that do not overlap.
 struct Pools {
-  PatternPool training, validation, check;
+  TransitionReservoir training, validation, check;
 };
 
 bool usable(const Transitions& t, int column) {

@@ -53,4 +53,7 @@ struct TransitionState {
 /// are not those of the shape.
 Transitions collect_transitions(const Log& segment, const TransitionShape& shape, TransitionState& state);
 
+/// The columns of `first`, then those of `second`.
+Transitions joined(const Transitions& first, const Transitions& second);
+
 }  // namespace faultline

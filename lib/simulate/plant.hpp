@@ -32,6 +32,7 @@ class Plant {
   void advance(double from, double to, const JointVector<double>& tau);
 
  private:
+  void set_stops(const JointStops& stops);
   void enter(double now);
   void choose_steps(Chain<double>& chain);
   double safe_step(const JointVector<double>& ddq) const;

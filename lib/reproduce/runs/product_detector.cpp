@@ -44,12 +44,12 @@ bool is_held(const Robot& robot) { return robot.log.torque_between_samples == To
 
 }  // namespace
 
-HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
-                         const HalfRanges& ranges, double sigma, std::uint64_t seed) {
+HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double sigma) {
+  const auto& [robot, controller, ranges, seed] = experiment;
   HealthyLogs healthy;
   for (std::uint64_t i = 0; i < kHealthyLogs; ++i) {
     healthy.logs.push_back(
-        run_of_moves(robot, controller, duration_s, {}, 0.0, seed_of(seed, SeedUse::learning_logs, i)));
+        run_of_moves(robot, controller, {duration_s}, seed_of(seed, SeedUse::learning_logs, i)));
     add_noise(healthy.logs.back(), ranges, sigma, seed_of(seed, SeedUse::learning_logs, kNoise + i));
   }
   healthy.robot = preset_robot(robot.axes);

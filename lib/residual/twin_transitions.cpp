@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/residual/twin_patterns.hpp"
+#include "lib/residual/twin_transitions.hpp"
 
 #include <algorithm>
 
 #include "lib/core/random.hpp"
-#include "lib/residual/pattern_pool.hpp"
 #include "lib/residual/physics_step.hpp"
+#include "lib/residual/transition_reservoir.hpp"
 
 namespace faultline {
 namespace {
@@ -31,7 +31,7 @@ Transitions twin_transitions(const Transitions& logged, const TransitionShape& s
                  tau_half = half_range(logged.mean_tau);
   const FastDynamics robot(chain);
   Random random(options.seed);
-  PatternPool pool(std::max(count, 1), options.seed);
+  TransitionReservoir pool(std::max(count, 1), options.seed);
   Transitions one = logged;  // its column 0 is the one in work
   for (int i = 0; i < count; ++i) {
     const int origin = static_cast<int>(random.below(logged.count()));
@@ -48,21 +48,6 @@ Transitions twin_transitions(const Transitions& logged, const TransitionShape& s
     pool.offer(one, 0);
   }
   return pool.drawn();
-}
-
-Transitions joined(const Transitions& first, const Transitions& second) {
-  Transitions all = first;
-  all.row.insert(all.row.end(), second.row.begin(), second.row.end());
-  all.time.conservativeResize(all.count());
-  all.time.tail(second.count()) = second.time;
-  all.duration.conservativeResize(all.count());
-  all.duration.tail(second.count()) = second.duration;
-  for_each_matrix(all, second, [](MatrixXd& mine, const MatrixXd& more) {
-    const Eigen::Index before = mine.cols();
-    mine.conservativeResize(Eigen::NoChange, before + more.cols());
-    mine.rightCols(more.cols()) = more;
-  });
-  return all;
 }
 
 }  // namespace faultline

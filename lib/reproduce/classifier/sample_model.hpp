@@ -14,7 +14,7 @@ enum class TorqueBetween {
   linear,      ///< moves straight to the torque of the next sample
 };
 
-/// Foretells one sample of the bench robot, healthy or with a joint that swings freely: its own equations and
+/// Predicts one sample of the bench robot, healthy or with a joint that swings freely: its own equations and
 /// its controller's, with nothing learned.
 class SampleModel {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 
 #include <vector>
 
@@ -33,15 +33,15 @@ int FaultPatterns::count() const {
   return sum;
 }
 
-FaultPatterns fault_patterns(const Robot& robot, ControllerReading controller,
-                             const FaultTrajectories& trajectories, const HalfRanges& ranges,
-                             std::uint64_t seed, SeedUse use) {
+FaultPatterns fault_patterns(const Experiment& experiment, const FaultTrajectories& trajectories,
+                             SeedUse use) {
   std::array<std::vector<Log>, kFaultClasses> logs;
   for (int i = 0; i < trajectories.count; ++i) {
-    const std::uint64_t own = seed_of(seed, use, i);
+    const std::uint64_t own = seed_of(experiment.seed, use, i);
     const int output = table_1_class(i * kTable1Trajectories / trajectories.count);
-    Log log = trajectory(robot, controller, kPatternsPerTrajectory, fault_of_class(output), own);
-    add_noise(log, ranges, trajectories.sigma, own);
+    Log log = trajectory(experiment.robot, experiment.controller, kPatternsPerTrajectory, own,
+                         {fault_of_class(output)});
+    add_noise(log, experiment.ranges, trajectories.sigma, own);
     logs[output].push_back(std::move(log));
   }
   FaultPatterns patterns;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/protocol/sample_model.hpp"
+#include "lib/reproduce/classifier/sample_model.hpp"
 
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/robot/runge_kutta.hpp"
 
 namespace faultline {

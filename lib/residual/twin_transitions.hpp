@@ -22,7 +22,4 @@ struct TwinPatternOptions {
 Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape,
                              const Chain<double>& chain, int count, const TwinPatternOptions& options = {});
 
-/// The columns of `first`, then those of `second`.
-Transitions joined(const Transitions& first, const Transitions& second);
-
 }  // namespace faultline

@@ -10,9 +10,9 @@ namespace faultline {
 
 /// At most `capacity` transitions drawn at random, each with the same chance, from a stream of any length
 /// (reservoir sampling, Vitter 1985).
-class PatternPool {
+class TransitionReservoir {
  public:
-  PatternPool(int capacity, std::uint64_t seed) : capacity_(capacity), random_(seed) {}
+  TransitionReservoir(int capacity, std::uint64_t seed) : capacity_(capacity), random_(seed) {}
 
   /// Offers one column of `transitions`.
   void offer(const Transitions& transitions, int column);

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
 
 #include "lib/reproduce/protocol/protocol.hpp"
 
@@ -37,8 +36,7 @@ struct FaultTrajectories {
 
 /// Trajectories of ten samples in the order and mix of table 1, the fault there from the start. Use
 /// classifier_training or classifier_test.
-FaultPatterns fault_patterns(const Robot& robot, ControllerReading controller,
-                             const FaultTrajectories& trajectories, const HalfRanges& ranges,
-                             std::uint64_t seed, SeedUse use);
+FaultPatterns fault_patterns(const Experiment& experiment, const FaultTrajectories& trajectories,
+                             SeedUse use);
 
 }  // namespace faultline

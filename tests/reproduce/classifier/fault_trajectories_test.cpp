@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,8 @@ namespace faultline {
 namespace {
 
 TEST(FaultTrajectories, TheTrainingSetIsThatOfTable1) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const FaultPatterns patterns =
-      fault_patterns(robot, ControllerReading::held, {}, ranges, 3, SeedUse::classifier_training);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const FaultPatterns patterns = fault_patterns(experiment, {}, SeedUse::classifier_training);
   EXPECT_EQ(patterns.count(), 900);
   const int expected[] = {200, 200, 350, 150};
   for (int output = 0; output < kFaultClasses; ++output)
@@ -22,19 +20,15 @@ TEST(FaultTrajectories, TheTrainingSetIsThatOfTable1) {
 }
 
 TEST(FaultTrajectories, AnyNumberHasTheMixOfTable1) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const FaultPatterns patterns =
-      fault_patterns(robot, ControllerReading::held, {.count = 45}, ranges, 3, SeedUse::classifier_test);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const FaultPatterns patterns = fault_patterns(experiment, {.count = 45}, SeedUse::classifier_test);
   for (int output = 0; output < kFaultClasses; ++output)
     EXPECT_NEAR(patterns.of_class[output].count() / 450.0, table_1_prior()[output], 0.03);
 }
 
 TEST(FaultTrajectories, AFreeThirdJointFallsAndAHealthyOneIsHeld) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const FaultPatterns patterns =
-      fault_patterns(robot, ControllerReading::held, {.count = 9}, ranges, 3, SeedUse::classifier_test);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const FaultPatterns patterns = fault_patterns(experiment, {.count = 9}, SeedUse::classifier_test);
   const Transitions& fallen = patterns.of_class[2];
   for (int i = 0; i < fallen.count(); ++i)
     EXPECT_NEAR((fallen.next_dq(2, i) - fallen.dq(2, i)) / kSamplePeriod, -9.81, 1e-6);

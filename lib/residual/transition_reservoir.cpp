@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/residual/pattern_pool.hpp"
+#include "lib/residual/transition_reservoir.hpp"
 
 namespace faultline {
 
-void PatternPool::offer(const Transitions& transitions, int column) {
+void TransitionReservoir::offer(const Transitions& transitions, int column) {
   if (offered_ == 0) {
     pool_.row.resize(capacity_);
     pool_.time.resize(capacity_);
@@ -21,7 +21,7 @@ void PatternPool::offer(const Transitions& transitions, int column) {
                   [&](auto& mine, const auto& theirs) { mine.col(place) = theirs.col(column); });
 }
 
-Transitions PatternPool::drawn() const {
+Transitions TransitionReservoir::drawn() const {
   Transitions out = pool_;
   out.row.resize(kept_);
   out.time.conservativeResize(kept_);

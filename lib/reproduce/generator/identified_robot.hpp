@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -21,8 +19,7 @@ struct LearningLogs {
 /// held between samples.
 Robot robot_as_known(TorqueTiming timing);
 
-/// That robot identified from healthy logs of `truth` alone, friction and torque timing with it.
-Robot identified_robot(const Robot& truth, ControllerReading controller, const LearningLogs& logs,
-                       const HalfRanges& ranges, std::uint64_t seed);
+/// That robot identified from healthy logs of the true one alone, friction and torque timing with it.
+Robot identified_robot(const Experiment& experiment, const LearningLogs& logs);
 
 }  // namespace faultline
