@@ -22,7 +22,7 @@ nlohmann::ordered_json count_or_null(std::int64_t count);
 template <typename Json, typename Items, typename Render>
 Json list_of(const Items& items, Render render) {
   Json list = Json::array();
-  for (const auto& item : items) list.push_back(render(item));
+  for (const auto& item : items) list.push_back(Json(render(item)));
   return list;
 }
 

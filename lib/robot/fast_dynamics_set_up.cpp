@@ -2,6 +2,8 @@
 // What FastDynamics works out once for a chain; its equations at a state are in fast_dynamics.cpp.
 #include "lib/robot/fast_dynamics.hpp"
 
+#include <Eigen/Geometry>
+
 namespace faultline {
 namespace {
 

@@ -116,6 +116,7 @@ paper() {
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=(bench industrial rrpr shared golden paper)
 for part in "${parts[@]}"; do
+  rm -rf "${out:?}/$part"
   case $part in
     bench | industrial | rrpr) sample_robot "$part" ;;
     shared) shared_group ;;
