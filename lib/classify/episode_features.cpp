@@ -97,6 +97,17 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
   return known;
 }
 
+double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence) {
+  double best = 0.0, sum = 0.0, of_label = 0.0;
+  for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
+  for (const LabelEvidence& e : evidence) {
+    const double weight = std::exp(e.log_likelihood_ratio - best);
+    sum += weight;
+    if (named_by_size(e.label, evidence) == label) of_label += weight;
+  }
+  return sum > 0.0 ? of_label / sum : 0.0;
+}
+
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
                                      std::span<const JointResidual> residuals, int joints) {

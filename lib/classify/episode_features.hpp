@@ -33,6 +33,10 @@ FaultLabel named_by_size(const FaultLabel& label, const std::vector<LabelEvidenc
 /// explains.
 LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
 
+/// Posterior probability of `label` among all labels, each as likely as the others before the log was seen. A
+/// loss of nearly all torque counts for the free joint.
+double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
+
 /// The numbers the two networks judge an episode by: for each label how far it stays behind the likeliest and
 /// its size, how strong and how long the episode is, and the MLP's residual of each joint over the episode
 /// (root mean square in units of healthy; a joint without one counts as 1).

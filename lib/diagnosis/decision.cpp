@@ -43,11 +43,8 @@ Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, cons
   if (likely.label.kind == FaultKind::unknown) return unnamed;
   const bool seconded = likely.label == basis.episode.mlp.label || likely.label == basis.episode.rbfn.label;
   if (!seconded && lead_of(likely, basis.evidence) < options.close_ratio) return unnamed;
-  Decision named = unnamed;
-  named.label = likely.label;
-  named.decided_by = DecidedBy::evidence;
-  named.reason = DecisionReason::likelihood_names;
-  return named;
+  return {likely.label, posterior_of(likely.label, basis.evidence), DecidedBy::evidence,
+          DecisionReason::likelihood_names, likely.label};
 }
 
 }  // namespace

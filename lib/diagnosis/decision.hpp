@@ -30,10 +30,10 @@ enum class DecisionReason {
 /// What an episode is, decided once; all texts follow from it.
 struct Decision {
   FaultLabel label;         ///< `unknown` at joint 0 when abstained or when nothing recorded resembles it
-  double confidence = 0.0;  ///< 0 to 1
+  double confidence = 0.0;  ///< 0 to 1: mean of the networks', share of the votes, or posterior
   DecidedBy decided_by = DecidedBy::abstained;
   DecisionReason reason = DecisionReason::thin_evidence;
-  /// What networks or votes called it, before the size of a torque loss or the likelihood gave it its name.
+  /// What networks or votes called it, before the size of a torque loss gave it its name.
   FaultLabel voted;
 };
 

@@ -15,6 +15,12 @@ std::string disagreement(const Episode& episode) {
                      words(episode.rbfn.label));
 }
 
+/// That the size of a torque loss gave the fault another name; empty when it did not.
+std::string renaming(const Decision& decision) {
+  if (decision.label == decision.voted) return "";
+  return fmt::format(", and nearly all of it is lost: {}", words(decision.label));
+}
+
 }  // namespace
 
 std::string reason_in_words(const Decision& decision, const DecisionBasis& basis,
@@ -28,15 +34,15 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
       return fmt::format("both networks say {}, but hardly believe it (confidence {:.2f})",
                          words(episode.mlp.label), 0.5 * (episode.mlp.confidence + episode.rbfn.confidence));
     case DecisionReason::networks_agree:
-      return fmt::format("both networks say {}", words(decision.voted));
+      return fmt::format("both networks say {}{}", words(decision.voted), renaming(decision));
     case DecisionReason::nothing_similar:
       return disagreement(episode) + " and no recorded case resembles this episode";
     case DecisionReason::votes_even:
       return disagreement(episode) + " and the similar cases do not settle it";
     case DecisionReason::votes_settle:
-      return fmt::format("{}; {} similar cases and the opinions give {} {:.0f} % of the votes",
+      return fmt::format("{}; {} similar cases and the opinions give {} {:.0f} % of the votes{}",
                          disagreement(episode), basis.votes.precedents.size(), words(decision.voted),
-                         100.0 * decision.confidence);
+                         100.0 * decision.confidence, renaming(decision));
     case DecisionReason::likelihood_names:
       return "neither networks nor cases settle it; this fault explains the log best";
   }
@@ -49,14 +55,15 @@ std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes
   if (decision.reason == DecisionReason::networks_agree) {
     if (votes.of_cases.empty())
       warnings.push_back("no recorded case resembles this episode");
-    else if (votes.of_cases[0].label != decision.voted && votes.of_cases[0].share > options.clear_share)
-      warnings.push_back(fmt::format("most similar cases were {}", words(votes.of_cases[0].label)));
+    else if (const LabelShare& most = votes.of_cases[0];
+             most.label != decision.voted && most.label != decision.label && most.share > options.clear_share)
+      warnings.push_back(fmt::format("most similar cases were {}", words(most.label)));
   }
   if (decision.reason == DecisionReason::thin_evidence) return warnings;
   for (const Neighbour& n : votes.precedents)
-    if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.voted)
+    if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.label)
       warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also called {} and that was wrong",
-                                     n.found->id, n.similarity, words(decision.voted)));
+                                     n.found->id, n.similarity, words(decision.label)));
   return warnings;
 }
 

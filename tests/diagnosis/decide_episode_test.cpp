@@ -162,6 +162,48 @@ TEST(DecideEpisode, ALossOfNearlyAllTorqueIsAFreeJointByLikelihoodToo) {
   EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
 }
 
+TEST(DecideEpisode, ANameByLikelihoodBringsItsOwnConfidence) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kLocked2, 0.5});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 99.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  ASSERT_EQ(finding.decided_by, DecidedBy::evidence);
+  EXPECT_NEAR(finding.confidence, 1.0 / (1.0 + std::exp(-1.0)), 1e-9) << "one nat ahead of one other label";
+}
+
+TEST(DecideEpisode, ANameByLikelihoodKeepsNoWarningOfTheNameItReplaced) {
+  const Model model = hand_made_rrp({kBias3, 0.15}, {kBias3, 0.15});
+  const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  CaseBase base = base_of(model, episode, kUnknown, 1);
+  base.reject(1, kStuck2);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base);
+  ASSERT_EQ(finding.label, kLocked2) << "hardly believed networks leave it to the likelihood";
+  EXPECT_EQ(item(finding, "warning"), nullptr) << "that `unknown` was wrong once says nothing of locked";
+}
+
+TEST(DecideEpisode, ARejectionOfTheNameByLikelihoodWarns) {
+  const Model model = hand_made_rrp({kBias3, 0.15}, {kBias3, 0.15});
+  const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  CaseBase base = base_of(model, episode, kLocked2, 1);
+  base.reject(1, kStuck2);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base);
+  ASSERT_EQ(finding.decided_by, DecidedBy::evidence);
+  ASSERT_NE(item(finding, "warning"), nullptr);
+  EXPECT_NE(item(finding, "warning")->text.find("also called locked at joint 2"), std::string::npos);
+}
+
+TEST(DecideEpisode, AFreeJointByTheSizeOfItsLossSaysSo) {
+  const Model model = hand_made_rrp({kLoss1, 0.9}, {kLoss1, 0.7});
+  const EpisodeEvidence episode = episode_of_fault(model, kLoss1, 100.0, 0.97);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kLoss1, 3));
+  ASSERT_EQ(finding.label, (FaultLabel{FaultKind::free_swinging, 1}));
+  EXPECT_EQ(
+      item(finding, "decision")->text,
+      "both networks say torque_loss at joint 1, and nearly all of it is lost: free_swinging at joint 1");
+  EXPECT_NEAR(finding.confidence, 0.8, 1e-12);
+  EXPECT_EQ(item(finding, "warning"), nullptr) << "cases of the loss are no contradiction";
+}
+
 TEST(DecideEpisode, TheNextCheckIsForTheNameGiven) {
   const Model model = hand_made_rrp({kLoss1, 0.9}, {kLoss1, 0.9});
   const auto check = [&](double share) {
