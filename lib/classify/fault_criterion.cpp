@@ -8,6 +8,10 @@
 namespace faultline {
 namespace {
 
+constexpr double kSecondsPerHour = 3600.0;
+constexpr double kFewestFound = 0.9;  // of what the most sensitive setting finds
+constexpr double kFreeMargin = 0.97;  // one step more for margin may cost this share of the detections
+
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -188,7 +192,7 @@ CriterionScore score_criterion(const CriterionOptions& options, const OutputMean
     const bool faulty = run.fault.kind != FaultKind::none;
     const double healthy_until =
         faulty ? std::min(run.onset_s, run.time[run.time.size() - 1]) : run.time[run.time.size() - 1];
-    score.fault_free_hours += std::max(0.0, healthy_until - run.time[0]) / 3600.0;
+    score.fault_free_hours += std::max(0.0, healthy_until - run.time[0]) / kSecondsPerHour;
     score.faulty_runs += faulty;
     bool found = false;
     for (const SampleEpisode& episode : all_episodes(options, meaning, run)) {
@@ -219,13 +223,13 @@ CriterionSearch tune_criterion(const CriterionOptions& start, const OutputMeanin
   };
   std::size_t best = search.tried.size();
   for (std::size_t i = 0; i < search.tried.size(); ++i) {
-    if (search.tried[i].detected < 0.9 * most) continue;
+    if (search.tried[i].detected < kFewestFound * most) continue;
     if (best == search.tried.size() || key(search.tried[i]) < key(search.tried[best])) best = i;
   }
   // The last setting without a false alarm stands on an edge; one step more is margin if it costs no
   // detection.
-  const bool margin =
-      best + 1 < search.tried.size() && search.tried[best + 1].detected >= 0.97 * search.tried[best].detected;
+  const bool margin = best + 1 < search.tried.size() &&
+                      search.tried[best + 1].detected >= kFreeMargin * search.tried[best].detected;
   search.best = search.tried[best + (margin ? 1 : 0)].options;
   return search;
 }

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <span>
 #include <vector>
 
 #include "lib/log/log_source.hpp"
@@ -69,6 +71,23 @@ class RememberedSource : public LogSource {
   std::size_t position_ = 0;     ///< answers handed out since rewind()
   std::int64_t taken_bytes_ = 0;
   bool forgotten_ = false;
+};
+
+/// Logs that are read several times, remembered together: parsed once while they fit into the memory.
+class RememberedLogs {
+ public:
+  /// `logs` stand at their first rows, are read by nobody else and outlive this.
+  explicit RememberedLogs(std::span<LogSource* const> logs, const RememberOptions& options = {})
+      : memory_(options) {
+    for (LogSource* log : logs) sources_.push_back(&remembered_.emplace_back(*log, memory_));
+  }
+
+  std::span<LogSource* const> sources() const { return sources_; }
+
+ private:
+  LogMemory memory_;
+  std::deque<RememberedSource> remembered_;
+  std::vector<LogSource*> sources_;
 };
 
 }  // namespace faultline

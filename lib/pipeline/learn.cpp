@@ -6,6 +6,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
+#include "lib/log/remembered_source.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/identified_model.hpp"
 #include "lib/pipeline/learn_samples.hpp"
@@ -17,6 +18,10 @@ namespace {
 
 constexpr int kSampleRunsPerLabel = 6;  // of the paper's classifiers, two thirds for training
 constexpr int kHealthySampleRuns = 24;
+
+// Shares of the work that are done after its stages, roughly.
+constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kCalibrated = 0.4, kSimulated = 0.8,
+                 kTrained = 0.85;
 
 // Streams of seeds that never meet.
 constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthySeeds = 2'000'000,
@@ -32,6 +37,10 @@ std::vector<ModelSource> sources_of(const Identification& identification,
     sources.push_back({std::filesystem::path(log.log->identity().path).filename().string(),
                        log.log->identity().sha256, log.log->identity().rows_read, to_string(log.label.kind)});
   return sources;
+}
+
+void tell(const Progress& progress, const char* what, double share) {
+  if (progress) progress(what, share);
 }
 
 std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const Model& model) {
@@ -52,6 +61,40 @@ std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
   return labels;
 }
 
+/// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
+/// nothing was trained on measure all that.
+void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const LearnOptions& options,
+                     const Progress& progress) {
+  Model& model = out.model;
+  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
+                  options.twin};
+  const std::uint64_t seed = options.seed * kSeedBlock;
+  auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part) {
+    return monitored_twin_runs(twin, model, labels, seed + stream, options.threads, part);
+  };
+  auto faults = [&](int each) { return labels_to_simulate(model.bank, each, options.kinds); };
+  const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
+
+  tell(progress, "simulating healthy runs", kResidualsLearned);
+  model.evidence.threshold = calm_threshold(model.evidence.threshold, runs_of(calm, kHealthySeeds, {}));
+  std::vector<MonitoredRun> runs =
+      runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kCalibrated, kSimulated));
+  for (MonitoredRun& run : monitored(labelled, model)) runs.push_back(std::move(run));
+
+  tell(progress, "training networks on episodes", kSimulated);
+  const TrainingEpisodes training = training_episodes(runs, model);
+  EpisodeClassifierOptions classifying;
+  classifying.seed = options.seed;
+  model.episode_classifier = train_episode_classifier(training.episodes, classifying);
+  out.cases = fill_case_base(training, model, classifying);
+  tell(progress, "training networks on samples", kSimulated);
+  model.samples = learn_sample_mode(twin, model, sample_labels(model.bank, options.kinds),
+                                    seed + kSampleSeeds, options.threads);
+  model.validation = validate(
+      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0)),
+      runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+}
+
 }  // namespace
 
 void LearnOptions::check() const {
@@ -70,38 +113,20 @@ void LearnOptions::check() const {
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options, const Progress& progress) {
   options.check();
+  RememberedLogs logs(healthy);
   Learned out;
-  out.identification = identify(healthy, robot, options.identify, part_of(progress, 0.0, 0.25));
-  Model& model = out.model = identified_model(out.identification);
-  out.residual = learn_residual_generator(healthy, model.robot, model.robot.torque_phi.value_or(0.0),
-                                          options.residual, part_of(progress, 0.25, 0.35));
+  Model& model = out.model;
+  out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
+  model = identified_model(out.identification);
+  out.residual =
+      learn_residual_generator(logs.sources(), model.robot, model.robot.torque_phi.value_or(0.0),
+                               options.residual, part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
-  model.motion = learn_motion_model(healthy, identified_motion(out.identification), {});
-  model.evidence = calibrate_thresholds(healthy, model.motion, model.bank, {});
-
-  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
-                  options.twin};
-  const std::uint64_t seed = options.seed * kSeedBlock;
-  auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part) {
-    return monitored_twin_runs(twin, model, labels, seed + stream, options.threads, part);
-  };
-  auto faults = [&](int each) { return labels_to_simulate(model.bank, each, options.kinds); };
-  const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
-
-  model.evidence.threshold = calm_threshold(model.evidence.threshold, runs_of(calm, kHealthySeeds, {}));
-  std::vector<MonitoredRun> runs =
-      runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, 0.4, 0.8));
-  for (MonitoredRun& run : monitored(labelled, model)) runs.push_back(std::move(run));
-  const TrainingEpisodes training = training_episodes(runs, model);
-  EpisodeClassifierOptions classifying;
-  classifying.seed = options.seed;
-  model.episode_classifier = train_episode_classifier(training.episodes, classifying);
-  out.cases = fill_case_base(training, model, classifying);
-  model.samples = learn_sample_mode(twin, model, sample_labels(model.bank, options.kinds),
-                                    seed + kSampleSeeds, options.threads);
-  model.validation =
-      validate(runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, 0.85, 1.0)),
-               runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  tell(progress, "matching the noise", kResidualsLearned);
+  model.motion = learn_motion_model(logs.sources(), identified_motion(out.identification), {});
+  tell(progress, "checking the alarm threshold", kResidualsLearned);
+  model.evidence = calibrate_thresholds(logs.sources(), model.motion, model.bank, {});
+  learn_from_twin(out, labelled, options, progress);
   model.sources = sources_of(out.identification, labelled);
   return out;
 }

@@ -15,6 +15,7 @@ namespace faultline {
 namespace {
 
 constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
+constexpr double kSecondsPerHour = 3600.0;
 constexpr double kMostRaised = 2.0;  // times the threshold before
 
 bool alarmed_early(const MonitoredRun& run) {
@@ -106,7 +107,7 @@ Validation validate(std::span<const MonitoredRun> faulty, std::span<const Monito
     validation.rows.push_back(row);
   }
   for (const MonitoredRun& run : healthy) {
-    validation.healthy_hours += run.length_s / 3600.0;
+    validation.healthy_hours += run.length_s / kSecondsPerHour;
     validation.false_alarms += static_cast<int>(run.log.episodes.size());
   }
   return validation;
