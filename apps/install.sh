@@ -25,6 +25,8 @@ packages=(
 test_packages=(
   # HTML reports are looked at in a browser
   chromium fonts-dejavu-core
+  # CI checks the format of the sources
+  clang-format
 )
 [ "${1:-}" = --tests ] && packages+=("${test_packages[@]}")
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The rules of the house that a program can check: short files, short functions, small folders, and no number
+// without a name where numbers decide.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLongestFile = 300;
+constexpr int kLongFile = 200;
+constexpr double kLongFileShare = 0.05;
+constexpr int kLongestFunction = 60;
+constexpr int kMostFiles = 40;
+
+const fs::path kRoot(FAULTLINE_SOURCE_DIR);
+
+std::vector<fs::path> sources(const std::vector<std::string>& folders) {
+  std::vector<fs::path> found;
+  for (const std::string& folder : folders)
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+        found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string place(const fs::path& path, std::size_t line) {
+  return fs::relative(path, kRoot).string() + ":" + std::to_string(line + 1);
+}
+
+TEST(House, NoFileIsTooLongAndFewAreLong) {
+  const std::vector<fs::path> all = sources({"lib", "formats", "apps"});
+  int long_ones = 0;
+  for (const fs::path& path : all) {
+    const auto count = static_cast<int>(lines_of(path).size());
+    EXPECT_LE(count, kLongestFile) << path;
+    long_ones += count > kLongFile;
+  }
+  EXPECT_LE(long_ones, kLongFileShare * static_cast<double>(all.size()));
+}
+
+/// In formatted sources a function outside a class begins at the margin and ends with a brace at the margin.
+TEST(House, NoFunctionIsTooLong) {
+  for (const fs::path& path : sources({"lib", "formats", "apps"})) {
+    const std::vector<std::string> lines = lines_of(path);
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool at_margin = !lines[i].empty() && std::isalpha(static_cast<unsigned char>(lines[i][0]));
+      const bool named = lines[i].rfind("namespace", 0) == 0 || lines[i].rfind("extern", 0) == 0;
+      const bool of_a_type = lines[i].rfind("class", 0) == 0 || lines[i].rfind("struct", 0) == 0;
+      if (at_margin) begin = named || of_a_type ? 0 : i + 1;
+      if (lines[i] != "}" || begin == 0) continue;
+      EXPECT_LE(static_cast<int>(i + 2 - begin), kLongestFunction) << place(path, begin - 1);
+    }
+  }
+}
+
+TEST(House, NoFolderIsCrowded) {
+  std::map<fs::path, int> files;
+  for (const fs::path& path : sources({"lib", "formats", "apps"})) ++files[path.parent_path()];
+  for (const auto& [folder, count] : files) EXPECT_LE(count, kMostFiles) << folder;
+}
+
+/// A literal is named where it initialises a constant, a member or a parameter of an options struct.
+bool is_named(const std::string& line) {
+  static const std::regex named(
+      R"(constexpr|^\s*(double|float|int|std::array<.*>|DrawRange) \w+(\{| = )|\.\w+ = )");
+  return std::regex_search(line, named);
+}
+
+bool says_itself(double value) {
+  if (value == 0.0 || value == 2.0 || value == 0.5) return true;
+  const double power = std::log10(value);
+  return std::abs(power - std::round(power)) < 1e-12;
+}
+
+std::string code_of(const std::string& line) {
+  static const std::regex text("\"([^\"\\\\]|\\\\.)*\"");
+  return std::regex_replace(line.substr(0, line.find("//")), text, "\"\"");
+}
+
+/// Constants that run over several lines are named in their first.
+TEST(House, NumbersThatDecideHaveNames) {
+  static const std::regex literal(R"((^|[^\w.])(\d+\.\d*(e[-+]?\d+)?|\d+e[-+]?\d+))");
+  int checked = 0;
+  for (const fs::path& path :
+       sources({"lib/evidence", "lib/classify", "lib/model", "lib/twin", "lib/pipeline"})) {
+    const std::vector<std::string> lines = lines_of(path);
+    bool in_constant = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string code = code_of(lines[i]);
+      const bool wrapped = i > 0 && lines[i - 1].ends_with("=") && is_named(lines[i - 1] + " ");
+      const bool named = in_constant || wrapped || is_named(code);
+      if (code.find("constexpr") != std::string::npos || in_constant)
+        in_constant = code.find(';') == std::string::npos;
+      if (named) continue;
+      for (std::sregex_iterator it(code.begin(), code.end(), literal), end; it != end; ++it, ++checked)
+        EXPECT_TRUE(says_itself(std::stod((*it)[2]))) << place(path, i) << ": " << lines[i];
+    }
+  }
+  EXPECT_GT(checked, 50);
+}
+
+}  // namespace

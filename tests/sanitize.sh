@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The whole suite under AddressSanitizer and UndefinedBehaviorSanitizer, by hand: some 40 minutes on two cores.
+# Usage: bash tests/sanitize.sh [OPTION of ctest...]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+bash apps/install.sh --tests
+cmake --preset sanitize
+cmake --build --preset sanitize --parallel "$(nproc)"
+ctest --preset sanitize --parallel "$(nproc)" --timeout 3000 "$@"
