@@ -172,20 +172,20 @@ TEST(DecideEpisode, ANameByLikelihoodBringsItsOwnConfidence) {
 }
 
 TEST(DecideEpisode, ANameByLikelihoodKeepsNoWarningOfTheNameItReplaced) {
-  const Model model = hand_made_rrp({kBias3, 0.15}, {kBias3, 0.15});
+  const Model model = hand_made_rrp({kBias3, 0.6}, {kDrift1, 0.6});
   const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
   CaseBase base = base_of(model, episode, kUnknown, 1);
-  base.reject(1, kStuck2);
+  base.reject(1, kUnknown);
   const FaultFinding finding = decide_episode({episode, {}}, model, base);
-  ASSERT_EQ(finding.label, kLocked2) << "hardly believed networks leave it to the likelihood";
+  ASSERT_EQ(finding.label, kLocked2) << "even votes leave it to the likelihood";
   EXPECT_EQ(item(finding, "warning"), nullptr) << "that `unknown` was wrong once says nothing of locked";
 }
 
 TEST(DecideEpisode, ARejectionOfTheNameByLikelihoodWarns) {
-  const Model model = hand_made_rrp({kBias3, 0.15}, {kBias3, 0.15});
+  const Model model = hand_made_rrp({kBias3, 0.6}, {kDrift1, 0.6});
   const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
   CaseBase base = base_of(model, episode, kLocked2, 1);
-  base.reject(1, kStuck2);
+  base.reject(1, kUnknown);
   const FaultFinding finding = decide_episode({episode, {}}, model, base);
   ASSERT_EQ(finding.decided_by, DecidedBy::evidence);
   ASSERT_NE(item(finding, "warning"), nullptr);
