@@ -9,6 +9,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/progress.hpp"
+#include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
 #include "lib/batch/merge_batches.hpp"
 #include "lib/batch/run_batch.hpp"
@@ -24,13 +25,6 @@ struct BatchArguments {
   std::string mode = "evidence", criterion = "log_odds";
   BatchOptions options;
 };
-
-std::vector<std::string> log_extensions() {
-  std::vector<std::string> all;
-  for (const FormatInfo& format : log_formats())
-    all.insert(all.end(), format.extensions.begin(), format.extensions.end());
-  return all;
-}
 
 /// "3/8": I from 1 to N or from 0 to N-1, so that both ways of numbering tasks do.
 void take_shard(const std::string& text, BatchOptions& options) {
