@@ -11,8 +11,9 @@
 #include "apps/exit_status.hpp"
 #include "apps/labels.hpp"
 #include "apps/learned_text.hpp"
+#include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "formats/open_log.hpp"
+#include "apps/robot_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -24,9 +25,9 @@
 namespace faultline {
 namespace {
 
-struct LearnArguments {
+struct LearnArguments : ModelPaths {
   std::vector<std::string> logs;
-  std::string robot, labels, model, cases, json;
+  std::string robot, labels, json;
   bool show_twin = false;
   LearnOptions options;
 };
@@ -49,11 +50,8 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   std::vector<LogLabel> labels;
   if (!arguments.labels.empty()) labels = read_labels(arguments.labels);
   OpenLogs open;
-  OpenLogOptions options;
-  options.columns = robot.log.columns;
-  options.keep_extra = false;
   for (const std::string& log : arguments.logs) {
-    open.owners.push_back(open_log(log, options));
+    open.owners.push_back(open_robot_log(log, robot));
     const LogLabel* label = label_of(labels, log);
     if (label) check_joint(*label, robot, log);
     if (label && label->label.kind != FaultKind::none)
@@ -69,14 +67,14 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
 
 /// Fails before the work begins rather than after it.
 void check_writable(const LearnArguments& arguments) {
-  const AtomicFile model(arguments.model), cases(arguments.cases);
+  const AtomicFile model(arguments.model), cases(arguments.case_base());
 }
 
 /// Both files or, when the disk is full, neither.
 void write_model(const Learned& learned, const LearnArguments& arguments) {
   AtomicFile model(arguments.model);
   model.write(model_to_json(learned.model));
-  write_case_base(arguments.cases, learned.cases);
+  write_case_base(arguments.case_base(), learned.cases);
   model.commit();
 }
 
@@ -96,7 +94,7 @@ int run_learn(const LearnArguments& arguments, ColorChoice color) {
   const Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
   write_model(learned, arguments);
   if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned));
-  if (arguments.json != "-") print(learned_text(learned, arguments.model, arguments.cases));
+  if (arguments.json != "-") print(learned_text(learned, arguments.model, arguments.case_base()));
   return kNothingFound;
 }
 
@@ -113,18 +111,15 @@ void add_learn(CLI::App& app, Program& program) {
   command->add_option("--labels", arguments->labels, "Which logs show which fault: file,fault,joint,onset_s")
       ->type_name("LABELS.csv");
   command->add_option("-o,--output", arguments->model, "The model to write")->required()->type_name("MODEL");
-  command->add_option("--cases", arguments->cases, "The case base to write, MODEL.cases.db by default")
-      ->type_name("FILE");
-  command
-      ->add_option("--json", arguments->json, "Write a summary as JSON to this file, - for standard output")
-      ->type_name("F");
+  add_cases_option(*command, *arguments, "The case base to write");
+  add_file_option(*command, "--json", arguments->json, "Write a summary as JSON",
+                  " to this file, - for standard output");
   command
       ->add_option("--runs-per-label", arguments->options.runs_per_label,
                    "Simulated runs for each fault and joint that the networks learn from")
       ->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "Of every random choice")->capture_default_str();
-  command->add_option("--threads", arguments->options.threads, "0 = one a core; changes no byte")
-      ->capture_default_str();
+  add_threads_option(*command, arguments->options.threads);
   command->add_flag_callback(
       "--show-twin",
       [arguments, command] {
@@ -138,7 +133,6 @@ void add_learn(CLI::App& app, Program& program) {
       program.run = [arguments] { return show_twin(*arguments); };
       return;
     }
-    if (arguments->cases.empty()) arguments->cases = arguments->model + ".cases.db";
     arguments->options.identify.threads = arguments->options.threads;
     program.run = [arguments, &program] { return run_learn(*arguments, program.color); };
   });
