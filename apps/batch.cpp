@@ -8,8 +8,10 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "formats/open_log.hpp"
+#include "apps/robot_log.hpp"
+#include "formats/log_formats.hpp"
 #include "lib/batch/merge_batches.hpp"
 #include "lib/batch/run_batch.hpp"
 #include "lib/cases/case_file.hpp"
@@ -18,19 +20,11 @@
 namespace faultline {
 namespace {
 
-struct BatchArguments {
+struct BatchArguments : ModelPaths {
   std::vector<std::string> paths;
-  std::string model, cases, folder, json, shard;
-  std::string mode = "evidence", criterion = "log_odds";
+  std::string folder, json, shard;
   BatchOptions options;
 };
-
-std::vector<std::string> log_extensions() {
-  std::vector<std::string> all;
-  for (const FormatInfo& format : log_formats())
-    all.insert(all.end(), format.extensions.begin(), format.extensions.end());
-  return all;
-}
 
 /// "3/8": I from 1 to N or from 0 to N-1, so that both ways of numbering tasks do.
 void take_shard(const std::string& text, BatchOptions& options) {
@@ -73,19 +67,13 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
 int run_command(BatchArguments arguments, ColorChoice color) {
   BatchOptions& options = arguments.options;
   take_shard(arguments.shard, options);
-  options.diagnose.mode = arguments.mode == "samples" ? ClassifyMode::samples : ClassifyMode::evidence;
-  options.diagnose.criterion =
-      arguments.criterion == "consecutive" ? CriterionKind::consecutive : CriterionKind::log_odds;
   const std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
   if (logs.empty())
     throw Error(ErrorCode::input, arguments.paths.front(),
                 "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
   const Model model = load_model(arguments.model);
-  const CaseBase cases = read_case_base(arguments.cases);
-  OpenLogOptions reading;
-  reading.columns = model.robot.log.columns;
-  reading.keep_extra = false;
-  const OpenLog open = [&](const std::string& path) { return open_log(path, reading); };
+  const CaseBase cases = read_case_base(arguments.case_base());
+  const OpenLog open = [&](const std::string& path) { return open_robot_log(path, model.robot); };
   BatchResult result;
   {
     ProgressBar bar(color);
@@ -104,7 +92,7 @@ void add_merge(CLI::App& batch, Program& program) {
   CLI::App* merge = batch.add_subcommand("merge", "Put the results of all shards into one folder");
   merge->add_option("OUT", *folders, "Folders of finished shards")->required();
   merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
-  merge->add_option("--json", *json, "Write the summary as JSON; - for standard output")->type_name("F");
+  add_file_option(*merge, "--json", *json, "Write the summary as JSON");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
   merge->callback(
       [=, &program] { program.run = [=] { return report(merge_batches(*folders, *into), *into, *json); }; });
@@ -112,28 +100,20 @@ void add_merge(CLI::App& batch, Program& program) {
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
-  command.add_option("--model", arguments.model, "Model made by faultline learn")->type_name("MODEL");
+  add_model_option(command, arguments);
   command.add_option("-o,--output", arguments.folder, "Folder for the results; an earlier run there goes on")
       ->type_name("DIR");
-  command.add_option("--cases", arguments.cases, "Case base, MODEL.cases.db by default")->type_name("FILE");
+  add_cases_option(command, arguments);
   command.add_flag("--html", arguments.options.html, "A page for each log, too");
   command.add_flag("--identify", arguments.options.identify,
                    "Identify the robot from each healthy log alone, and show the trend of its parameters");
-  command.add_option("--json", arguments.json, "Write the summary as JSON; - for standard output")
-      ->type_name("F");
+  add_file_option(command, "--json", arguments.json, "Write the summary as JSON");
   command.add_option("--threads", arguments.options.threads, "Logs at once; 0 = one a core")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   command.add_option("--shard", arguments.shard, "Only part I of N of the list")->type_name("I/N");
   command.add_flag("--wait", arguments.options.wait, "Wait while another batch writes into the same folder");
-  command.add_option("--classify", arguments.mode, "As of faultline diagnose")
-      ->check(CLI::IsMember({"evidence", "samples"}))
-      ->capture_default_str();
-  command.add_option("--criterion", arguments.criterion, "As of faultline diagnose")
-      ->check(CLI::IsMember({"log_odds", "consecutive"}))
-      ->capture_default_str();
-  command.add_option("--g", arguments.options.diagnose.g, "As of faultline diagnose")
-      ->check(CLI::NonNegativeNumber);
+  add_diagnose_options(command, arguments.options.diagnose, "As of faultline diagnose");
 }
 
 void refuse_incomplete(const BatchArguments& arguments) {
@@ -157,7 +137,6 @@ void add_batch(CLI::App& app, Program& program) {
   command->callback([arguments, command, &program] {
     if (command->got_subcommand("merge")) return;
     refuse_incomplete(*arguments);
-    if (arguments->cases.empty()) arguments->cases = arguments->model + ".cases.db";
     program.run = [arguments, &program] { return run_command(*arguments, program.color); };
   });
 }

@@ -6,6 +6,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/progress.hpp"
+#include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/error.hpp"
@@ -19,6 +20,14 @@ struct ConvertArguments {
   std::string out;
   std::string robot;
 };
+
+/// ".csv (- for standard output) or .flog".
+std::string written_extensions() {
+  std::vector<std::string> extensions;
+  for (const LogFormat& format : written_formats()) extensions.push_back(format.extensions.front());
+  extensions.front() += " (- for standard output)";
+  return either_of(extensions);
+}
 
 void refuse_same_file(const ConvertArguments& arguments) {
   std::error_code ignored;
@@ -68,8 +77,7 @@ void add_convert(CLI::App& app, Program& program) {
   CLI::App* command =
       app.add_subcommand("convert", "Write a log in another format, its columns as channels in SI");
   command->add_option("LOG", arguments->log, "The log to read")->required();
-  command->add_option("OUT", arguments->out, "The file to write: .csv (- for standard output) or .flog")
-      ->required();
+  command->add_option("OUT", arguments->out, "The file to write: " + written_extensions())->required();
   command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
       ->type_name("ROBOT.toml");
   command->footer(

@@ -5,25 +5,18 @@
 
 #include "apps/exit_status.hpp"
 #include "apps/progress.hpp"
-#include "formats/open_log.hpp"
+#include "apps/robot_log.hpp"
 #include "lib/golden/golden_folder.hpp"
 
 namespace faultline {
 
 std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model) {
-  OpenLogOptions options;
-  options.columns = model.robot.log.columns;
-  options.keep_extra = false;
-  return open_log(path, options);
-}
-
-std::string cases_path(const GoldenArguments& arguments) {
-  return arguments.cases.empty() ? arguments.model + ".cases.db" : arguments.cases;
+  return open_robot_log(path, model.robot);
 }
 
 ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set) {
   return arguments.model.empty() ? load_golden_model(arguments.folder, set)
-                                 : load_model_and_cases(arguments.model, cases_path(arguments));
+                                 : load_model_and_cases(arguments.model, arguments.case_base());
 }
 
 GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
@@ -38,24 +31,17 @@ int golden_status(const GoldenCheck& check) {
   return check.same() ? kNothingFound : kFindings;
 }
 
-void add_model_options(CLI::App* command, GoldenArguments& arguments, const char* what) {
-  CLI::Option* model = command->add_option("--model", arguments.model, what)->type_name("MODEL");
-  command->add_option("--cases", arguments.cases, "Its case base, MODEL.cases.db by default")
-      ->type_name("FILE")
-      ->needs(model);
+void add_golden_model(CLI::App& command, GoldenArguments& arguments, const char* what) {
+  CLI::Option* model = add_model_option(command, arguments, what);
+  add_cases_option(command, arguments, "Its case base")->needs(model);
 }
 
-void add_json_option(CLI::App* command, GoldenArguments& arguments) {
-  command
-      ->add_option("--json", arguments.json,
-                   "Write differences and all that was compared as JSON; - for standard output")
-      ->type_name("F");
+void add_golden_json(CLI::App& command, GoldenArguments& arguments) {
+  add_file_option(command, "--json", arguments.json, "Write differences and all that was compared as JSON");
 }
 
-void add_threads_option(CLI::App* command, GoldenArguments& arguments) {
-  command->add_option("--threads", arguments.threads, "0 = one a core; changes no byte")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+void add_golden_threads(CLI::App& command, GoldenArguments& arguments) {
+  add_threads_option(command, arguments.threads)->check(CLI::NonNegativeNumber);
 }
 
 void add_golden(CLI::App& app, Program& program) {

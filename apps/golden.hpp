@@ -6,29 +6,27 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/options.hpp"
 #include "lib/golden/check.hpp"
 #include "lib/golden/replay.hpp"
 
 namespace faultline {
 
-/// What the actions of faultline golden have in common.
-struct GoldenArguments {
+/// What the actions of faultline golden have in common; without --model the folder's own model is meant.
+struct GoldenArguments : ModelPaths {
   std::string folder;
-  std::string model, cases;  ///< another model than the folder's; empty = the folder's
   std::string json, junit;
   int threads = 0;
 };
 
 /// Adds --model with --cases, --json and --threads, as far as an action has them.
-void add_model_options(CLI::App* command, GoldenArguments& arguments, const char* what);
-void add_json_option(CLI::App* command, GoldenArguments& arguments);
-void add_threads_option(CLI::App* command, GoldenArguments& arguments);
+void add_golden_model(CLI::App& command, GoldenArguments& arguments, const char* what);
+void add_golden_json(CLI::App& command, GoldenArguments& arguments);
+void add_golden_threads(CLI::App& command, GoldenArguments& arguments);
 
 /// Opens a log as the model's robot file says.
 std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model);
 
-/// Where the case base of --model lies.
-std::string cases_path(const GoldenArguments& arguments);
 /// That of --model, else the folder's.
 ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set);
 /// Replays the folder's logs, with a progress bar.

@@ -78,7 +78,7 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
     return kNothingFound;
   }
   accept_golden(arguments.folder, set, run, names,
-                new_model ? NewModel{arguments.model, cases_path(arguments), &subject} : NewModel{});
+                new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{});
   print(fmt::format("Accepted: {}{}\n", printable(fmt::format("{}", fmt::join(names, ", "))),
                     new_model ? ", and the model" : ""));
   return kNothingFound;
@@ -96,9 +96,9 @@ void add_golden_accept(CLI::App* golden, Program& program) {
       command->add_option("NAME", arguments->names, "Logs to accept, or identification; none: only show");
   CLI::Option* all =
       command->add_flag("--all", arguments->all, "Accept everything that differs")->excludes(names);
-  add_model_options(command, *arguments, "Take this model into the folder; needs --all");
+  add_golden_model(*command, *arguments, "Take this model into the folder; needs --all");
   command->get_option("--model")->needs(all);
-  add_threads_option(command, *arguments);
+  add_golden_threads(*command, *arguments);
   command->footer(
       "Exit status 0: accepted or nothing to accept, 1: nothing named though something differs.\n"
       "Example: faultline golden accept golden locked_1.csv identification");

@@ -38,11 +38,10 @@ void add_golden_check(CLI::App* golden, Program& program) {
   CLI::App* command = golden->add_subcommand("check", "Replay all golden logs and compare; changes nothing");
   command->fallthrough();
   command->add_option("DIR", arguments->folder, "The golden folder")->required();
-  add_model_options(command, *arguments, "Replay with this model instead of the folder's");
-  add_json_option(command, *arguments);
-  command->add_option("--junit", arguments->junit, "Write JUnit XML for a CI server; - for standard output")
-      ->type_name("F");
-  add_threads_option(command, *arguments);
+  add_golden_model(*command, *arguments, "Replay with this model instead of the folder's");
+  add_golden_json(*command, *arguments);
+  add_file_option(*command, "--junit", arguments->junit, "Write JUnit XML for a CI server");
+  add_golden_threads(*command, *arguments);
   command->footer(
       "Exit status 0: as expected, 1: something differs, 3: a golden file is damaged.\n"
       "Example: faultline golden check golden --junit golden.xml");

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/golden.hpp"
+#include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/golden/check_text.hpp"
 #include "lib/golden/golden_folder.hpp"
@@ -22,7 +23,7 @@ bool is_result(const std::string& text) {
 GoldenRun side(const std::string& path, const CompareArguments& arguments, const GoldenSet& set,
                ColorChoice color) {
   if (const std::string text = read_file(path); is_result(text)) return run_from_json(text, path);
-  return golden_run(arguments, set, load_model_and_cases(path, path + ".cases.db"), color);
+  return golden_run(arguments, set, load_model_and_cases(path, case_base_path(path)), color);
 }
 
 int run_compare(const CompareArguments& arguments, ColorChoice color) {
@@ -46,14 +47,14 @@ void add_golden_compare(CLI::App* golden, Program& program) {
   command->fallthrough();
   command->add_option("DIR", arguments->folder, "The golden folder")->required();
   command
-      ->add_option(
-          "SIDE", arguments->sides,
-          "A model (with MODEL.cases.db beside it), or what golden check --json wrote, by any version of the "
-          "program; one alone is compared with the folder's model and this program")
+      ->add_option("SIDE", arguments->sides,
+                   "A model (with " + case_base_path("MODEL") +
+                       " beside it), or what golden check --json wrote, by any version of the "
+                       "program; one alone is compared with the folder's model and this program")
       ->required()
       ->expected(1, 2);
-  add_json_option(command, *arguments);
-  add_threads_option(command, *arguments);
+  add_golden_json(*command, *arguments);
+  add_golden_threads(*command, *arguments);
   command->footer(
       "Exit status 0: both say the same within the folder's tolerances, 1: they differ.\n"
       "Example: faultline golden compare golden old.model new.model\n"

@@ -39,7 +39,7 @@ int run_record(const RecordArguments& arguments, ColorChoice color) {
   make_folder(arguments.folder);
   ProgressBar bar(color);
   const Recorded recorded =
-      record_golden(arguments.folder, arguments.logs, arguments.model, cases_path(arguments), open_golden_log,
+      record_golden(arguments.folder, arguments.logs, arguments.model, arguments.case_base(), open_golden_log,
                     arguments.options, bar.callback());
   print(recorded_text(recorded, arguments.folder));
   return kNothingFound;
@@ -53,7 +53,7 @@ void add_golden_record(CLI::App* golden, Program& program) {
       golden->add_subcommand("record", "Make a golden folder: logs, model and what faultline says now");
   command->fallthrough();
   command->add_option("LOG", arguments->logs, "Small logs, healthy ones and such with faults")->required();
-  add_model_options(command, *arguments, "Model made by faultline learn");
+  add_golden_model(*command, *arguments, "Model made by faultline learn");
   command->get_option("--model")->required();
   command->add_option("-o,--output", arguments->folder, "The folder to make")->required()->type_name("DIR");
   command->add_flag("--no-identification", arguments->no_identification,
@@ -63,7 +63,7 @@ void add_golden_record(CLI::App* golden, Program& program) {
                    "Points of the foretold motion to keep of a log, at most")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  add_threads_option(command, *arguments);
+  add_golden_threads(*command, *arguments);
   command->footer("Example: faultline golden record runs/*.csv --model robot.model -o golden");
   command->callback([arguments, &program] {
     arguments->options.identify = !arguments->no_identification;

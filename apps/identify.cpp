@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,10 +12,10 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "formats/open_log.hpp"
+#include "apps/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/core/enum_named.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -27,18 +27,11 @@ struct IdentifyArguments {
   std::string robot;
   std::string output;
   std::string json;
-  std::string method = "automatic";
-  int threads = 0;
+  IdentifyOptions options;
 };
 
-IdentifyOptions options_from(const IdentifyArguments& arguments) {
-  IdentifyOptions options;
-  options.threads = arguments.threads;
-  if (const auto method = enum_named(arguments.method, {IdentifyMethod::automatic, IdentifyMethod::weak_form,
-                                                        IdentifyMethod::output_error}))
-    options.method = *method;
-  return options;
-}
+constexpr std::array kMethods{IdentifyMethod::automatic, IdentifyMethod::weak_form,
+                              IdentifyMethod::output_error};
 
 std::string row(const ParameterEstimate& e) {
   if (!e.identifiable) return fmt::format("  {:<9} not identifiable: {}\n", e.name, e.why_not);
@@ -74,11 +67,11 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
   std::vector<std::unique_ptr<LogSource>> sources;
   std::vector<LogSource*> logs;
   for (const std::string& path : arguments.logs) {
-    sources.push_back(open_log(path, {robot.log.columns, 4096, false}));
+    sources.push_back(open_robot_log(path, robot));
     logs.push_back(sources.back().get());
   }
   ProgressBar bar(color);
-  const Identification id = identify(logs, robot, options_from(arguments), bar.callback());
+  const Identification id = identify(logs, robot, arguments.options, bar.callback());
   if (!arguments.output.empty()) write_file(arguments.output, robot_file_text(id.robot));
   if (!arguments.json.empty()) write_file(arguments.json, to_json(id).dump(2) + "\n");
   if (arguments.json != "-" && arguments.output != "-") print(table(id));
@@ -98,10 +91,10 @@ void add_identify(CLI::App& app, Program& program) {
                    "Write the identified robot file here; - is standard output")
       ->required();
   command->add_option("--json", arguments->json, "Write the identification as JSON; - is standard output");
-  command->add_option("--method", arguments->method, "automatic, weak_form or output_error")
-      ->check(CLI::IsMember({"automatic", "weak_form", "output_error"}));
+  add_choice_option(*command, "--method", arguments->options.method, kMethods,
+                    "automatic, weak_form or output_error");
   command
-      ->add_option("--threads", arguments->threads,
+      ->add_option("--threads", arguments->options.threads,
                    "Threads; 0 is one a core. The result does not depend on it")
       ->check(CLI::NonNegativeNumber);
   command->footer(

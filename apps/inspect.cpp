@@ -6,6 +6,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/inspection.hpp"
+#include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -59,10 +60,8 @@ void add_inspect(CLI::App& app, Program& program) {
   command->add_option("LOG", arguments->logs, "Log files")->required();
   command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
       ->type_name("ROBOT.toml");
-  command
-      ->add_option("--json", arguments->json,
-                   "Write the findings as JSON to this file, - for standard output")
-      ->type_name("F");
+  add_file_option(*command, "--json", arguments->json, "Write the findings as JSON",
+                  " to this file, - for standard output");
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

@@ -11,6 +11,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/folder.hpp"
+#include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/reproduce/page/figure_text.hpp"
@@ -84,9 +85,7 @@ void add_reproduce(CLI::App& app, Program& program) {
   command->add_option("--seed", options.seed, "Of the first experiment")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--threads", options.threads, "0 = one a core; changes no byte")
-      ->type_name("N")
-      ->capture_default_str();
+  add_threads_option(*command, options.threads)->type_name("N");
   command->add_flag("--json", arguments->json, "Print index.json instead of a summary");
   command->footer(
       "The full run takes some ten minutes on two cores.\nExample: faultline reproduce --quick -o "

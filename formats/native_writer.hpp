@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "formats/write_log.hpp"
+#include <memory>
+#include <string>
+
+#include "formats/log_writer.hpp"
 
 namespace faultline {
 

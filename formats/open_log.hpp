@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "lib/log/channels.hpp"
 #include "lib/log/log_source.hpp"
@@ -24,12 +23,5 @@ std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOption
 
 /// The file's columns before any channel mapping; for looking into files that are no joint log.
 std::unique_ptr<RawReader> open_raw(const std::string& path);
-
-/// Names of the formats that can be read, and the extensions that usually go with them.
-struct FormatInfo {
-  std::string name;
-  std::vector<std::string> extensions;
-};
-std::vector<FormatInfo> log_formats();
 
 }  // namespace faultline

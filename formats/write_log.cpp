@@ -3,18 +3,29 @@
 
 #include <filesystem>
 
-#include "formats/csv_writer.hpp"
-#include "formats/native_writer.hpp"
+#include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
+namespace {
+
+/// Such as ".csv (text)".
+std::vector<std::string> choices(const std::vector<LogFormat>& formats) {
+  std::vector<std::string> all;
+  for (const LogFormat& format : formats) all.push_back(format.extensions.front() + " (" + format.what + ")");
+  return all;
+}
+
+}  // namespace
 
 std::unique_ptr<LogWriter> create_log(const std::string& path) {
+  const std::vector<LogFormat> formats = written_formats();
+  if (path == "-") return formats.front().create(path);
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (path == "-" || extension == ".csv") return create_csv(path);
-  if (extension == ".flog") return create_native(path);
+  for (const LogFormat& format : formats)
+    if (extension == format.extensions.front()) return format.create(path);
   throw Error(ErrorCode::usage, path,
-              "the extension decides the format of a log: use .csv (text) or .flog (binary, exact, fast)");
+              "the extension decides the format of a log: use " + either_of(choices(formats)));
 }
 
 void write_log(const std::string& path, const Log& log) {

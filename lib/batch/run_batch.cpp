@@ -19,7 +19,7 @@ std::string options_text(const BatchOptions& options) {
   std::string text = "--classify evidence";
   if (options.diagnose.mode == ClassifyMode::samples) {
     text = "--classify samples --criterion ";
-    text += options.diagnose.criterion == CriterionKind::consecutive ? "consecutive" : "log_odds";
+    text += to_string(options.diagnose.criterion);
     text += " --g " + std::to_string(options.diagnose.g);
   }
   if (options.html) text += " --html";

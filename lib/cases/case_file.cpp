@@ -142,7 +142,8 @@ void check_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
-    refuse(path, "there is no such case base; learn writes one beside the model as MODEL.cases.db");
+    refuse(path,
+           "there is no such case base; learn writes one beside the model as " + case_base_path("MODEL"));
   if (status.type() == std::filesystem::file_type::directory)
     refuse(path, "is a directory, a case base file was expected");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
@@ -188,6 +189,8 @@ struct Temporary {
 };
 
 }  // namespace
+
+std::string case_base_path(const std::string& model) { return model + ".cases.db"; }
 
 CaseBase read_case_base(const std::string& path) {
   check_file(path);

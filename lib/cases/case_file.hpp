@@ -8,6 +8,9 @@
 
 namespace faultline {
 
+/// Where the case base of a model lies unless the user says otherwise: MODEL.cases.db beside it.
+std::string case_base_path(const std::string& model);
+
 /// The case base as one SQLite file: application id "FLCB", schema version 1 (docs/model-and-case-base.md).
 /// All functions throw Error(input) that says what is wrong with the file: missing, a directory, empty,
 /// truncated, damaged, written by another program or by a newer faultline.

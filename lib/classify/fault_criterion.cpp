@@ -163,6 +163,16 @@ std::vector<CriterionOptions> settings_to_try(const CriterionOptions& start) {
 
 }  // namespace
 
+const char* to_string(CriterionKind kind) {
+  switch (kind) {
+    case CriterionKind::consecutive:
+      return "consecutive";
+    case CriterionKind::log_odds:
+      return "log_odds";
+  }
+  return "";
+}
+
 std::vector<SampleEpisode> apply_criterion(const CriterionOptions& options, const OutputMeaning& meaning,
                                            const Eigen::Ref<const VectorXd>& time,
                                            const Eigen::Ref<const Eigen::MatrixXd>& outputs,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -16,6 +17,8 @@ enum class CriterionKind {
   log_odds,     ///< log odds of each fault against fault-free, summed while positive (Page's CUSUM), pass a
                 ///< threshold
 };
+inline constexpr std::array kCriterionKinds{CriterionKind::log_odds, CriterionKind::consecutive};
+const char* to_string(CriterionKind kind);
 
 struct CriterionOptions {
   CriterionKind kind = CriterionKind::log_odds;

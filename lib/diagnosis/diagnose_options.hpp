@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "lib/classify/fault_criterion.hpp"
 
 namespace faultline {
@@ -10,6 +12,8 @@ enum class ClassifyMode {
   evidence,  ///< the bank of hypotheses finds episodes, both networks judge their evidence, cases settle
   samples,   ///< the paper's: both networks over the residuals of each sample, and the fault criterion
 };
+inline constexpr std::array kClassifyModes{ClassifyMode::evidence, ClassifyMode::samples};
+const char* to_string(ClassifyMode mode);
 
 struct DiagnoseOptions {
   ClassifyMode mode = ClassifyMode::evidence;

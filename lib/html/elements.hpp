@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/html/report_details.hpp"
+#include "lib/report/fact_table.hpp"
 
 /// Pieces of a page; every text is escaped.
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/html/figures.hpp"
+#include "lib/html/page_figures.hpp"
 
 namespace faultline {
 

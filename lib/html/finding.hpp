@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/diagnosis/diagnosis.hpp"
-#include "lib/html/figures.hpp"
+#include "lib/html/page_figures.hpp"
 
 namespace faultline {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "lib/diagnosis/diagnose_options.hpp"
@@ -9,15 +8,9 @@
 #include "lib/log/log_source.hpp"
 #include "lib/model/model.hpp"
 #include "lib/replay/curves.hpp"
+#include "lib/report/fact_table.hpp"
 
 namespace faultline {
-
-/// Facts for a person to read, a row each.
-struct FactTable {
-  std::string title;
-  std::vector<std::string> head;  ///< empty for name and value
-  std::vector<std::vector<std::string>> rows;
-};
 
 /// What a page shows besides the diagnosis: the course of the run, and what the model knows of itself.
 struct ReportDetails {

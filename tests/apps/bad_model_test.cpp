@@ -73,7 +73,7 @@ TEST_F(BadModel, NotText) {
 TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
   const Learned learned = learn_small();
   const std::string text = model_to_json(learned.model);
-  const std::string model = folder_.write("good.model", text), cases = folder_.file("good.model.cases.db");
+  const std::string model = folder_.write("good.model", text), cases = case_base_path(model);
   write_case_base(cases, learned.cases);
   const std::string base = read_file(cases);
   std::vector<std::string> arguments = {"diagnose", folder_.write("log.csv", kLog), "--model", model};

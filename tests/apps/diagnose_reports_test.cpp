@@ -5,6 +5,7 @@
 #include "formats/write_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/html/report_formats.hpp"
 #include "tests/pipeline/small_robot.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,7 +19,7 @@ class DiagnoseReports : public ::testing::Test {
   DiagnoseReports() {
     const Learned learned = learn_small();
     model_ = folder_.write("slide.json", model_to_json(learned.model));
-    write_case_base(model_ + ".cases.db", learned.cases);
+    write_case_base(case_base_path(model_), learned.cases);
     SimulationSpec spec = small_run(7.0);
     spec.faults = {{FaultKind::locked, 1, 3.004, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
     log_ = folder_.file("run.csv");
@@ -53,6 +54,18 @@ TEST_F(DiagnoseReports, PageAndMarkdownAreWrittenAndAreTheSameEachTime) {
 
   const ProgramRun piped = diagnose({"--html", "-"});
   EXPECT_EQ(piped.out, page);
+}
+
+TEST_F(DiagnoseReports, EveryFormatHasItsOption) {
+  const std::string help = run_program({"diagnose", "--help"}).out;
+  std::vector<std::string> arguments;
+  for (const ReportFormat& format : report_formats()) {
+    EXPECT_NE(help.find(std::string("--") + format.name + " F"), std::string::npos) << format.name;
+    arguments.insert(arguments.end(), {std::string("--") + format.name, folder_.file(format.name)});
+  }
+  EXPECT_EQ(diagnose(arguments).status, 1);
+  for (const ReportFormat& format : report_formats())
+    EXPECT_FALSE(read_file(folder_.file(format.name)).empty()) << format.name;
 }
 
 }  // namespace

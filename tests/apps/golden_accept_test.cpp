@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "lib/cases/case_file.hpp"
 #include "tests/apps/golden_copy.hpp"
 
 namespace faultline {
@@ -87,7 +88,7 @@ TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
   std::string text = read_file(golden_.file("", "model-"));
   const std::string old_name = std::filesystem::path(golden_.file("", "model-")).filename();
   write_file(model, text + " ");
-  std::filesystem::copy_file(golden_.file("", "cases-"), model + ".cases.db");
+  std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
   EXPECT_EQ(golden_.run("accept", {"locked_1", "--model", model}).status, 2);
   EXPECT_EQ(golden_.run("accept", {"--all", "--model", model}).status, 0);
   EXPECT_EQ(golden_.run("check").status, 0);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "lib/cases/case_file.hpp"
 #include "lib/core/hash.hpp"
 #include "tests/apps/golden_copy.hpp"
 
@@ -114,7 +115,7 @@ TEST(GoldenCheck, AnotherModelIsComparedWithWhatIsExpected) {
   const std::size_t number = model.find_first_of("0123456789", model.find(rms) + rms.size());
   model.insert(number, "1");
   write_file(golden.outside("other.model"), model);
-  std::filesystem::copy_file(golden.file("", "cases-"), golden.outside("other.model.cases.db"));
+  std::filesystem::copy_file(golden.file("", "cases-"), case_base_path(golden.outside("other.model")));
   const ProgramRun run = golden.run("check", {"--model", golden.outside("other.model")});
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_TRUE(has(run.out, "model other.model")) << run.out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lib/cases/case_file.hpp"
 #include "tests/apps/golden_copy.hpp"
 
 namespace faultline {
@@ -18,7 +19,7 @@ class GoldenRecord : public testing::Test {
  protected:
   GoldenRecord() {
     fs::copy_file(golden_.file("", "model-"), model_);
-    fs::copy_file(golden_.file("", "cases-"), model_ + ".cases.db");
+    fs::copy_file(golden_.file("", "cases-"), case_base_path(model_));
   }
 
   std::string log(const std::string& name) const { return golden_.path() + "/logs/" + name; }

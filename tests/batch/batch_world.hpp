@@ -21,7 +21,7 @@ class BatchWorld {
   BatchWorld() {
     static const Learned learned = learn_small();
     write_file(model(), model_to_json(learned.model));
-    write_case_base(model() + ".cases.db", learned.cases);
+    write_case_base(case_base_path(model()), learned.cases);
     std::filesystem::create_directories(logs());
   }
 

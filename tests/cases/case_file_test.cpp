@@ -46,6 +46,10 @@ class CaseFile : public testing::Test {
   std::string path_ = folder_.file("robot.cases.db");
 };
 
+TEST_F(CaseFile, LiesBesideItsModelUnlessSaidOtherwise) {
+  EXPECT_EQ(case_base_path("runs/robot.json"), "runs/robot.json.cases.db");
+}
+
 TEST_F(CaseFile, RoundTripKeepsTheContent) {
   const CaseBase base = awkward_base();
   write_case_base(path_, base);

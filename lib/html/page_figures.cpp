@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/html/figures.hpp"
+#include "lib/html/page_figures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/cases/case_base.hpp"
+
+namespace faultline {
+
+/// A case in one line of a list.
+std::string case_line(const Case& c);
+
+/// A case with opinions, evidence and features; `base` tells their names, scales and weights.
+std::string case_text(const CaseBase& base, const Case& c);
+
+}  // namespace faultline

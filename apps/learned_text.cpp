@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "apps/learned_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lib/identify/identification_json.hpp"
+#include "lib/report/model_facts.hpp"
+
+namespace faultline {
+namespace {
+
+std::string delay_text(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{:.3f}", seconds) : "-";
+}
+
+std::string counts_text(const std::string& name, const ValidationRow& row) {
+  const std::vector<std::string> counts = validation_counts(row);
+  return fmt::format("{:<18} {:>5} {:>6} {:>6} {:>6} {:>8}", name, counts[0], counts[1], counts[2], counts[3],
+                     counts[4]);
+}
+
+ValidationRow sum_of(const std::vector<ValidationRow>& rows) {
+  ValidationRow all;
+  for (const ValidationRow& row : rows) {
+    all.runs += row.runs;
+    all.detected += row.detected;
+    all.right_joint += row.right_joint;
+    all.right_kind_and_joint += row.right_kind_and_joint;
+    all.right_or_named += row.right_or_named;
+  }
+  return all;
+}
+
+std::string validation_text(const Validation& validation) {
+  std::string text = fmt::format("{:<18} {:>5} {:>6} {:>6} {:>6} {:>8} {:>10} {:>8}\n", "simulated fault",
+                                 "runs", "found", "joint", "both", "or named", "delay/s", "p90/s");
+  for (const ValidationRow& row : validation.rows)
+    text += fmt::format("{} {:>10} {:>8}\n", counts_text(to_string(row.kind), row),
+                        delay_text(row.median_delay_s), delay_text(row.p90_delay_s));
+  text += counts_text("all", sum_of(validation.rows)) + "\n";
+  return text +
+         fmt::format(
+             "False alarms: {} in {:.2f} h of simulated healthy running; alarms before the onset: {}.\n",
+             validation.false_alarms, validation.healthy_hours, validation.early_alarms);
+}
+
+std::string parameter_text(const Identification& identification) {
+  std::string text;
+  for (const ParameterEstimate* p : listed_parameters(identification))
+    if (p->identifiable)
+      text += fmt::format("  {:<6} {:>11.5g} +- {:<8.2g} {}\n", p->name, p->value,
+                          0.5 * (p->ci95[1] - p->ci95[0]), p->unit);
+    else
+      text += fmt::format("  {:<6} not determined: {}\n", p->name, p->why_not);
+  return text;
+}
+
+}  // namespace
+
+std::string learned_text(const Learned& learned, const std::string& model_path,
+                         const std::string& case_base_path) {
+  std::string text = fmt::format("Learned \"{}\" from {} logs at {:.4g} Hz.\n", learned.model.name,
+                                 learned.model.sources.size(), 1.0 / learned.model.sample_period_s);
+  text += fmt::format("\nIdentified, with 95 % intervals ({}):\n{}", to_string(learned.identification.status),
+                      parameter_text(learned.identification));
+  text += fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
+                      validation_text(learned.model.validation));
+  text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
+                      learned.cases.cases().size());
+  return text;
+}
+
+std::string learned_json(const Learned& learned) {
+  const nlohmann::ordered_json model = nlohmann::ordered_json::parse(model_to_json(learned.model));
+  nlohmann::ordered_json json{{"schema", "faultline/learning/1"}, {"name", learned.model.name}};
+  json["identification"] = to_json(learned.identification);
+  json["identification"].erase("state");
+  json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
+                 {"persistence_mse", learned.residual.persistence_mse}};
+  for (const char* key : {"sample_period_s", "sources", "validation", "evidence"}) json[key] = model[key];
+  json["cases"] = learned.cases.cases().size();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace faultline

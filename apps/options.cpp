@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "apps/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "lib/cases/case_file.hpp"
+
+namespace faultline {
+
+std::string ModelPaths::case_base() const { return cases.empty() ? case_base_path(model) : cases; }
+
+CLI::Option* add_model_option(CLI::App& command, ModelPaths& paths, const std::string& what) {
+  return command.add_option("--model", paths.model, what)->type_name("MODEL");
+}
+
+CLI::Option* add_cases_option(CLI::App& command, ModelPaths& paths, const std::string& what) {
+  return command.add_option("--cases", paths.cases, what + ", " + case_base_path("MODEL") + " by default")
+      ->type_name("FILE");
+}
+
+CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::string& path,
+                             const std::string& what, const std::string& where) {
+  return command.add_option(flag, path, what + where)->type_name("F");
+}
+
+CLI::Option* add_threads_option(CLI::App& command, int& threads) {
+  return command.add_option("--threads", threads, "0 = one a core; changes no byte")->capture_default_str();
+}
+
+void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std::string& help) {
+  const auto words = [&](const char* own) { return help.empty() ? own : help; };
+  add_choice_option(
+      command, "--classify", options.mode, kClassifyModes,
+      words(
+          "evidence: hypotheses on the identified robot, judged by both networks; samples: the paper's way, "
+          "both networks over the residuals of each sample"))
+      ->default_str(to_string(options.mode));
+  add_choice_option(command, "--criterion", options.criterion, kCriterionKinds,
+                    words("With --classify samples: sum of log odds, or g consecutive samples (the paper)"))
+      ->default_str(to_string(options.criterion));
+  command.add_option("--g", options.g, words("With --criterion consecutive: samples; 0 = as tuned by learn"))
+      ->check(CLI::NonNegativeNumber);
+}
+
+CLI::Option* add_choice_option(CLI::App& command, const std::string& flag,
+                               const std::vector<std::string>& names,
+                               const std::function<void(std::size_t)>& take, const std::string& help) {
+  const auto take_named = [names, take](const std::string& name) {
+    take(static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+  };
+  return command.add_option_function<std::string>(flag, take_named, help)->check(CLI::IsMember(names));
+}
+
+}  // namespace faultline

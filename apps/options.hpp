@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lib/diagnosis/diagnose_options.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+/// Options that several commands have.
+namespace faultline {
+
+/// A model and its case base.
+struct ModelPaths {
+  std::string model;
+  std::string cases;  ///< empty: beside the model
+
+  std::string case_base() const;
+};
+CLI::Option* add_model_option(CLI::App& command, ModelPaths& paths,
+                              const std::string& what = "Model made by faultline learn");
+/// `what` begins the help; that MODEL.cases.db is the default ends it.
+CLI::Option* add_cases_option(CLI::App& command, ModelPaths& paths, const std::string& what = "Case base");
+
+/// A file to be written, or - for standard output.
+CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::string& path,
+                             const std::string& what, const std::string& where = "; - for standard output");
+
+/// --threads of work whose result does not depend on it.
+CLI::Option* add_threads_option(CLI::App& command, int& threads);
+
+/// --classify, --criterion and --g; `help` stands in place of what they say of themselves.
+void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std::string& help = "");
+
+/// An option that takes one of `names` and calls `take` with its place among them.
+CLI::Option* add_choice_option(CLI::App& command, const std::string& flag,
+                               const std::vector<std::string>& names,
+                               const std::function<void(std::size_t)>& take, const std::string& help);
+
+/// An option that takes one of `all` by its name.
+template <typename Enum, std::size_t kCount>
+CLI::Option* add_choice_option(CLI::App& command, const std::string& flag, Enum& value,
+                               const std::array<Enum, kCount>& all, const std::string& help) {
+  std::vector<std::string> names;
+  for (const Enum one : all) names.push_back(to_string(one));
+  return add_choice_option(
+      command, flag, names, [&value, all](std::size_t i) { value = all[i]; }, help);
+}
+
+}  // namespace faultline

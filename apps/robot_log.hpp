@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lib/log/log_source.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// Opens a log of this robot for learning or diagnosis: its columns mean what the robot file says, and those
+/// without a meaning are passed over. Throws as open_log().
+std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot);
+
+}  // namespace faultline

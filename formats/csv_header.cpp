@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "formats/csv_header.hpp"
+
+#include "formats/csv_fields.hpp"
+#include "lib/log/units.hpp"
+
+namespace faultline {
+namespace {
+
+/// A header behind a comment sign, as numpy.savetxt and rostopic write it.
+bool take_commented_header(const CsvLine& line, const CsvDialect& dialect, int fields,
+                           std::vector<std::string>& names) {
+  std::string_view text = without_blanks(line.text);
+  while (!text.empty() && (text.front() == '#' || text.front() == '%')) text.remove_prefix(1);
+  std::vector<std::string_view> parts;
+  split_fields(text, dialect.separator, parts);
+  if (static_cast<int>(parts.size()) != fields) return false;
+  for (const std::string_view part : parts)
+    if (read_cell(part, dialect.decimal).kind != CellKind::text) return false;
+  names.assign(parts.begin(), parts.end());
+  return true;
+}
+
+std::string_view unit_without_brackets(std::string_view unit) {
+  return unit.size() > 2 && (unit.front() == '[' || unit.front() == '(') ? unit.substr(1, unit.size() - 2)
+                                                                         : unit;
+}
+
+bool is_units_line(const CsvLine& line, int fields) {
+  if (line.comment || static_cast<int>(line.fields.size()) != fields) return false;
+  for (const std::string_view field : line.fields)
+    if (!si_factor(unit_without_brackets(field))) return false;
+  return line.texts > 0;
+}
+
+bool could_be_header(const CsvLine& line, int fields, bool last_data_cell_missing) {
+  const int have = static_cast<int>(line.fields.size());
+  return !line.comment && line.numbers == 0 && line.texts > 0 &&
+         (have == fields || (have == fields - 1 && last_data_cell_missing && have > 1));
+}
+
+/// Names and units by field; no names when there is no header.
+struct Header {
+  std::vector<std::string> names, units;
+};
+
+/// From the lines above the rows.
+Header find_header(std::span<const CsvLine> above, bool open_end, int fields, CsvDialect& dialect) {
+  Header header;
+  std::size_t line = above.size();
+  dialect.preamble_lines = 0;
+  for (std::size_t i = above.size(); i-- > 0;) {
+    if (header.names.empty() && header.units.empty() && is_units_line(above[i], fields) && i > 0 &&
+        could_be_header(above[i - 1], fields, open_end)) {
+      for (const std::string_view unit : above[i].fields)
+        header.units.emplace_back(unit_without_brackets(unit));
+      continue;
+    }
+    if (header.names.empty() && could_be_header(above[i], fields, open_end)) {
+      header.names.assign(above[i].fields.begin(), above[i].fields.end());
+      line = i;
+      continue;
+    }
+    dialect.preamble_lines += !above[i].comment;
+  }
+  for (std::size_t i = above.size(); i-- > 0 && header.names.empty();)
+    if (above[i].comment && take_commented_header(above[i], dialect, fields, header.names)) line = i;
+  dialect.has_header = line < above.size();
+  return header;
+}
+
+/// "name,value,name,value" rows, as `ros2 topic echo --csv` writes key-value statistics.
+bool names_stand_in_rows(const CsvLine& first, const CsvLine* second, std::vector<std::string>& names) {
+  int pairs = 0;
+  std::vector<std::string> found(first.fields.size());
+  for (std::size_t i = 0; i + 1 < first.fields.size(); ++i) {
+    const bool name = read_cell(first.fields[i], '.').kind == CellKind::text;
+    const bool same = !second || (i < second->fields.size() && second->fields[i] == first.fields[i]);
+    if (!name || read_cell(first.fields[i + 1], '.').kind == CellKind::text) continue;
+    if (!same) return false;
+    found[i + 1] = std::string(first.fields[i]);
+    ++pairs;
+  }
+  if (pairs < 3) return false;
+  names = found;
+  return true;
+}
+
+/// The first two fields of a row without header when they are seconds since 1970 and nanoseconds.
+bool starts_with_stamp(const CsvLine& line) {
+  if (line.fields.size() < 3) return false;
+  const Cell seconds = read_cell(line.fields[0], '.'), nanoseconds = read_cell(line.fields[1], '.');
+  const bool whole = line.fields[0].find('.') == std::string_view::npos &&
+                     line.fields[1].find('.') == std::string_view::npos;
+  return whole && seconds.value > 1e9 && seconds.value < 4e9 && nanoseconds.value > 1e5 &&
+         nanoseconds.value < 1e9;
+}
+
+void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vector<std::string>& names) {
+  const CsvLine* second = rows.size() > 1 ? &rows[1] : nullptr;
+  dialect.names_in_rows = names_stand_in_rows(rows[0], second, names);
+  names.resize(rows[0].fields.size());
+  if (starts_with_stamp(rows[0])) names[0] = "sec", names[1] = "nanosec";
+}
+
+void make_columns(const Header& header, int fields, const CsvLine* row, CsvDialect& dialect) {
+  const auto& [names, units] = header;
+  dialect.fields = fields;
+  for (int i = 0; i < fields; ++i) {
+    const std::string name = i < static_cast<int>(names.size()) ? names[i] : "";
+    const bool missing = !row || read_cell(row->fields[i], dialect.decimal).kind == CellKind::missing;
+    if (name.empty() && i == fields - 1 && missing && fields > 1)
+      continue;  // a separator at the end of each row
+    if (name.empty() && dialect.names_in_rows && read_cell(row->fields[i], '.').kind != CellKind::number)
+      continue;
+    const NameAndUnit parts = split_unit(name);
+    RawColumn column{name.empty() ? "column" + std::to_string(i + 1) : parts.name, parts.unit};
+    if (column.unit.empty() && i < static_cast<int>(units.size())) column.unit = units[i];
+    if (column.name == "rosbagTimestamp") column.unit = "ns";
+    dialect.columns.push_back(column);
+    dialect.value_fields.push_back(i);
+  }
+  const bool rostopic = names.size() > 1 && names[0] == "time" && names[1].rfind("field.", 0) == 0;
+  if (rostopic) dialect.columns[0].unit = "ns";
+}
+
+}  // namespace
+
+void find_columns(std::span<const CsvLine> above, std::span<const CsvLine> rows, int fields,
+                  CsvDialect& dialect) {
+  const bool open_end = !rows.empty() && read_cell(rows[0].fields.back(), '.').kind == CellKind::missing;
+  Header header = find_header(above, open_end, fields, dialect);
+  if (!dialect.has_header && !rows.empty()) name_headless(rows, dialect, header.names);
+  make_columns(header, fields, rows.empty() ? nullptr : &rows[0], dialect);
+}
+
+bool repeats_header(const CsvDialect& dialect, const std::vector<std::string_view>& fields) {
+  if (!dialect.has_header || dialect.columns.empty()) return false;
+  for (std::size_t i = 0; i < dialect.columns.size(); ++i) {
+    const std::size_t field = static_cast<std::size_t>(dialect.value_fields[i]);
+    if (field >= fields.size()) return false;
+    const std::string& name = dialect.columns[i].name;
+    if (fields[field].substr(0, name.size()) != name) return false;
+  }
+  return read_cell(fields[dialect.value_fields[0]], dialect.decimal).kind == CellKind::text;
+}
+
+}  // namespace faultline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "formats/csv_issues.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::string words(const CsvPlace& place) {
+  return fmt::format("row {} (line {})", place.row + 1, place.line + 1);
+}
+
+}  // namespace
+
+void CsvIssues::start() {
+  issues_ = {};
+  text_cells_.assign(dialect_.columns.size(), 0);
+  if (dialect_.preamble_lines > 0)
+    issues_.add({"preamble_skipped", "", Severity::note, "lines before the table were left out", 0, kNan,
+                 dialect_.preamble_lines});
+  if (dialect_.names_in_rows)
+    issues_.add(
+        {"names_in_rows", "", Severity::note,
+         "there is no header; each value has its name before it, and these were taken as column names"});
+  else if (!dialect_.has_header)
+    issues_.add(
+        {"no_header", "", Severity::warning,
+         "there is no header; columns are called column1, column2 and so on. Say what they are in the robot "
+         "file, such as [log.columns] q1 = {name = \"column2\"}"});
+}
+
+void CsvIssues::add_text(const CsvPlace& place, int column, int field, std::string_view cell) {
+  const std::string& name = dialect_.columns[column].name;
+  if (issues_.find("not_a_number", name)) {
+    ++text_cells_[column];
+    return;
+  }
+  issues_.add({"not_a_number", name, Severity::warning,
+               fmt::format("{}, column {} \"{}\": \"{}\" is no number; taken as missing", words(place),
+                           field + 1, name, std::string(cell.substr(0, 40))),
+               place.row + 1});
+}
+
+void CsvIssues::add_row(const CsvPlace& place, const char* code, const std::string& what, bool dropped) {
+  issues_.add(
+      {code, "", Severity::warning, words(place) + " " + what, place.row + 1, kNan, 1, dropped ? 1 : 0});
+}
+
+void CsvIssues::flush_text_counts() {
+  for (std::size_t i = 0; i < text_cells_.size(); ++i) {
+    if (text_cells_[i] == 0) continue;
+    issues_.add({"not_a_number", dialect_.columns[i].name, Severity::warning, "", 0, kNan, text_cells_[i]});
+    text_cells_[i] = 0;
+  }
+}
+
+}  // namespace faultline

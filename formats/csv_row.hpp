@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "formats/csv_dialect.hpp"
+#include "formats/csv_issues.hpp"
+#include "lib/log/raw_reader.hpp"
+
+namespace faultline {
+
+/// What becomes of a line that is no plain row of numbers: it is a row, or none, or a row that is left out.
+enum class CsvRow { keep, skip, drop };
+
+/// Reads lines of a text table into the rows of a block.
+class CsvRowReader {
+ public:
+  /// Both must outlive the object.
+  CsvRowReader(const CsvDialect& dialect, CsvIssues& issues);
+
+  /// As RawReader::want().
+  void want(const std::vector<bool>& columns);
+  /// The rows that follow go into `block`, which has place for `max_rows`.
+  void begin_block(RawBlock& block, int max_rows);
+  /// Reads a line of nothing but numbers and separators into row `row` of the block and returns what is
+  /// behind it; null when it is anything else and must be read with care. `end` is behind a newline.
+  const char* read_plain(const char* p, const char* end, int row);
+  /// Reads any line, without its newline; `open_end` tells that the file ended in it.
+  CsvRow read_any(std::string_view line, bool open_end, const CsvPlace& at, int row);
+
+ private:
+  CsvRow judge_length(std::string_view line, bool open_end, const CsvPlace& at);
+  void read_cells(const CsvPlace& at, int row);
+
+  const CsvDialect& dialect_;
+  CsvIssues& issues_;
+  std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted
+  std::vector<double*> field_values_;  ///< of the block that is being filled; null for a field not wanted
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace faultline

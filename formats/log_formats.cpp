@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "formats/log_formats.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "formats/csv_reader.hpp"
+#include "formats/csv_writer.hpp"
+#include "formats/native_reader.hpp"
+#include "formats/native_writer.hpp"
+
+namespace faultline {
+
+const std::vector<LogFormat>& log_formats() {
+  // CSV comes last, as it takes any text.
+  static const std::vector<LogFormat> table{
+      {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
+      {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},
+  };
+  return table;
+}
+
+std::vector<std::string> log_extensions() {
+  std::vector<std::string> all;
+  for (const LogFormat& format : log_formats())
+    all.insert(all.end(), format.extensions.begin(), format.extensions.end());
+  return all;
+}
+
+std::vector<LogFormat> written_formats() {
+  std::vector<LogFormat> written;
+  std::copy_if(log_formats().rbegin(), log_formats().rend(), std::back_inserter(written),
+               [](const LogFormat& format) { return format.create != nullptr; });
+  return written;
+}
+
+std::string either_of(const std::vector<std::string>& choices) {
+  std::string text = choices.front();
+  for (std::size_t i = 1; i < choices.size(); ++i)
+    text += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+  return text;
+}
+
+}  // namespace faultline

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/log/log.hpp"
+
+namespace faultline {
+
+/// Writes a log segment by segment; the file appears under its name at commit() only. The first segment
+/// decides the channels, all others have the same. How the rows are cut into segments changes no byte of the
+/// file.
+class LogWriter {
+ public:
+  virtual ~LogWriter() = default;
+  virtual void write(const Log& segment) = 0;
+  virtual void commit() = 0;
+};
+
+}  // namespace faultline
