@@ -9,9 +9,9 @@
 
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_table.hpp"
-#include "lib/identify/shooting.hpp"
+#include "lib/identify/shooting/shooting.hpp"
 #include "lib/identify/start_fit.hpp"
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {

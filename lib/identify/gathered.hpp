@@ -7,7 +7,7 @@
 #include "lib/core/progress.hpp"
 #include "lib/identify/excerpt.hpp"
 #include "lib/identify/identification.hpp"
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {

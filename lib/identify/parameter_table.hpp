@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/identify/identification.hpp"
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

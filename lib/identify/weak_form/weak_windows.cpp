@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {

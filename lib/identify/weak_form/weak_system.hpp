@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 

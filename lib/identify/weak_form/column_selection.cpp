@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/column_selection.hpp"
+#include "lib/identify/weak_form/column_selection.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

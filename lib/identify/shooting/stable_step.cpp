@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/stable_step.hpp"
+#include "lib/identify/shooting/stable_step.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

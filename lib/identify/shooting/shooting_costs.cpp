@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/shooting_costs.hpp"
+#include "lib/identify/shooting/shooting_costs.hpp"
 
 #include <algorithm>
 #include <cmath>

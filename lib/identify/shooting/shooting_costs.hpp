@@ -3,7 +3,7 @@
 
 #include <ceres/ceres.h>
 
-#include "lib/identify/shooting_evaluation.hpp"
+#include "lib/identify/shooting/shooting_evaluation.hpp"
 
 namespace faultline {
 

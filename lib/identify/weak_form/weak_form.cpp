@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/weak_form.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
-#include "lib/identify/column_selection.hpp"
-#include "lib/identify/weak_system.hpp"
+#include "lib/identify/weak_form/column_selection.hpp"
+#include "lib/identify/weak_form/weak_system.hpp"
 
 namespace faultline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/shooting_evaluation.hpp"
+#include "lib/identify/shooting/shooting_evaluation.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "lib/core/parallel.hpp"
-#include "lib/identify/stable_step.hpp"
+#include "lib/identify/shooting/stable_step.hpp"
 
 namespace faultline {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/segment_model.hpp"
-#include "lib/identify/shooting.hpp"
+#include "lib/identify/shooting/segment_model.hpp"
+#include "lib/identify/shooting/shooting.hpp"
 
 namespace faultline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/shooting.hpp"
+#include "lib/identify/shooting/shooting.hpp"
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "lib/core/statistics.hpp"
-#include "lib/identify/shooting_costs.hpp"
-#include "lib/identify/shooting_covariance.hpp"
-#include "lib/identify/shooting_evaluation.hpp"
+#include "lib/identify/shooting/shooting_costs.hpp"
+#include "lib/identify/shooting/shooting_covariance.hpp"
+#include "lib/identify/shooting/shooting_evaluation.hpp"
 
 namespace faultline {
 namespace {

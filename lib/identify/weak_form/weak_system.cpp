@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/weak_system.hpp"
+#include "lib/identify/weak_form/weak_system.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/shooting_evaluation.hpp"
+#include "lib/identify/shooting/shooting_evaluation.hpp"
 
 namespace faultline {
 

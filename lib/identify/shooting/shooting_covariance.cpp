@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/shooting_covariance.hpp"
+#include "lib/identify/shooting/shooting_covariance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/segment_model.hpp"
+#include "lib/identify/shooting/segment_model.hpp"
 
 #include <algorithm>
 #include <cmath>
