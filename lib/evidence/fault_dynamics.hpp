@@ -9,8 +9,7 @@
 
 namespace faultline {
 
-/// Steps up to this long are short: one midpoint step, whose error is below the measurement noise of usual
-/// drives.
+/// Steps up to this long are short: one midpoint step does.
 inline constexpr double kShortStep_s = 0.004;
 /// Longer steps are cut into steps of Runge-Kutta of at most this length.
 inline constexpr double kLongestSubstep_s = 0.005;

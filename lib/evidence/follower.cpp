@@ -12,7 +12,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
 constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
-constexpr double kGapPeriods = 5.5;               // a gap longer than five rows lost starts the filter anew
+constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
