@@ -15,9 +15,10 @@
 #include "lib/cases/case_json.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/case_from_json.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -51,7 +52,7 @@ std::string one_line(const Case& c) {
 }
 
 std::string in_full(const CaseBase& base, const Case& c) {
-  const auto opinion = [](const char* network, const CaseOpinion& o) {
+  const auto opinion = [](const char* network, const Opinion& o) {
     return fmt::format("  {:<9}{} ({:.2f})\n", network, plain_words(o.label), o.confidence);
   };
   std::string text = fmt::format("Case {}: {} ({})\n", c.id, plain_words(c.label), to_string(c.outcome));

@@ -8,9 +8,9 @@
 #include "apps/exit_status.hpp"
 #include "apps/golden.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/golden/accept.hpp"
 #include "lib/golden/check_text.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {

@@ -7,8 +7,8 @@
 #include "apps/folder.hpp"
 #include "apps/golden.hpp"
 #include "apps/progress.hpp"
+#include "lib/core/text.hpp"
 #include "lib/golden/record.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -22,8 +22,8 @@ struct RecordArguments : GoldenArguments {
 std::string recorded_text(const Recorded& recorded, const std::string& folder) {
   std::string text;
   for (const GoldenLog& log : recorded.set.logs)
-    text += fmt::format("{}: {}, {} event{}\n", printable(log.name()), log.expected.verdict,
-                        log.expected.events.size(), log.expected.events.size() == 1 ? "" : "s");
+    text += fmt::format("{}: {}, {}\n", printable(log.name()), log.expected.verdict,
+                        counted(std::ssize(log.expected.events), "event"));
   if (recorded.set.identification)
     text += fmt::format("identification: {}, {} parameters from {} healthy logs\n",
                         recorded.set.identification->expected.status,

@@ -15,6 +15,7 @@
 #include "apps/progress.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/enum_named.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -33,9 +34,9 @@ struct IdentifyArguments {
 IdentifyOptions options_from(const IdentifyArguments& arguments) {
   IdentifyOptions options;
   options.threads = arguments.threads;
-  for (const auto method :
-       {IdentifyMethod::automatic, IdentifyMethod::weak_form, IdentifyMethod::output_error})
-    if (arguments.method == to_string(method)) options.method = method;
+  if (const auto method = enum_named(arguments.method, {IdentifyMethod::automatic, IdentifyMethod::weak_form,
+                                                        IdentifyMethod::output_error}))
+    options.method = *method;
   return options;
 }
 

@@ -9,26 +9,33 @@
 #include "lib/core/error.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/mapped_source.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
 
-std::string unit_of(Channel channel, const std::optional<Robot>& robot) {
-  const bool known = robot && channel.joint <= robot->joints();
-  const bool turns = known && robot->chain.geometry[channel.joint - 1].kind == AxisKind::revolute;
-  switch (channel.quantity) {
+const char* unit_of(Quantity quantity, AxisKind axis) {
+  switch (quantity) {
     case Quantity::time:
       return "s";
     case Quantity::q:
     case Quantity::q_ref:
-      return !known ? "rad or m" : turns ? "rad" : "m";
+      return position_unit(axis);
     case Quantity::dq:
     case Quantity::dq_ref:
-      return !known ? "rad/s or m/s" : turns ? "rad/s" : "m/s";
+      return velocity_unit(axis);
     case Quantity::tau:
-      return !known ? "N m or N" : turns ? "N m" : "N";
+      return torque_unit(axis);
   }
   return "";
+}
+
+/// Without a robot that has the joint, the units of both kinds of axis.
+std::string unit_of(Channel channel, const std::optional<Robot>& robot) {
+  const Quantity quantity = channel.quantity;
+  if (quantity == Quantity::time || (robot && channel.joint <= robot->joints()))
+    return unit_of(quantity, channel.joint > 0 ? robot->chain.geometry[channel.joint - 1].kind : AxisKind{});
+  return std::string(unit_of(quantity, AxisKind::revolute)) + " or " + unit_of(quantity, AxisKind::prismatic);
 }
 
 std::string column_of(const ChannelSummary& channel, const Matching& matching,

@@ -6,6 +6,8 @@
 
 #include "apps/inspection.hpp"
 #include "apps/terminal.hpp"
+#include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -15,13 +17,13 @@ constexpr std::size_t kShownExtra = 12;
 
 std::string head_line(const Inspection& inspection, bool color) {
   const TimeAxis& time = inspection.quality.time;
-  std::string line = styled(inspection.log.path, Style::bold, color) +
+  std::string line = painted(inspection.log.path, Paint::bold, color) +
                      fmt::format("  {}, {} rows", inspection.log.format, inspection.log.rows_read);
   if (inspection.rows_used != inspection.log.rows_read)
     line += fmt::format(" ({} used)", inspection.rows_used);
   if (!inspection.joint_log) return line + "\n";
-  line += fmt::format(", {} joint{}, {:.6g} s from {:.10g} to {:.10g} s", inspection.joints,
-                      inspection.joints == 1 ? "" : "s", time.end_s - time.start_s, time.start_s, time.end_s);
+  line += fmt::format(", {}, {:.6g} s from {:.10g} to {:.10g} s", counted(inspection.joints, "joint"),
+                      time.end_s - time.start_s, time.start_s, time.end_s);
   if (!std::isnan(time.period_s))
     line += fmt::format(", sample period {:.6g} s ({:.5g} Hz)", time.period_s, 1.0 / time.period_s);
   return line + "\n";
@@ -42,7 +44,7 @@ std::string channel_line(const InspectedChannel& channel) {
 
 std::string channel_lines(const Inspection& inspection, bool color) {
   std::string text =
-      styled(fmt::format("  {:<10} {:>12} {:>12} {}", "channel", "min", "max", "unit"), Style::dim, color) +
+      painted(fmt::format("  {:<10} {:>12} {:>12} {}", "channel", "min", "max", "unit"), Paint::dim, color) +
       "\n";
   std::size_t extra = 0;
   for (const InspectedChannel& channel : inspection.channels)
@@ -52,21 +54,21 @@ std::string channel_lines(const Inspection& inspection, bool color) {
   return text;
 }
 
-Style style_of(Severity severity) {
+Paint paint_of(Severity severity) {
   switch (severity) {
     case Severity::severe:
-      return Style::red;
+      return Paint::red;
     case Severity::warning:
-      return Style::yellow;
+      return Paint::yellow;
     case Severity::note:
-      return Style::dim;
+      return Paint::dim;
   }
-  return Style::dim;
+  return Paint::dim;
 }
 
 std::string issue_line(const Issue& issue, bool color) {
   std::string line =
-      "  " + styled(fmt::format("{:<8}", to_string(issue.severity)), style_of(issue.severity), color);
+      "  " + painted(fmt::format("{:<8}", to_string(issue.severity)), paint_of(issue.severity), color);
   line += issue.code;
   if (!issue.channel.empty()) line += " " + issue.channel;
   if (issue.count > 1) line += fmt::format(", {} times", issue.count);

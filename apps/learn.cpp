@@ -17,6 +17,7 @@
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/twin/twin_json.hpp"
@@ -42,8 +43,8 @@ struct OpenLogs {
 void check_joint(const LogLabel& label, const Robot& robot, const std::string& log) {
   if (label.label.joint > robot.joints())
     throw Error(ErrorCode::input, log,
-                fmt::format("is labelled with a fault of joint {}, but the robot has {} joint{}",
-                            label.label.joint, robot.joints(), robot.joints() == 1 ? "" : "s"));
+                fmt::format("is labelled with a fault of joint {}, but the robot has {}", label.label.joint,
+                            counted(robot.joints(), "joint")));
 }
 
 OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {

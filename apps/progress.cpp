@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "lib/core/paint.hpp"
+
 namespace faultline {
 namespace {
 
@@ -16,7 +18,7 @@ std::string bar(double share, bool color) {
   const int full = static_cast<int>(known * kWidth);
   char percent[8];
   std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(known * 100));
-  return "[" + styled(std::string(full, '='), Style::green, color) + std::string(kWidth - full, ' ') + "] " +
+  return "[" + painted(std::string(full, '='), Paint::green, color) + std::string(kWidth - full, ' ') + "] " +
          percent;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "lib/reproduce/reproduce.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,7 +14,6 @@
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/reproduce/page/figure_text.hpp"
-#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 namespace {

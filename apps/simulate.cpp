@@ -14,6 +14,7 @@
 #include "apps/progress.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/simulate/run_labels.hpp"
 #include "lib/simulate/spec_file.hpp"
 
 namespace faultline {

@@ -20,22 +20,6 @@ bool environment_forbids_color() {
   return (no_color && *no_color) || (term && std::strcmp(term, "dumb") == 0);
 }
 
-const char* escape_of(Style style) {
-  switch (style) {
-    case Style::bold:
-      return "\x1b[1m";
-    case Style::dim:
-      return "\x1b[2m";
-    case Style::red:
-      return "\x1b[31m";
-    case Style::yellow:
-      return "\x1b[33m";
-    case Style::green:
-      return "\x1b[32m";
-  }
-  return "";
-}
-
 }  // namespace
 
 bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
@@ -43,11 +27,6 @@ bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
 bool use_color(ColorChoice choice, std::FILE* stream) {
   if (choice != ColorChoice::automatic) return choice == ColorChoice::always;
   return is_terminal(stream) && !environment_forbids_color();
-}
-
-std::string styled(std::string_view text, Style style, bool color) {
-  if (!color) return std::string(text);
-  return std::string(escape_of(style)).append(text).append("\x1b[0m");
 }
 
 void print(std::string_view text) {

@@ -14,10 +14,6 @@ enum class ColorChoice { automatic, always, never };
 bool use_color(ColorChoice choice, std::FILE* stream);
 bool is_terminal(std::FILE* stream);
 
-enum class Style { bold, dim, red, yellow, green };
-/// `text` between the escape codes of `style` when `color`, else `text`.
-std::string styled(std::string_view text, Style style, bool color);
-
 /// Writes a result to standard output at once. Throws Error(output) when it cannot be written.
 void print(std::string_view text);
 

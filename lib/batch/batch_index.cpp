@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/batch/batch_index.hpp"
 
-#include "lib/batch/index_page.hpp"
+#include "lib/batch/page/index_page.hpp"
 #include "lib/core/atomic_file.hpp"
 
 namespace faultline {

@@ -39,12 +39,11 @@ BatchRow row_of(const Diagnosis& d) {
   row.joints = d.log.joints;
   row.warnings = issues_of(d, Severity::warning);
   row.severe = issues_of(d, Severity::severe);
-  for (const JointResidualSummary& residual : d.residuals) {
+  for (const JointResidual& residual : d.residuals) {
     row.residual_rms.push_back(residual.velocity_rms);
     row.residual_peak.push_back(residual.velocity_peak);
   }
-  for (const FaultFinding& f : d.faults)
-    row.faults.push_back({f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence});
+  row.faults = events_of(d.faults);
   return row;
 }
 

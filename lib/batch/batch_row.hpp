@@ -7,27 +7,12 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnosis/fault_event.hpp"
+#include "lib/identify/parameter_value.hpp"
 
 namespace faultline {
 
-/// One fault in an index.
-struct BatchFault {
-  FaultLabel label;
-  double onset_s = std::numeric_limits<double>::quiet_NaN();
-  double alarm_s = std::numeric_limits<double>::quiet_NaN();
-  double end_s = std::numeric_limits<double>::quiet_NaN();
-  double confidence = 0.0;
-};
-
 /// One log in an index: what a list of runs shows of its diagnosis, or why there is none.
-/// What the healthy robot's parameters were in one log.
-struct BatchParameter {
-  std::string name;  ///< of ParameterEstimate
-  double value = 0.0;
-  double std = 0.0;
-};
-
 struct BatchRow {
   std::string log;      ///< BatchLog::name, as valid UTF-8
   std::string sha256;   ///< empty when the log could not be read
@@ -41,10 +26,10 @@ struct BatchRow {
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
   int warnings = 0, severe = 0;            ///< kinds of issues of the log
-  std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidualSummary)
+  std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidual)
   std::vector<double> residual_peak;       ///< likewise
-  std::vector<BatchFault> faults;          ///< by onset
-  std::vector<BatchParameter> parameters;  ///< identified from this log alone, when asked for and healthy
+  std::vector<FaultEvent> faults;          ///< by onset
+  std::vector<ParameterValue> parameters;  ///< identified from this log alone, when asked for and healthy
 };
 
 BatchRow row_of(const Diagnosis& diagnosis);

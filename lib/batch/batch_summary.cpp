@@ -7,21 +7,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lib/report/layout.hpp"
+#include "lib/core/json_values.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void count_verdict(BatchCounts& counts, const BatchRow& row) {
   ++counts.logs;
@@ -43,17 +36,17 @@ Json counts_json(const BatchCounts& c) {
           {"unusable", c.unusable},
           {"failed", c.failed},
           {"faults", c.faults},
-          {"hours", number(c.hours)},
-          {"faults_per_hour", c.hours > 0.0 ? number(c.faults / c.hours) : Json(nullptr)},
-          {"median_residual", number(c.median_residual)},
-          {"largest_residual", number(c.largest_residual)}};
+          {"hours", number_or_null(c.hours)},
+          {"faults_per_hour", c.hours > 0.0 ? number_or_null(c.faults / c.hours) : Json(nullptr)},
+          {"median_residual", number_or_null(c.median_residual)},
+          {"largest_residual", number_or_null(c.largest_residual)}};
 }
 
 Json kinds_json(const BatchSummary& summary) {
   Json json = Json::array();
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
-      json.push_back({{"kind", kind}, {"joint", joint > 0 ? Json(joint) : Json(nullptr)}, {"count", count}});
+      json.push_back({{"kind", kind}, {"joint", count_or_null(joint)}, {"count", count}});
   return json;
 }
 
@@ -66,7 +59,7 @@ BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
     count_verdict(counts, *row);
     if (const double level = residual_level(*row); std::isfinite(level)) residuals.push_back(level);
   }
-  counts.median_residual = median(residuals);
+  counts.median_residual = upper_median(residuals);
   counts.largest_residual = residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
                                               : *std::max_element(residuals.begin(), residuals.end());
   return counts;
@@ -80,7 +73,7 @@ BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& fac
   for (const BatchRow& row : rows) {
     all.push_back(&row);
     folders[folder_of(row)].push_back(&row);
-    for (const BatchFault& fault : row.faults)
+    for (const FaultEvent& fault : row.faults)
       ++summary.kinds[to_string(fault.label.kind)][fault.label.joint];
     summary.status = std::max(summary.status, status_of(row));
   }
@@ -116,8 +109,8 @@ std::string to_json(const BatchSummary& summary) {
 std::string to_text(const BatchSummary& summary) {
   const BatchCounts& all = summary.all;
   std::string text =
-      fmt::format("{} log{}: {} healthy, {} faulty, {} inconclusive, {} unusable", all.logs,
-                  all.logs == 1 ? "" : "s", all.healthy, all.faulty, all.inconclusive, all.unusable);
+      fmt::format("{}: {} healthy, {} faulty, {} inconclusive, {} unusable", counted(all.logs, "log"),
+                  all.healthy, all.faulty, all.inconclusive, all.unusable);
   text += all.failed > 0 ? fmt::format(", {} failed by a defect of faultline\n", all.failed) : "\n";
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)

@@ -29,31 +29,28 @@ std::string render_page(LogSource& log, const Model& model, const Diagnosis& dia
 
 /// From this log alone, on one thread and a limited number of rows: quick, and precise enough for a trend.
 /// None where the log does not suffice.
-std::vector<BatchParameter> parameters_in(LogSource& log, const Robot& robot) {
+std::vector<ParameterValue> parameters_in(LogSource& log, const Robot& robot) {
   IdentifyOptions options;
   options.threads = 1;
   options.max_rows = 4000;
   options.max_iterations = 12;
-  std::vector<BatchParameter> parameters;
+  std::vector<ParameterValue> parameters;
   LogSource* const logs[] = {&log};
   log.rewind();
   try {
     for (const ParameterEstimate& p : identify(logs, robot, options).base_parameters)
-      if (p.identifiable) parameters.push_back({p.name, p.value, p.std});
+      if (p.identifiable) parameters.push_back(value_of(p));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::input) throw;
   }
   return parameters;
 }
 
-void refuse_changed(const BatchLog& log, const LogSource& source, const std::string& log_sha256) {
-  if (source.identity().sha256 != log_sha256)
-    throw Error(ErrorCode::input, log.path, "changed while it was read; run again when it is complete");
-}
-
-bool is_file_with(const std::string& path, const std::string& sha256) {
-  std::error_code error;
-  return sha256.empty() || (std::filesystem::is_regular_file(path, error) && sha256_of_file(path) == sha256);
+/// Reads the file a second time only when it was written to meanwhile and may have the same content.
+void refuse_changed(const BatchLog& log, const FileStamp& before, const std::string& sha256_read) {
+  const FileStamp now = stamp_of(log.path);
+  if (now == before || (now.bytes == before.bytes && sha256_of_file(log.path) == sha256_read)) return;
+  throw Error(ErrorCode::input, log.path, "changed while it was read; run again when it is complete");
 }
 
 }  // namespace
@@ -71,33 +68,46 @@ std::string result_key(const std::string& settings, const BatchLog& log, const s
   return sha256_hex(joined(settings, joined(log.name, log_sha256)));
 }
 
-bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
-  const std::string stem = folder.file("logs/" + entry.row.result);
-  return is_file_with(stem + ".json", entry.json_sha) && is_file_with(stem + ".html", entry.html_sha);
-}
-
-JournalEntry write_log_result(const BatchLog& log, const std::string& log_sha256, const OpenLog& open,
-                              const Model& model, const CaseBase& cases, const BatchFolder& folder,
-                              const BatchOptions& options) {
-  const auto source = open(log.path);
-  Diagnosis diagnosis = diagnose(*source, model, cases, options.diagnose);
+JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup) {
+  const BatchOptions& options = setup.options;
+  const FileStamp before = stamp_of(log.path);
+  const auto source = setup.open(log.path);
+  Diagnosis diagnosis = diagnose(*source, setup.model, setup.cases, options.diagnose);
   diagnosis.log.path = log.name;
-  refuse_changed(log, *source, log_sha256);
+  refuse_changed(log, before, diagnosis.log.sha256);
   JournalEntry entry;
+  entry.key = result_key(setup.settings, log, diagnosis.log.sha256);
   entry.row = row_of(diagnosis);
   if (options.identify && diagnosis.verdict == Verdict::healthy)
-    entry.row.parameters = parameters_in(*source, model.robot);
-  entry.row.result = result_name(log.name, log_sha256);
-  const std::string stem = folder.file("logs/" + entry.row.result);
+    entry.row.parameters = parameters_in(*source, setup.model.robot);
+  entry.row.result = result_name(log.name, diagnosis.log.sha256);
+  const std::string stem = setup.folder.file("logs/" + entry.row.result);
   if (options.html) {
-    const std::string page = render_page(*source, model, diagnosis, options.diagnose);
-    refuse_changed(log, *source, log_sha256);
+    const std::string page = render_page(*source, setup.model, diagnosis, options.diagnose);
+    refuse_changed(log, before, diagnosis.log.sha256);
     write_file(stem + ".html", page);
     entry.html_sha = sha256_hex(page);
   }
   const std::string json = render_json(diagnosis);
   write_file(stem + ".json", json);
   entry.json_sha = sha256_hex(json);
+  return entry;
+}
+
+JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const Error& reason,
+                             const std::string& settings) {
+  JournalEntry entry;
+  entry.row = unusable_row(log.name, log.path, reason);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(log.path, error)) return entry;
+  try {
+    entry.row.sha256 = sha256_of_file(log.path);
+  } catch (const Error& unreadable) {
+    entry.row = unusable_row(log.name, log.path, unreadable);
+    return entry;
+  }
+  if (reason.code() != ErrorCode::internal && stamp_of(log.path) == before)
+    entry.key = result_key(settings, log, entry.row.sha256);
   return entry;
 }
 

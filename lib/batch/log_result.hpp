@@ -4,6 +4,7 @@
 #include <string>
 
 #include "lib/batch/batch_folder.hpp"
+#include "lib/batch/file_stamp.hpp"
 #include "lib/batch/journal.hpp"
 #include "lib/batch/run_batch.hpp"
 
@@ -16,13 +17,24 @@ std::string result_name(const std::string& log_name, const std::string& log_sha2
 /// Of a log's name and content and of the settings (settings_of).
 std::string result_key(const std::string& settings, const BatchLog& log, const std::string& log_sha256);
 
-/// Whether the result files of an entry are there as they were written.
-bool is_intact(const JournalEntry& entry, const BatchFolder& folder);
+/// What all logs of a batch are diagnosed with, and where the results go.
+struct BatchSetup {
+  const OpenLog& open;
+  const Model& model;
+  const CaseBase& cases;
+  const BatchFolder& folder;
+  const BatchOptions& options;
+  std::string settings;  ///< settings_of() the batch
+};
 
-/// Diagnoses one log and writes its result files; the entry has neither key nor position yet.
+/// Diagnoses one log and writes its result files; the entry has no position yet.
 /// Throws Error(input) when the log cannot be used and Error(output) when a file cannot be written.
-JournalEntry write_log_result(const BatchLog& log, const std::string& log_sha256, const OpenLog& open,
-                              const Model& model, const CaseBase& cases, const BatchFolder& folder,
-                              const BatchOptions& options);
+JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup);
+
+/// Of a log that could not be used for this reason, without position. It has no key, so that the next run
+/// does it again, when the file is another one than `before` it was read, cannot be read, or the reason is a
+/// defect of the program.
+JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const Error& reason,
+                             const std::string& settings);
 
 }  // namespace faultline

@@ -7,8 +7,8 @@
 #include <new>
 
 #include "lib/batch/batch_index.hpp"
+#include "lib/batch/earlier_results.hpp"
 #include "lib/batch/log_result.hpp"
-#include "lib/core/hash.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
 
@@ -34,35 +34,27 @@ void refuse_special_file(const std::string& path) {
     throw Error(ErrorCode::input, path, "is no regular file");
 }
 
-/// The work on one list of logs into one folder.
+/// The work on one list of logs.
 class Batch {
  public:
-  Batch(const OpenLog& open, const Model& model, const CaseBase& cases, const BatchFolder& folder,
-        const BatchOptions& options, const BatchFacts& facts)
-      : open_(open),
-        model_(model),
-        cases_(cases),
-        folder_(folder),
-        options_(options),
-        settings_(settings_of(facts)),
-        before_(read_journal(folder.journal())),
-        journal_(folder.journal()) {}
+  explicit Batch(const BatchSetup& setup)
+      : setup_(setup), before_(setup.folder, setup.settings), journal_(setup.folder.journal()) {}
 
   BatchResult run(const std::vector<BatchLog>& logs, const BatchFacts& facts) {
     std::vector<int> positions;
     for (int i = facts.shard; i < facts.logs; i += facts.shards) positions.push_back(i);
     const int count = static_cast<int>(positions.size());
-    BatchIndex index(folder_, count);
+    BatchIndex index(setup_.folder, count);
     progress_.logs = count;
     std::atomic<bool> stopped = false;
-    parallel_for(count, options_.threads, [&](int place) {
+    parallel_for(count, setup_.options.threads, [&](int place) {
       if (stopped) return;
       try {
         JournalEntry entry = entry_of(logs[static_cast<std::size_t>(positions[place])], positions[place]);
         const std::lock_guard lock(mutex_);
         index.put(place, std::move(entry));
         ++progress_.done;
-        if (options_.progress) options_.progress(progress_);
+        if (setup_.options.progress) setup_.options.progress(progress_);
       } catch (...) {
         stopped = true;
         throw;
@@ -73,66 +65,36 @@ class Batch {
 
  private:
   JournalEntry entry_of(const BatchLog& log, int position) {
-    std::string sha256, key;
+    const FileStamp before = stamp_of(log.path);
     try {
       refuse_special_file(log.path);
-      sha256 = sha256_of_file(log.path);
-      key = result_key(settings_, log, sha256);
-      if (const JournalEntry* done = find_done(key)) return at(*done, position);
-      return fresh(write_log_result(log, sha256, open_, model_, cases_, folder_, options_), key, position);
+      if (const JournalEntry* done = before_.find(log)) return at(position, *done);
+      return fresh(at(position, write_log_result(log, setup_)));
     } catch (const std::bad_alloc&) {
       throw;  // of this machine now, not of the log
     } catch (const Error& error) {
       if (error.code() == ErrorCode::output) throw;
-      return fresh(unusable(log, sha256, error), may_recover(log, sha256) ? "" : key, position);
+      return fresh(at(position, unusable_result(log, before, error, setup_.settings)));
     } catch (const std::exception& error) {
       const Error defect(ErrorCode::internal, log.path, std::string("defect of faultline: ") + error.what());
-      return fresh(unusable(log, sha256, defect), "", position);
+      return fresh(at(position, unusable_result(log, before, defect, setup_.settings)));
     }
   }
 
-  const JournalEntry* find_done(const std::string& key) const {
-    const auto found = before_.find(key);
-    return found != before_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
-  }
-
-  static JournalEntry at(JournalEntry entry, int position) {
+  static JournalEntry at(int position, JournalEntry entry) {
     entry.position = position;
     return entry;
   }
 
-  /// Whether the log is another one now than when its hash was taken.
-  static bool may_recover(const BatchLog& log, const std::string& sha256) {
-    try {
-      return sha256.empty() || sha256_of_file(log.path) != sha256;
-    } catch (const Error&) {
-      return true;
-    }
-  }
-
-  static JournalEntry unusable(const BatchLog& log, const std::string& sha256, const Error& error) {
-    JournalEntry entry;
-    entry.row = unusable_row(log.name, log.path, error);
-    entry.row.sha256 = sha256;
-    return entry;
-  }
-
-  JournalEntry fresh(JournalEntry entry, const std::string& key, int position) {
-    entry.key = key;
-    entry.position = position;
+  JournalEntry fresh(JournalEntry entry) {
     const std::lock_guard lock(mutex_);
     ++progress_.diagnosed;
-    if (!key.empty()) journal_.add(entry);
+    if (!entry.key.empty()) journal_.add(entry);
     return entry;
   }
 
-  const OpenLog& open_;
-  const Model& model_;
-  const CaseBase& cases_;
-  const BatchFolder& folder_;
-  const BatchOptions& options_;
-  std::string settings_;
-  std::map<std::string, JournalEntry> before_;
+  const BatchSetup& setup_;
+  EarlierResults before_;
   JournalWriter journal_;
   std::mutex mutex_;
   BatchProgress progress_;
@@ -151,7 +113,8 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, co
   facts.shards = options.shards;
   const BatchFolder out(folder, options.wait);
   out.mark_unfinished();
-  return Batch(open, model, cases, out, options, facts).run(logs, facts);
+  const BatchSetup setup{open, model, cases, out, options, settings_of(facts)};
+  return Batch(setup).run(logs, facts);
 }
 
 }  // namespace faultline

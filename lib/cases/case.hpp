@@ -6,23 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/opinion.hpp"
 
 namespace faultline {
-
-/// One network's word on an episode, as a case keeps it.
-struct CaseOpinion {
-  FaultLabel label;
-  double confidence = 0.0;  ///< 0 to 1
-
-  bool operator==(const CaseOpinion&) const = default;
-};
 
 /// What is known of an episode before it is decided: the query of case-based reasoning.
 struct Episode {
   std::vector<double> features;  ///< with the meaning of CaseBase::feature_names(); NaN = not measured
-  CaseOpinion mlp;
-  CaseOpinion rbfn;
+  Opinion mlp;
+  Opinion rbfn;
   /// Log likelihood of the best fault hypothesis over the healthy one; NaN when it was not computed.
   double evidence = std::numeric_limits<double>::quiet_NaN();
 };

@@ -43,7 +43,7 @@ class ContentHash {
     add(std::string(to_string(label.kind)));
     add_bits(static_cast<std::uint64_t>(label.joint));
   }
-  void add(const CaseOpinion& opinion) {
+  void add(const Opinion& opinion) {
     add(opinion.label);
     add(opinion.confidence);
   }

@@ -26,13 +26,13 @@ FaultLabel label_from(const Json& json) {
   return {fault_kind_from(json.at("kind").get<std::string>()), json.at("joint").get<int>()};
 }
 
-Json opinion_json(const CaseOpinion& opinion) {
+Json opinion_json(const Opinion& opinion) {
   Json json = label_json(opinion.label);
   json["confidence"] = number(opinion.confidence);
   return json;
 }
 
-CaseOpinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
+Opinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
 
 Json feature_values(const CaseBase& base, const Case& c) {
   Json values = Json::object();

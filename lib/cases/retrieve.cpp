@@ -5,11 +5,12 @@
 
 namespace faultline {
 
-std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count) {
+std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count,
+                                double least_similarity) {
   std::vector<Neighbour> found;
   for (const Case& c : base.cases()) {
     const double s = similarity(base.metric(), features, c.episode.features);
-    if (s > 0.0) found.push_back({&c, s});
+    if (s > 0.0 && s >= least_similarity) found.push_back({&c, s});
   }
   const auto kept = found.begin() + std::clamp<std::ptrdiff_t>(count, 0, std::ssize(found));
   std::partial_sort(found.begin(), kept, found.end(), [](const Neighbour& a, const Neighbour& b) {

@@ -15,7 +15,9 @@ struct Neighbour {
 };
 
 /// The `count` most similar cases, the most similar first; among equals the lower id. Fewer when the base is
-/// smaller; cases with nothing to compare (similarity 0) are left out.
-std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count);
+/// smaller; cases with nothing to compare (similarity 0) or less similar than `least_similarity` are left
+/// out.
+std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count,
+                                double least_similarity = 0.0);
 
 }  // namespace faultline

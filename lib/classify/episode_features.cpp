@@ -5,6 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/evidence/size_scale.hpp"
+#include "lib/fault/fault_catalogue.hpp"
+#include "lib/fault/label_text.hpp"
+
 namespace faultline {
 namespace {
 
@@ -12,7 +16,7 @@ constexpr double kNearlyAll = 0.93;        // share of lost torque from which th
 constexpr double kUnknownShare = 0.5;      // of the evidence that a known fault must explain
 constexpr double kLargestDeficit = 300.0;  // beyond it a label is out of the question anyway
 constexpr double kSizeFades = 20.0;        // the size of a label this far behind hardly counts
-constexpr double kUsualPulse_s = 0.05;
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// The labels a hypothesis can stand for: its own, or those of all joints for a push on all of them.
 FaultLabel label_of(const Hypothesis& hypothesis, const HypothesisEvidence& evidence,
@@ -30,32 +34,11 @@ FaultLabel label_of(const Hypothesis& hypothesis, const HypothesisEvidence& evid
 void set_size(LabelEvidence& out, const Hypothesis& hypothesis, const HypothesisEvidence& evidence,
               const MotionModel& model) {
   const int j = out.label.joint - 1;
-  const SizePriors& priors = model.priors;
-  switch (hypothesis.label.kind) {
-    case FaultKind::torque_loss:
-      out.size = evidence.size[0];
-      break;
-    case FaultKind::sensor_bias:
-      out.size = evidence.size[0] / priors.bias[j];
-      break;
-    case FaultKind::sensor_drift:
-      out.size = evidence.size[0] / priors.drift[j];
-      break;
-    case FaultKind::friction_increase:
-      out.size = evidence.size[0] / priors.viscous_increase[j];
-      out.second_size = evidence.size[1] / priors.coulomb_increase[j];
-      break;
-    case FaultKind::payload_change:
-      out.size = evidence.size[0] / priors.payload;
-      break;
-    case FaultKind::collision:
-      out.size = evidence.impulse[j] / (model.torque_scale[j] * kUsualPulse_s);
-      break;
-    case FaultKind::unknown:
-      out.size = evidence.size[0] / priors.external_torque[j];
-      break;
-    default:
-      break;
+  const std::span<const FaultSize> sizes = describe(hypothesis.label.kind).sizes();
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    const bool passes = sizes[s].feature == SizeMeasure::impulse;
+    out.size[s] =
+        (passes ? evidence.impulse[j] : evidence.size[s]) / feature_scale(model, sizes[s].feature, j);
   }
 }
 
@@ -78,7 +61,7 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
                                              const MotionModel& model) {
   std::vector<LabelEvidence> out;
   for (const FaultLabel& label : distinct_labels(bank))
-    out.push_back({label, -std::numeric_limits<double>::infinity(), 0.0, 0.0});
+    out.push_back({label, -std::numeric_limits<double>::infinity(), {}});
   for (std::size_t h = 0; h < bank.size(); ++h) {
     if (is_misread(bank[h])) continue;
     const HypothesisEvidence& evidence = episode.hypotheses[h];
@@ -95,7 +78,7 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
 FaultLabel named_by_size(const FaultLabel& label, const std::vector<LabelEvidence>& evidence) {
   if (label.kind != FaultKind::torque_loss) return label;
   for (const LabelEvidence& e : evidence)
-    if (e.label == label && e.size > kNearlyAll) return {FaultKind::free_swinging, label.joint};
+    if (e.label == label && e.size[0] > kNearlyAll) return {FaultKind::free_swinging, label.joint};
   return label;
 }
 
@@ -116,7 +99,7 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence) {
 
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
-                                     std::span<const double> residual_rms) {
+                                     std::span<const JointResidual> residuals, int joints) {
   double best = 0.0;
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   std::vector<double> features;
@@ -124,24 +107,27 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
     features.push_back(-std::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
   for (const LabelEvidence& e : evidence) {
     const double counts = std::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
-    features.push_back(counts * bounded_size(e.size));
-    if (e.label.kind == FaultKind::friction_increase)
-      features.push_back(counts * bounded_size(e.second_size));
+    features.push_back(counts * bounded_size(e.size[0]));
+    for (int s = 1; s < describe(e.label.kind).size_count; ++s)
+      features.push_back(counts * bounded_size(e.size[s]));
   }
   features.push_back(std::log1p(best));
   features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));
   features.push_back(std::log(std::max(episode.judged_s - episode.onset_s, 1e-3)));
-  for (const double rms : residual_rms)
+  for (int j = 0; j < joints; ++j) {
+    const double rms = j < std::ssize(residuals) ? residuals[j].velocity_rms : kNotMeasured;
     features.push_back(std::isfinite(rms) ? std::log(std::max(rms, 1e-3)) : 0.0);
+  }
   return features;
 }
 
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints) {
   std::vector<std::string> names;
-  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + to_string(label));
+  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + label_text(label));
   for (const FaultLabel& label : distinct_labels(bank)) {
-    names.push_back("size " + to_string(label));
-    if (label.kind == FaultKind::friction_increase) names.push_back("coulomb " + to_string(label));
+    names.push_back("size " + label_text(label));
+    for (int s = 1; s < describe(label.kind).size_count; ++s)
+      names.push_back(describe(label.kind).size[s].feature_name + (" " + label_text(label)));
   }
   names.insert(names.end(), {"strength", "samples", "duration"});
   for (int j = 1; j <= joints; ++j) names.push_back("mlp residual " + std::to_string(j));

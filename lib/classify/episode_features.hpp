@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/fault/fault_catalogue.hpp"
+#include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
 
 /// What the bank makes of an episode by label: for each the best of its hypotheses.
 struct LabelEvidence {
   FaultLabel label;
-  double log_likelihood_ratio = 0.0;  ///< against healthy
-  double size = 0.0;                  ///< in units of its prior (a loss: share of the torque)
-  double second_size = 0.0;           ///< of friction: Coulomb, in units of its prior
+  double log_likelihood_ratio = 0.0;      ///< against healthy
+  std::array<double, kMostSizes> size{};  ///< as the catalogue lists them, over their feature_scale()
 };
 
 /// One entry a label of the bank, in a fixed order. A collision that pushes all joints counts for the joint
@@ -33,10 +35,10 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
 
 /// The numbers the two networks judge an episode by: for each label how far it stays behind the likeliest and
 /// its size, how strong and how long the episode is, and the MLP's residual of each joint over the episode
-/// (root mean square in units of healthy, one a joint; NaN counts as 1).
+/// (root mean square in units of healthy; a joint without one counts as 1).
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
-                                     std::span<const double> residual_rms);
+                                     std::span<const JointResidual> residuals, int joints);
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints);
 
 }  // namespace faultline

@@ -1,106 +1,66 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnosis/decision.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
-
-#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {
 
-Opinion opinion_from(const CaseOpinion& opinion) { return {opinion.label, opinion.confidence}; }
+constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
 
-DecidedBy decided_by(Settlement settlement) {
-  switch (settlement) {
-    case Settlement::agreement:
-      return DecidedBy::agreement;
-    case Settlement::cases:
-      return DecidedBy::cases;
-    case Settlement::abstained:
-      return DecidedBy::abstained;
-  }
-  return DecidedBy::abstained;
+Decision abstained(DecisionReason reason) {
+  return {kUnknownFault, 0.0, DecidedBy::abstained, reason, kUnknownFault};
 }
 
-void add_precedents(FaultFinding& finding, const CaseDecision& decision) {
-  for (const Neighbour& n : decision.precedents)
-    finding.precedents.push_back({n.found->id, n.found->label, n.similarity, n.found->what_was_done});
+Decision by_agreement(const Episode& episode, const DecisionOptions& options) {
+  const double confidence = 0.5 * (episode.mlp.confidence + episode.rbfn.confidence);
+  if (confidence < options.thin_confidence) return abstained(DecisionReason::hardly_believed);
+  const FaultLabel& label = episode.mlp.label;
+  return {label, confidence, DecidedBy::agreement, DecisionReason::networks_agree, label};
 }
 
-void add_second_thoughts(FaultFinding& finding, const Episode& episode, const CaseDecision& decision,
-                         double least) {
-  if (episode.mlp.label != finding.label && episode.mlp.label.kind != FaultKind::none)
-    add_alternative(finding, episode.mlp.label, "the MLP says so");
-  if (episode.rbfn.label != finding.label && episode.rbfn.label.kind != FaultKind::none)
-    add_alternative(finding, episode.rbfn.label, "the RBFN says so");
-  for (const LabelShare& share : decision.shares)
-    if (share.share >= least && share.label.kind != FaultKind::none)
-      add_alternative(
-          finding, share.label,
-          fmt::format("similar cases and opinions give it {:.0f} % of the votes", 100.0 * share.share));
+Decision by_votes(const Votes& votes, const DecisionOptions& options) {
+  if (votes.precedents.empty())
+    return {kUnknownFault, 0.0, DecidedBy::cases, DecisionReason::nothing_similar, kUnknownFault};
+  if (votes.shares.empty() || votes.shares[0].share <= options.clear_share)
+    return abstained(DecisionReason::votes_even);
+  const auto& [label, share] = votes.shares[0];
+  return {label, share, DecidedBy::cases, DecisionReason::votes_settle, label};
 }
 
-EvidenceItem remark(const char* name, const std::string& text) {
-  EvidenceItem item;
-  item.name = name;
-  item.text = text;
-  return item;
+/// How far the likelihood of `label` is ahead of that of every other known fault, nats.
+double lead_of(const LabelEvidence& likely, const std::vector<LabelEvidence>& evidence) {
+  double second = -std::numeric_limits<double>::infinity();
+  for (const LabelEvidence& e : evidence)
+    if (e.label.kind != FaultKind::unknown && named_by_size(e.label, evidence) != likely.label)
+      second = std::max(second, e.log_likelihood_ratio);
+  return likely.log_likelihood_ratio - second;
 }
 
-EpisodeFacts facts_of(const Episode& episode, const CaseBase& base) {
-  EpisodeFacts facts;
-  facts.evidence = episode.evidence;
-  const auto& features = base.metric().features;
-  for (std::size_t i = 0; i < std::min(features.size(), episode.features.size()); ++i)
-    facts.features.emplace_back(features[i].name, episode.features[i]);
-  return facts;
-}
-
-double or_last(double time_s) {
-  return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
-}
-
-std::tuple<double, double, int> order_key(const FaultFinding& finding) {
-  return {or_last(finding.onset_s), or_last(finding.alarm_s), finding.label.joint};
+Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, const DecisionOptions& options) {
+  const LabelEvidence likely = likeliest(basis.evidence);
+  if (likely.label.kind == FaultKind::unknown) return unnamed;
+  const bool seconded = likely.label == basis.episode.mlp.label || likely.label == basis.episode.rbfn.label;
+  if (!seconded && lead_of(likely, basis.evidence) < options.close_ratio) return unnamed;
+  Decision named = unnamed;
+  named.label = likely.label;
+  named.decided_by = DecidedBy::evidence;
+  named.reason = DecisionReason::likelihood_names;
+  return named;
 }
 
 }  // namespace
 
-void add_alternative(FaultFinding& finding, const FaultLabel& label, std::string why) {
-  if (label == finding.label) return;
-  for (const Alternative& known : finding.could_also_be)
-    if (known.label == label) return;
-  if (why.empty()) why = why_alike(finding.label, label);
-  finding.could_also_be.push_back(
-      {label, why.empty() ? "it explains the log almost as well" : std::move(why)});
-}
-
-void apply_decision(FaultFinding& finding, const Episode& episode, const CaseBase& base,
-                    const CaseDecision& decision, double least_share) {
-  finding.label = decision.label;
-  finding.confidence = decision.confidence;
-  finding.mlp = opinion_from(episode.mlp);
-  finding.rbfn = opinion_from(episode.rbfn);
-  finding.decided_by = decided_by(decision.settled_by);
-  finding.precedents.clear();
-  add_precedents(finding, decision);
-  add_second_thoughts(finding, episode, decision, least_share);
-  finding.evidence.push_back(remark("decision", decision.why));
-  for (const std::string& warning : decision.warnings) finding.evidence.push_back(remark("warning", warning));
-  finding.next_check = next_check_for(finding.label);
-  finding.episode = facts_of(episode, base);
-}
-
-void order_faults(Diagnosis& diagnosis) {
-  std::stable_sort(diagnosis.faults.begin(), diagnosis.faults.end(),
-                   [](const auto& a, const auto& b) { return order_key(a) < order_key(b); });
-  for (std::size_t i = 0; i < diagnosis.faults.size(); ++i) diagnosis.faults[i].id = static_cast<int>(i) + 1;
-  if (!diagnosis.faults.empty()) diagnosis.verdict = Verdict::faulty;
+Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
+  const Episode& episode = basis.episode;
+  const bool agree = episode.mlp.label == episode.rbfn.label;
+  Decision decision = episode.evidence < options.thin_evidence ? abstained(DecisionReason::thin_evidence)
+                      : agree                                  ? by_agreement(episode, options)
+                                                               : by_votes(basis.votes, options);
+  decision.label = named_by_size(decision.label, basis.evidence);
+  const bool unnamed = decision.label.kind == FaultKind::unknown;
+  return unnamed && !basis.evidence.empty() ? by_likelihood(decision, basis, options) : decision;
 }
 
 }  // namespace faultline

@@ -1,23 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/cases/decide.hpp"
-#include "lib/diagnosis/diagnosis.hpp"
+#include <vector>
+
+#include "lib/diagnosis/decided_by.hpp"
+#include "lib/diagnosis/decision_basis.hpp"
 
 namespace faultline {
 
-/// Puts the decision on an episode that was made with `base` into a finding: label, confidence, both
-/// opinions, who settled it, precedents, what it could also be (labels with at least `least_share` of the
-/// votes, and the networks' other opinions), its reason and warnings as evidence lines, and the next check.
-/// Times and other evidence stay.
-void apply_decision(FaultFinding& finding, const Episode& episode, const CaseBase& base,
-                    const CaseDecision& decision, double least_share = 0.15);
+struct DecisionOptions {
+  VoteOptions votes{};
+  double thin_evidence = 5.0;    ///< nats: abstain below this log likelihood ratio
+  double thin_confidence = 0.2;  ///< abstain when two agreeing networks are on average less sure than this
+  double clear_share = 0.5;      ///< more than this share of the votes settles a disagreement, or warns
+  double close_ratio = 10.0;     ///< nats: labels whose evidence is this near cannot be told apart by it
+};
 
-/// Adds an alternative unless it is the finding's own label or already listed; with an empty `why` the reason
-/// is why_alike(), or that it came second.
-void add_alternative(FaultFinding& finding, const FaultLabel& label, std::string why = "");
+/// Why a label was decided on.
+enum class DecisionReason {
+  thin_evidence,     ///< abstained: the evidence is too small
+  hardly_believed,   ///< abstained: the networks agree, but hardly believe it
+  networks_agree,    ///< both networks say so
+  nothing_similar,   ///< unknown: the networks disagree and no recorded case is near
+  votes_even,        ///< abstained: the networks disagree and the votes do not settle it
+  votes_settle,      ///< the networks disagree and the votes settle it
+  likelihood_names,  ///< neither networks nor cases name a fault, the likelihood does
+};
 
-/// Findings by onset (then alarm, then joint) with ids from 1, and the verdict `faulty` when there is any.
-void order_faults(Diagnosis& diagnosis);
+/// What an episode is, decided once; all texts follow from it.
+struct Decision {
+  FaultLabel label;         ///< `unknown` at joint 0 when abstained or when nothing recorded resembles it
+  double confidence = 0.0;  ///< 0 to 1
+  DecidedBy decided_by = DecidedBy::abstained;
+  DecisionReason reason = DecisionReason::thin_evidence;
+  /// What networks or votes called it, before the size of a torque loss or the likelihood gave it its name.
+  FaultLabel voted;
+};
+
+/// Case-based decision on one episode (the paper's "dual classification with robust decision", figure 2, at
+/// the level of the episode). Two networks that agree are believed; when they disagree, the votes of similar
+/// cases and of both networks settle it; with nothing near it is an unknown fault. A loss of nearly all
+/// torque then is a free joint, and where all that leaves no name, the likelihood gives one, if a network
+/// seconds it or nothing else comes near. Without evidence of labels neither of the two
+/// happens.
+Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
 
 }  // namespace faultline

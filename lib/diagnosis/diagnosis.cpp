@@ -17,20 +17,4 @@ const char* to_string(Verdict verdict) {
   return "not_run";
 }
 
-const char* to_string(DecidedBy decided_by) {
-  switch (decided_by) {
-    case DecidedBy::agreement:
-      return "agreement";
-    case DecidedBy::cases:
-      return "cases";
-    case DecidedBy::evidence:
-      return "evidence";
-    case DecidedBy::criterion:
-      return "criterion";
-    case DecidedBy::abstained:
-      return "abstained";
-  }
-  return "abstained";
-}
-
 }  // namespace faultline

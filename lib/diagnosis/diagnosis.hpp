@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "lib/core/issue.hpp"
+#include "lib/diagnosis/decided_by.hpp"
 #include "lib/evidence/evidence_trace.hpp"
-#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/opinion.hpp"
+#include "lib/residual/residual_summary.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
 namespace faultline {
@@ -21,16 +23,6 @@ enum class Verdict {
   inconclusive,  ///< too little of the log could be judged; `verdict_reason` says why
 };
 const char* to_string(Verdict verdict);
-
-/// Who settled what a fault is.
-enum class DecidedBy { agreement, cases, evidence, criterion, abstained };
-const char* to_string(DecidedBy decided_by);
-
-/// What one network says of an episode.
-struct Opinion {
-  FaultLabel label;
-  double confidence = 0.0;  ///< 0 to 1
-};
 
 /// A case of the case base that resembles an episode.
 struct Precedent {
@@ -84,10 +76,12 @@ struct LogFacts {
   std::string format;
   std::int64_t rows_read = 0;
   std::int64_t rows_used = 0;
+  std::int64_t judgeable_rows = 0;  ///< of those used: with position and torque of every joint
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double end_s = std::numeric_limits<double>::quiet_NaN();
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
+  bool has_velocity = false;
   Issues issues;
 };
 
@@ -97,24 +91,14 @@ struct ModelFacts {
   std::string cases_sha256;
 };
 
-/// The residual of one joint over the whole log: measured minus regenerated fault-free motion (the MLP's
-/// one-step prediction), in units of its healthy root mean square, so that about 1 is healthy.
-struct JointResidualSummary {
-  int joint = 0;
-  double velocity_rms = std::numeric_limits<double>::quiet_NaN();   ///< over the log, normalised
-  double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest, normalised
-  double peak_s = std::numeric_limits<double>::quiet_NaN();         ///< when
-  double position_rms = std::numeric_limits<double>::quiet_NaN();
-};
-
 struct Diagnosis {
   LogFacts log;
   ModelFacts model;
   std::string program_version;
   Verdict verdict = Verdict::not_run;
   std::string verdict_reason;
-  std::vector<JointResidualSummary> residuals;  ///< a joint each
-  std::vector<FaultFinding> faults;             ///< by onset
+  std::vector<JointResidual> residuals;  ///< of the MLP over the whole log, a joint each
+  std::vector<FaultFinding> faults;      ///< by onset
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/evidence/episode_detector.hpp"
 #include "lib/evidence/follower.hpp"
-#include "lib/evidence/listener.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -111,17 +111,16 @@ struct Extremes {
 Extremes extremes(std::span<LogSource* const> logs, const MotionModel& model,
                   const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options) {
   Extremes seen;
-  std::vector<EpisodeEvidence> episodes;
   for (LogSource* log : logs) {
     log->rewind();
-    Listener listener(model, hypotheses, options);
-    for (Log segment; log->next(segment);) listener.listen(segment, episodes);
-    listener.finish(episodes);
-    seen.trigger = std::max(seen.trigger, listener.largest_trigger());
-    seen.ratio = std::max(seen.ratio, listener.largest_ratio());
+    EpisodeDetector detector(model, hypotheses, options);
+    for (Log segment; log->next(segment);) detector.take(segment);
+    detector.finish();
+    seen.trigger = std::max(seen.trigger, detector.largest_trigger());
+    seen.ratio = std::max(seen.ratio, detector.largest_ratio());
+    for (const EpisodeEvidence& episode : detector.episodes())
+      seen.ratio = std::max(seen.ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
   }
-  for (const EpisodeEvidence& episode : episodes)
-    seen.ratio = std::max(seen.ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
   return seen;
 }
 

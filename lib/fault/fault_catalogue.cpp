@@ -119,6 +119,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
                   },
                   {
                       .measure = SizeMeasure::coulomb_friction,
+                      .feature_name = "coulomb",
                       .prior_mean = 1.0,
                       .low = 0.0,
                       .twin = {.low = 0.4, .high = 3.0, .spread = Spread::log_uniform},

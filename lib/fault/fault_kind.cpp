@@ -18,9 +18,4 @@ FaultKind fault_kind_from(const std::string& name) {
   throw Error(ErrorCode::usage, "fault", "\"" + name + "\" is no fault name; expected one of " + known);
 }
 
-std::string to_string(const FaultLabel& label) {
-  const std::string kind = to_string(label.kind);
-  return label.joint > 0 ? kind + " " + std::to_string(label.joint) : kind;
-}
-
 }  // namespace faultline

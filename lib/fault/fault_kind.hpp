@@ -35,7 +35,4 @@ struct FaultLabel {
   bool operator==(const FaultLabel&) const = default;
 };
 
-/// Such as "torque_loss 2", or "unknown" for a label of no joint.
-std::string to_string(const FaultLabel& label);
-
 }  // namespace faultline

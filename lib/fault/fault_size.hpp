@@ -42,6 +42,7 @@ struct FaultSize {
   /// What stands for this size among the features of an episode: the same, or the impulse of a torque that
   /// passes.
   SizeMeasure feature = measure;
+  const char* feature_name = "size";  ///< before the label in the feature's name
   /// What is thought of the size before anything is seen: normal, in units of the size's prior scale
   /// (size_scale.hpp in lib/evidence).
   double prior_mean = 0.0;

@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// What one judge, such as a network, says of an episode.
+/// What one network says a fault is: the label of its largest output.
 struct Opinion {
   FaultLabel label;
   double confidence = 0.0;  ///< 0 to 1
@@ -13,7 +13,7 @@ struct Opinion {
   bool operator==(const Opinion&) const = default;
 };
 
-/// The opinions of the two networks.
+/// What both say, the paper's dual classification.
 struct Opinions {
   Opinion mlp;
   Opinion rbfn;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/report/layout.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -39,7 +41,7 @@ std::string table(const GoldenCheck& check, bool color) {
     text += cell(printable(item.name), name) + "  " +
             cell(item.damage.empty() ? change(item.verdict_expected, item.verdict_actual) : "-", verdict) +
             "  " + cell(item.damage.empty() ? events : "-", 8) +
-            painted(result_word(item), item.same() ? Paint::green : Paint::red, color) + "\n";
+            painted(result_word(item), item.same() ? Paint::bold_green : Paint::bold_red, color) + "\n";
   }
   return text;
 }
@@ -60,7 +62,7 @@ std::string divergence_text(const CheckedItem& item) {
   const Difference* first = first_divergence(item.comparison);
   if (!first) return "";
   std::string text = "first divergence";
-  if (!std::isnan(first->time_s)) text += fmt::format(" at {:.3f} s", first->time_s);
+  if (!std::isnan(first->time_s)) text += " at " + seconds_text(first->time_s);
   text += fmt::format(": {} is {}, expected {}", first->channel,
                       first->actual.empty() ? "not there" : printable(first->actual),
                       first->expected.empty() ? "none" : printable(first->expected));
@@ -82,8 +84,9 @@ std::string unified_difference(const CheckedItem& item, const GoldenCheck& check
       text += "  " + printable(line.expected) + "\n";
       continue;
     }
-    if (!line.expected.empty()) text += painted("- " + printable(line.expected), Paint::red, color) + "\n";
-    if (!line.actual.empty()) text += painted("+ " + printable(line.actual), Paint::green, color) + "\n";
+    if (!line.expected.empty())
+      text += painted("- " + printable(line.expected), Paint::bold_red, color) + "\n";
+    if (!line.actual.empty()) text += painted("+ " + printable(line.actual), Paint::bold_green, color) + "\n";
   }
   return text;
 }

@@ -5,26 +5,23 @@
 
 #include <cmath>
 
+#include "lib/core/number_text.hpp"
+#include "lib/fault/label_text.hpp"
+
 namespace faultline {
 namespace {
 
-std::string time_text(double time_s) {
-  return std::isnan(time_s) ? "unknown" : fmt::format("{:.3f} s", time_s);
-}
+std::string when(double time_s) { return std::isnan(time_s) ? "unknown" : seconds_text(time_s); }
 
-std::string name_of(const FaultLabel& label) {
-  return label.joint > 0 ? fmt::format("{} joint {}", to_string(label.kind), label.joint)
-                         : to_string(label.kind);
-}
+std::string name_of(const FaultLabel& label) { return label_text(label, " joint "); }
 
-std::string line_of(const GoldenEvent& e) {
+std::string line_of(const FaultEvent& e) {
   return fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
-                     time_text(e.onset_s), time_text(e.alarm_s), time_text(e.end_s), e.confidence);
+                     when(e.onset_s), when(e.alarm_s), when(e.end_s), e.confidence);
 }
 
 /// The unused event of that label whose onset is nearest; -1 for none.
-int nearest(const GoldenEvent& wanted, const std::vector<GoldenEvent>& events,
-            const std::vector<char>& used) {
+int nearest(const FaultEvent& wanted, const std::vector<FaultEvent>& events, const std::vector<char>& used) {
   int best = -1;
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -38,14 +35,14 @@ int nearest(const GoldenEvent& wanted, const std::vector<GoldenEvent>& events,
 }
 
 /// Adds what is not within its tolerance; whether something was.
-bool compare_pair(const GoldenEvent& expected, const GoldenEvent& actual, const ToleranceChain& tolerances,
+bool compare_pair(const FaultEvent& expected, const FaultEvent& actual, const ToleranceChain& tolerances,
                   std::vector<Difference>& differences) {
   const std::size_t before = differences.size();
   const auto number = [&](const char* channel, double wanted, double got, double time) {
     const Tolerance tolerance = tolerance_of(tolerances, channel, channel);
     if (tolerance.agree(wanted, got)) return;
-    differences.push_back({channel, time, fmt::format("{:.6g}", wanted), fmt::format("{:.6g}", got),
-                           tolerance.allowed(wanted)});
+    differences.push_back(
+        {channel, time, digits_text(wanted, 6), digits_text(got, 6), tolerance.allowed(wanted)});
   };
   number("onset_s", expected.onset_s, actual.onset_s, std::fmin(expected.onset_s, actual.onset_s));
   number("alarm_s", expected.alarm_s, actual.alarm_s, std::fmin(expected.alarm_s, actual.alarm_s));
@@ -56,10 +53,10 @@ bool compare_pair(const GoldenEvent& expected, const GoldenEvent& actual, const 
 
 }  // namespace
 
-void compare_events(const std::vector<GoldenEvent>& expected, const std::vector<GoldenEvent>& actual,
+void compare_events(const std::vector<FaultEvent>& expected, const std::vector<FaultEvent>& actual,
                     const ToleranceChain& tolerances, Comparison& comparison) {
   std::vector<char> used(actual.size(), 0);
-  for (const GoldenEvent& event : expected) {
+  for (const FaultEvent& event : expected) {
     const int partner = nearest(event, actual, used);
     if (partner < 0) {
       comparison.differences.push_back({"event", event.onset_s, name_of(event.label), "", kNoNumber});

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "lib/core/number_text.hpp"
+
 namespace faultline {
 namespace {
 
@@ -66,7 +68,7 @@ void compare_times(const Trace& expected, const Trace& actual, const std::vector
   comparison.lines.push_back({expected_text, actual_text, true});
 }
 
-std::string value(double number) { return fmt::format("{:.6g}", number); }
+std::string value(double number) { return digits_text(number, 6); }
 
 }  // namespace
 

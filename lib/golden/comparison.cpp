@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/number_text.hpp"
 #include "lib/golden/compare_events.hpp"
 #include "lib/golden/compare_trace.hpp"
 
 namespace faultline {
 namespace {
 
-std::string value(double number) { return fmt::format("{:.6g}", number); }
+std::string value(double number) { return digits_text(number, 6); }
 
 void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
                    Comparison& comparison) {
@@ -38,13 +39,13 @@ bool compare_number(const std::string& channel, const std::string& family, doubl
   return true;
 }
 
-std::string line_of(const JointResidualSummary& r) {
+std::string line_of(const JointResidual& r) {
   return fmt::format("residual of joint {}: velocity_rms {}, velocity_peak {} at {} s, position_rms {}",
-                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.peak_s),
+                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.velocity_peak_s),
                      value(r.position_rms));
 }
 
-bool compare_residual(const JointResidualSummary& expected, const JointResidualSummary& actual,
+bool compare_residual(const JointResidual& expected, const JointResidual& actual,
                       const ToleranceChain& tolerances, Comparison& comparison) {
   bool differs = false;
   const auto number = [&](const char* family, double wanted, double got, double time) {
@@ -52,8 +53,9 @@ bool compare_residual(const JointResidualSummary& expected, const JointResidualS
                               tolerances, comparison);
   };
   number("velocity_rms", expected.velocity_rms, actual.velocity_rms, NAN);
-  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.peak_s);
-  number("peak_s", expected.peak_s, actual.peak_s, std::fmin(expected.peak_s, actual.peak_s));
+  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.velocity_peak_s);
+  number("peak_s", expected.velocity_peak_s, actual.velocity_peak_s,
+         std::fmin(expected.velocity_peak_s, actual.velocity_peak_s));
   number("position_rms", expected.position_rms, actual.position_rms, NAN);
   return differs;
 }
@@ -70,18 +72,12 @@ void compare_residuals(const Observation& expected, const Observation& actual,
   }
 }
 
-std::string line_of(const ObservedParameter& p) {
+std::string line_of(const ParameterValue& p) {
   if (std::isnan(p.std)) return fmt::format("{} {} {} (not identifiable)", p.name, value(p.value), p.unit);
   return fmt::format("{} {} {}, std {}", p.name, value(p.value), p.unit, value(p.std));
 }
 
-const ObservedParameter* find(const std::vector<ObservedParameter>& parameters, const std::string& name) {
-  for (const ObservedParameter& p : parameters)
-    if (p.name == name) return &p;
-  return nullptr;
-}
-
-void compare_parameter(const ObservedParameter& expected, const ObservedParameter* actual,
+void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
   if (!actual) {
     comparison.differences.push_back({expected.name, kNoNumber, value(expected.value), "", kNoNumber});
@@ -117,10 +113,10 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
   compare_words("status", expected.status, actual.status, comparison);
   if (!comparison.same() && !actual.reason.empty()) comparison.lines.back().actual += ": " + actual.reason;
   compare_words("method", expected.method, actual.method, comparison);
-  for (const ObservedParameter& p : expected.parameters)
-    compare_parameter(p, find(actual.parameters, p.name), tolerances, comparison);
-  for (const ObservedParameter& p : actual.parameters) {
-    if (find(expected.parameters, p.name)) continue;
+  for (const ParameterValue& p : expected.parameters)
+    compare_parameter(p, find_value(actual.parameters, p.name), tolerances, comparison);
+  for (const ParameterValue& p : actual.parameters) {
+    if (find_value(expected.parameters, p.name)) continue;
     comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
     comparison.lines.push_back({"", line_of(p), true});
   }

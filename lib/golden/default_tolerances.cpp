@@ -33,7 +33,7 @@ Tolerances default_tolerances(const Model& model) {
 
 Tolerances default_tolerances(const ObservedIdentification& identification) {
   Tolerances t;
-  for (const ObservedParameter& p : identification.parameters)
+  for (const ParameterValue& p : identification.parameters)
     if (p.std > 0.0) t.by_channel[p.name] = {readable(0.1 * p.std), 0.0};
   return t;
 }

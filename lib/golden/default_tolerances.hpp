@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// What record writes for all logs: times within two samples, foretold motion within a fiftieth of the noise
+/// What record writes for all logs: times within two samples, predicted motion within a fiftieth of the noise
 /// of a healthy log, residuals within 2 %. Arithmetic differs between machines by far less; a change of the
 /// program or of the model that a user would notice is more.
 Tolerances default_tolerances(const Model& model);

@@ -7,6 +7,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/golden/golden_set.hpp"
+#include "lib/robot/nearest_word.hpp"
 #include "lib/robot/toml_table.hpp"
 
 namespace faultline {
@@ -49,8 +50,8 @@ void read_length_rule(const TomlTable& table, Tolerances& into) {
   if (table.has("length_may_differ")) into.length_may_differ = table.flag("length_may_differ", false);
 }
 
-GoldenEvent event(const TomlTable& table) {
-  GoldenEvent e;
+FaultEvent event(const TomlTable& table) {
+  FaultEvent e;
   std::vector<std::string> kinds;
   for (int i = 0; i < kFaultKinds; ++i) kinds.push_back(to_string(static_cast<FaultKind>(i)));
   e.label.kind = fault_kind_from(table.choice("kind", kinds));
@@ -62,7 +63,7 @@ GoldenEvent event(const TomlTable& table) {
   return e;
 }
 
-JointResidualSummary residual(const TomlTable& table) {
+JointResidual residual(const TomlTable& table) {
   return {static_cast<int>(table.integer("joint", 0)), table.any_number("velocity_rms"),
           table.any_number("velocity_peak"), table.any_number("peak_s"), table.any_number("position_rms")};
 }

@@ -69,7 +69,7 @@ std::string identification_text(const GoldenIdentification& identified) {
     text += (i ? ", " : "") + quoted(identified.logs[i]);
   text += fmt::format("]\nstatus = {}\nmethod = {}\nparameters = [\n", quoted(identified.expected.status),
                       quoted(identified.expected.method));
-  for (const ObservedParameter& p : identified.expected.parameters)
+  for (const ParameterValue& p : identified.expected.parameters)
     text += fmt::format("  {{name = {}, value = {}, std = {}, unit = {}}},\n", quoted(p.name),
                         number(p.value), number(p.std), quoted(p.unit));
   text += "]\n";
@@ -78,17 +78,17 @@ std::string identification_text(const GoldenIdentification& identified) {
   return text;
 }
 
-std::string event_line(const GoldenEvent& e) {
+std::string event_line(const FaultEvent& e) {
   return fmt::format(
       "  {{kind = {}, joint = {}, onset_s = {}, alarm_s = {}, end_s = {}, confidence = {}}},\n",
       quoted(to_string(e.label.kind)), e.label.joint, time(e.onset_s), time(e.alarm_s), time(e.end_s),
       number(e.confidence));
 }
 
-std::string residual_line(const JointResidualSummary& r) {
+std::string residual_line(const JointResidual& r) {
   return fmt::format(
       "  {{joint = {}, velocity_rms = {}, velocity_peak = {}, peak_s = {}, position_rms = {}}},\n", r.joint,
-      number(r.velocity_rms), number(r.velocity_peak), time(r.peak_s), number(r.position_rms));
+      number(r.velocity_rms), number(r.velocity_peak), time(r.velocity_peak_s), number(r.position_rms));
 }
 
 std::string log_text(const GoldenLog& log) {
@@ -97,9 +97,9 @@ std::string log_text(const GoldenLog& log) {
       quoted(log.log.path), quoted(log.log.sha256), log.expected.rows, quoted(log.trace.path),
       quoted(log.trace.sha256), quoted(log.expected.verdict));
   text += length_line(log.tolerances) + (log.expected.events.empty() ? "events = [" : "events = [\n");
-  for (const GoldenEvent& event : log.expected.events) text += event_line(event);
+  for (const FaultEvent& event : log.expected.events) text += event_line(event);
   text += "]\nresiduals = [\n";
-  for (const JointResidualSummary& r : log.expected.residuals) text += residual_line(r);
+  for (const JointResidual& r : log.expected.residuals) text += residual_line(r);
   text += "]\n";
   if (!log.tolerances.by_channel.empty()) text += "\n[log.tolerance]\n" + tolerance_lines(log.tolerances);
   return text;

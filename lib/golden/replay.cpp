@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
+#include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/pipeline/diagnose.hpp"
 
@@ -20,8 +21,7 @@ Observation observed(const Diagnosis& diagnosis, const Trace& trace) {
   seen.verdict = to_string(diagnosis.verdict);
   seen.reason = diagnosis.verdict_reason;
   seen.rows = diagnosis.log.rows_used;
-  for (const FaultFinding& fault : diagnosis.faults)
-    seen.events.push_back({fault.label, fault.onset_s, fault.alarm_s, fault.end_s, fault.confidence});
+  seen.events = events_of(diagnosis.faults);
   seen.residuals = diagnosis.residuals;
   seen.trace = trace;
   return seen;
@@ -41,12 +41,9 @@ Observation observe_file(const ReplayLog& log, const ModelAndCases& subject, con
   }
 }
 
-void add(const std::vector<ParameterEstimate>& from, std::vector<ObservedParameter>& to) {
-  for (const ParameterEstimate& p : from) {
-    const bool there =
-        std::any_of(to.begin(), to.end(), [&](const ObservedParameter& o) { return o.name == p.name; });
-    if (!there) to.push_back({p.name, p.value, p.std, p.unit});
-  }
+void add(const std::vector<ParameterEstimate>& from, std::vector<ParameterValue>& to) {
+  for (const ParameterEstimate& p : from)
+    if (!find_value(to, p.name)) to.push_back(value_of(p));
 }
 
 /// Tells how many items are done, one caller at a time.

@@ -1,43 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/json_values.hpp"
 #include "lib/golden/run_json.hpp"
 
 namespace faultline {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
-std::vector<double> numbers(const Json& list) {
-  std::vector<double> values;
-  for (const Json& value : list) values.push_back(number(value));
-  return values;
-}
-
-GoldenEvent event(const Json& json) {
-  return {{fault_kind_from(json.at("kind")), json.at("joint").get<int>()},
-          number(json.at("onset_s")),
-          number(json.at("alarm_s")),
-          number(json.at("end_s")),
-          number(json.at("confidence"))};
-}
-
-JointResidualSummary residual(const Json& json) {
-  return {json.at("joint").get<int>(), number(json.at("velocity_rms")), number(json.at("velocity_peak")),
-          number(json.at("peak_s")), number(json.at("position_rms"))};
+JointResidual residual(const Json& json) {
+  return {json.at("joint").get<int>(), number_or_nan(json.at("velocity_rms")),
+          number_or_nan(json.at("velocity_peak")), number_or_nan(json.at("peak_s")),
+          number_or_nan(json.at("position_rms"))};
 }
 
 Trace trace(const Json& json, const std::string& where) {
   Trace read;
   read.channels = json.at("channels").get<std::vector<std::string>>();
-  read.time = numbers(json.at("time"));
-  for (const Json& values : json.at("values")) read.values.push_back(numbers(values));
+  read.time = numbers_or_nan(json.at("time"));
+  for (const Json& values : json.at("values")) read.values.push_back(numbers_or_nan(values));
   bool fits = read.values.size() == read.channels.size();
   for (const auto& values : read.values) fits &= values.size() == read.time.size();
   if (!fits) throw Error(ErrorCode::input, where, "has a trace whose channels are not of one length");
@@ -50,7 +33,7 @@ GoldenRun::Log log(const Json& json, const std::string& where) {
   o.verdict = json.at("verdict");
   o.reason = json.at("reason");
   o.rows = json.at("rows");
-  for (const Json& one : json.at("events")) o.events.push_back(event(one));
+  for (const Json& one : json.at("events")) o.events.push_back(fault_event_from_json(one));
   for (const Json& one : json.at("residuals")) o.residuals.push_back(residual(one));
   o.trace = trace(json.at("trace"), where);
   return read;
@@ -59,7 +42,8 @@ GoldenRun::Log log(const Json& json, const std::string& where) {
 ObservedIdentification identification(const Json& json) {
   ObservedIdentification read{json.at("status"), json.at("method"), {}, json.at("reason")};
   for (const Json& p : json.at("parameters"))
-    read.parameters.push_back({p.at("name"), number(p.at("value")), number(p.at("std")), p.at("unit")});
+    read.parameters.push_back(
+        {p.at("name"), number_or_nan(p.at("value")), number_or_nan(p.at("std")), p.at("unit")});
   return read;
 }
 

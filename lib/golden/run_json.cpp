@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/golden/run_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/json_values.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -11,22 +11,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
-
 Json text(const std::string& value) { return valid_utf8(value); }
 
 Json json_of(const Difference& d) {
   return {{"channel", text(d.channel)},
-          {"time_s", number(d.time_s)},
+          {"time_s", number_or_null(d.time_s)},
           {"expected", text(d.expected)},
           {"actual", text(d.actual)},
-          {"allowed", number(d.allowed)}};
+          {"allowed", number_or_null(d.allowed)}};
 }
 
 Json json_of(const CheckedItem& item) {
@@ -42,33 +34,33 @@ Json json_of(const CheckedItem& item) {
   return json;
 }
 
-Json json_of(const GoldenEvent& e) {
-  return {{"kind", to_string(e.label.kind)}, {"joint", e.label.joint},
-          {"onset_s", number(e.onset_s)},    {"alarm_s", number(e.alarm_s)},
-          {"end_s", number(e.end_s)},        {"confidence", number(e.confidence)}};
+Json json_of(const FaultEvent& event) {
+  Json json = to_json(event);
+  json["joint"] = event.label.joint;  // 0 for none in this schema
+  return json;
 }
 
-Json json_of(const JointResidualSummary& r) {
+Json json_of(const JointResidual& r) {
   return {{"joint", r.joint},
-          {"velocity_rms", number(r.velocity_rms)},
-          {"velocity_peak", number(r.velocity_peak)},
-          {"peak_s", number(r.peak_s)},
-          {"position_rms", number(r.position_rms)}};
+          {"velocity_rms", number_or_null(r.velocity_rms)},
+          {"velocity_peak", number_or_null(r.velocity_peak)},
+          {"peak_s", number_or_null(r.velocity_peak_s)},
+          {"position_rms", number_or_null(r.position_rms)}};
 }
 
 Json json_of(const Trace& trace) {
   Json values = Json::array();
-  for (const auto& channel : trace.values) values.push_back(numbers(channel));
-  return {{"channels", trace.channels}, {"time", numbers(trace.time)}, {"values", values}};
+  for (const auto& channel : trace.values) values.push_back(numbers_or_null(channel));
+  return {{"channels", trace.channels}, {"time", numbers_or_null(trace.time)}, {"values", values}};
 }
 
 Json json_of(const GoldenRun::Log& log) {
   const Observation& o = log.observation;
   Json json{{"name", text(log.name)}, {"verdict", o.verdict}, {"reason", text(o.reason)}, {"rows", o.rows}};
   json["events"] = Json::array();
-  for (const GoldenEvent& event : o.events) json["events"].push_back(json_of(event));
+  for (const FaultEvent& event : o.events) json["events"].push_back(json_of(event));
   json["residuals"] = Json::array();
-  for (const JointResidualSummary& r : o.residuals) json["residuals"].push_back(json_of(r));
+  for (const JointResidual& r : o.residuals) json["residuals"].push_back(json_of(r));
   json["trace"] = json_of(o.trace);
   return json;
 }
@@ -78,9 +70,11 @@ Json json_of(const ObservedIdentification& identification) {
             {"method", identification.method},
             {"reason", text(identification.reason)}};
   json["parameters"] = Json::array();
-  for (const ObservedParameter& p : identification.parameters)
-    json["parameters"].push_back(
-        {{"name", text(p.name)}, {"value", number(p.value)}, {"std", number(p.std)}, {"unit", text(p.unit)}});
+  for (const ParameterValue& p : identification.parameters)
+    json["parameters"].push_back({{"name", text(p.name)},
+                                  {"value", number_or_null(p.value)},
+                                  {"std", number_or_null(p.std)},
+                                  {"unit", text(p.unit)}});
   return json;
 }
 

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/plot/plot_axis.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {

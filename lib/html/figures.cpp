@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/fault/fault_words.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -48,6 +49,7 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
                                       const std::vector<PlotMark>& marks) {
   const JointCurves& joint = window.joints[j];
   const bool turns = j < curves.turns.size() && curves.turns[j];
+  const AxisKind axis = turns ? AxisKind::revolute : AxisKind::prismatic;
   const std::string n = std::to_string(j + 1);
   auto pair = [&](const char* id, const char* what, const char* unit, const Envelope& measured,
                   const Envelope& healthy, const char* healthy_name) {
@@ -59,9 +61,9 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
     add_curve(figure, window, "measured", id + n, measured.values, 0);
     return figure;
   };
-  return {pair("q", "position", turns ? "rad" : "m", joint.q, joint.q_foretold, "foretold"),
-          pair("dq", "velocity", turns ? "rad/s" : "m/s", joint.dq, joint.dq_foretold, "foretold"),
-          pair("tau", turns ? "torque" : "force", turns ? "N m" : "N", joint.tau, joint.tau_needed,
+  return {pair("q", "position", position_unit(axis), joint.q, joint.q_predicted, "foretold"),
+          pair("dq", "velocity", velocity_unit(axis), joint.dq, joint.dq_predicted, "foretold"),
+          pair("tau", turns ? "torque" : "force", torque_unit(axis), joint.tau, joint.tau_required,
                "needed by the healthy robot")};
 }
 

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/html/figure.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {

@@ -3,25 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <vector>
-
-#include "lib/core/hash.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/html/assets.hpp"
-#include "lib/html/base64.hpp"
+#include "lib/html/source_hash.hpp"
 
 namespace faultline {
 namespace {
-
-/// As Content-Security-Policy names an inline script or style.
-std::string source_hash(std::string_view content) {
-  const std::string hex = sha256_hex(content);
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return "'sha256-" + base64(bytes) + "'";
-}
 
 std::string policy(bool with_script) {
   std::string scripts = "'none'";

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/html/assets.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/html/finding.hpp"
@@ -13,7 +15,6 @@
 #include "lib/html/plot_data.hpp"
 #include "lib/html/timeline.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -48,9 +49,9 @@ std::string top(const Diagnosis& d) {
 
 std::string residual_table(const Diagnosis& d) {
   std::vector<HtmlRow> rows;
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.peak_s, d.log.sample_period_s), value_text(r.position_rms)});
+                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return html_part("Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
                    html_table({"joint", "velocity rms", "largest", "at", "position rms"}, rows));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/json_values.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/html/base64.hpp"
 
@@ -50,11 +51,11 @@ Json window_json(const CurveWindow& window) {
     const JointCurves& joint = window.joints[j];
     put(keys, "r" + n, joint.residual);
     put(keys, "q" + n, joint.q.values);
-    put(keys, "q" + n + "h", joint.q_foretold.values);
+    put(keys, "q" + n + "h", joint.q_predicted.values);
     put(keys, "dq" + n, joint.dq.values);
-    put(keys, "dq" + n + "h", joint.dq_foretold.values);
+    put(keys, "dq" + n + "h", joint.dq_predicted.values);
     put(keys, "tau" + n, joint.tau.values);
-    put(keys, "tau" + n + "h", joint.tau_needed.values);
+    put(keys, "tau" + n + "h", joint.tau_required.values);
   }
   for (std::size_t i = 0; i < window.networks.size(); ++i) {
     const std::string key = "n" + std::to_string(window.fault_id) + "-" + std::to_string(i);
@@ -73,7 +74,7 @@ Json trace_json(const FaultFinding& fault) {
   for (std::size_t i = 0; i < fault.trace.curves.size(); ++i) {
     Json values = Json::array();
     for (const double ratio : fault.trace.curves[i].ratio)
-      values.push_back(std::isfinite(ratio) ? Json(short_number(ratio)) : Json(nullptr));
+      values.push_back(number_or_null(short_number(ratio)));
     keys["e" + std::to_string(fault.id) + "-" + std::to_string(i)] = std::move(values);
   }
   return {{"times", std::move(times)}, {"keys", std::move(keys)}};
@@ -85,9 +86,8 @@ Json figure_json(const PageFigure& figure) {
     curves.push_back(Json::array({valid_utf8(curve.name), curve.key, curve.pen}));
   for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
   for (const PlotMark& mark : figure.marks) marks.push_back(Json::array({mark.x, mark.text}));
-  const Json least = std::isfinite(figure.least_y) ? Json(figure.least_y) : Json(nullptr);
   return {{"id", figure.id},       {"fault", figure.fault_id}, {"log", figure.log_y},
-          {"from", figure.from_s}, {"to", figure.to_s},        {"least", least},
+          {"from", figure.from_s}, {"to", figure.to_s},        {"least", number_or_null(figure.least_y)},
           {"curves", curves},      {"limits", limits},         {"marks", marks}};
 }
 

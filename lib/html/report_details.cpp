@@ -6,13 +6,14 @@
 #include <cmath>
 #include <set>
 
+#include "lib/core/number_text.hpp"
 #include "lib/replay/run_curves.hpp"
 
 namespace faultline {
 namespace {
 
 std::string number(double value, const char* unit = "") {
-  return std::isfinite(value) ? fmt::format("{:.5g}{}{}", value, *unit ? " " : "", unit) : "-";
+  return std::isfinite(value) ? digits_text(value, 5) + (*unit ? " " : "") + unit : "-";
 }
 
 FactTable parameter_table(const Identification& identification) {
@@ -24,7 +25,7 @@ FactTable parameter_table(const Identification& identification) {
     for (const ParameterEstimate& p : *list) {
       if (!seen.insert(p.name).second) continue;
       const std::string interval =
-          p.identifiable ? fmt::format("{:.5g} to {:.5g}", p.ci95[0], p.ci95[1]) : "-";
+          p.identifiable ? digits_text(p.ci95[0], 5) + " to " + digits_text(p.ci95[1], 5) : "-";
       table.rows.push_back(
           {p.name, number(p.value), interval, p.unit, p.identifiable ? p.meaning : p.why_not});
     }
@@ -36,11 +37,10 @@ FactTable validation_table(const Validation& validation) {
                   {"fault", "runs", "found", "right joint", "right", "right or named", "median delay"},
                   {}};
   for (const ValidationRow& row : validation.rows)
-    table.rows.push_back(
-        {to_string(row.kind), std::to_string(row.runs), std::to_string(row.detected),
-         std::to_string(row.right_joint), std::to_string(row.right_kind_and_joint),
-         std::to_string(row.right_or_named),
-         std::isfinite(row.median_delay_s) ? fmt::format("{:.3f} s", row.median_delay_s) : "-"});
+    table.rows.push_back({to_string(row.kind), std::to_string(row.runs), std::to_string(row.detected),
+                          std::to_string(row.right_joint), std::to_string(row.right_kind_and_joint),
+                          std::to_string(row.right_or_named),
+                          std::isfinite(row.median_delay_s) ? seconds_text(row.median_delay_s) : "-"});
   table.rows.push_back({"none (false alarms)", fmt::format("{:.2f} h", validation.healthy_hours),
                         std::to_string(validation.false_alarms), "", "", "", ""});
   return table;

@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/html/finding.hpp"
 #include "lib/plot/plot_axis.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -34,8 +35,8 @@ class Picture {
   std::string text() const {
     std::string svg = fmt::format(
         "<svg class=\"timeline\" viewBox=\"0 0 1100 {}\" role=\"group\" aria-label=\"Timeline of the run: "
-        "{} fault{}\">\n",
-        foot() + 24, d_.faults.size(), d_.faults.size() == 1 ? "" : "s");
+        "{}\">\n",
+        foot() + 24, counted(std::ssize(d_.faults), "fault"));
     for (int lane = first_lane_; lane <= joints_; ++lane) svg += lane_text(lane);
     for (std::size_t i = 0; i < d_.faults.size(); ++i)
       if (std::isfinite(d_.faults[i].onset_s)) svg += fault_text(d_.faults[i], room_after(i));

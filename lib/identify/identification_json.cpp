@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/json_values.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -16,27 +16,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "faultline/identification/1";
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-double number_from(const Json& j) {
-  return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>();
-}
-
-Json numbers(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (double v : values) out.push_back(number(v));
-  return out;
-}
-
-std::vector<double> numbers_from(const Json& j) {
-  std::vector<double> out;
-  for (const Json& v : j) out.push_back(number_from(v));
-  return out;
-}
-
 Json parameter(const ParameterEstimate& e) {
-  Json out = {{"name", e.name},       {"value", number(e.value)},
-              {"std", number(e.std)}, {"ci95", {number(e.ci95[0]), number(e.ci95[1])}},
-              {"unit", e.unit},       {"identifiable", e.identifiable},
+  Json out = {{"name", e.name},
+              {"value", number_or_null(e.value)},
+              {"std", number_or_null(e.std)},
+              {"ci95", {number_or_null(e.ci95[0]), number_or_null(e.ci95[1])}},
+              {"unit", e.unit},
+              {"identifiable", e.identifiable},
               {"why_not", e.why_not}};
   if (!e.meaning.empty()) out["meaning"] = e.meaning;
   return out;
@@ -45,9 +31,9 @@ Json parameter(const ParameterEstimate& e) {
 ParameterEstimate parameter_from(const Json& j) {
   ParameterEstimate e;
   e.name = j.at("name");
-  e.value = number_from(j.at("value"));
-  e.std = number_from(j.at("std"));
-  e.ci95 = {number_from(j.at("ci95").at(0)), number_from(j.at("ci95").at(1))};
+  e.value = number_or_nan(j.at("value"));
+  e.std = number_or_nan(j.at("std"));
+  e.ci95 = {number_or_nan(j.at("ci95").at(0)), number_or_nan(j.at("ci95").at(1))};
   e.unit = j.at("unit");
   e.identifiable = j.at("identifiable");
   e.why_not = j.at("why_not");
@@ -55,20 +41,13 @@ ParameterEstimate parameter_from(const Json& j) {
   return e;
 }
 
-template <typename T, typename Convert>
-Json array_of(const std::vector<T>& values, Convert convert) {
-  Json out = Json::array();
-  for (const T& v : values) out.push_back(convert(v));
-  return out;
-}
-
 Json log_json(const IdentifiedLog& log) {
   return {{"path", log.path},
           {"sha256", log.sha256},
           {"rows", log.rows},
           {"rows_used", log.rows_used},
-          {"sample_period_s", number(log.sample_period_s)},
-          {"payload_kg", number(log.payload_kg)}};
+          {"sample_period_s", number_or_null(log.sample_period_s)},
+          {"payload_kg", number_or_null(log.payload_kg)}};
 }
 
 IdentifiedLog log_from(const Json& j) {
@@ -76,22 +55,21 @@ IdentifiedLog log_from(const Json& j) {
           j.at("sha256"),
           j.at("rows"),
           j.at("rows_used"),
-          number_from(j.at("sample_period_s")),
-          number_from(j.at("payload_kg"))};
+          number_or_nan(j.at("sample_period_s")),
+          number_or_nan(j.at("payload_kg"))};
 }
 
 Json state_json(const Identification& id) {
   std::vector<double> estimate(id.estimate.data(), id.estimate.data() + id.estimate.size());
   std::vector<double> covariance(id.covariance.data(), id.covariance.data() + id.covariance.size());
   return {{"robot_file", robot_file_text(id.robot)},
-          {"estimate", numbers(estimate)},
-          {"covariance", numbers(covariance)}};
+          {"estimate", numbers_or_null(estimate)},
+          {"covariance", numbers_or_null(covariance)}};
 }
 
 template <typename Enum>
 Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const std::string& where) {
-  for (Enum e : all)
-    if (name == to_string(e)) return e;
+  if (const auto found = enum_named(name, all)) return *found;
   throw Error(ErrorCode::input, where,
               fmt::format("\"{}\" is no status or method that this version knows", name));
 }
@@ -108,11 +86,11 @@ Identification read_summary(const Json& j, const std::string& where) {
                         {Method::automatic, Method::weak_form, Method::output_error}, where);
   for (const Json& p : j.at("base_parameters")) id.base_parameters.push_back(parameter_from(p));
   for (const Json& p : j.at("physical_parameters")) id.physical_parameters.push_back(parameter_from(p));
-  id.q_noise = numbers_from(j.at("q_noise"));
-  id.dq_noise = numbers_from(j.at("dq_noise"));
-  id.condition_number = number_from(j.at("condition_number"));
-  id.residual_rms = numbers_from(j.at("residual_rms"));
-  id.fit_r2 = numbers_from(j.at("fit_r2"));
+  id.q_noise = numbers_or_nan(j.at("q_noise"));
+  id.dq_noise = numbers_or_nan(j.at("dq_noise"));
+  id.condition_number = number_or_nan(j.at("condition_number"));
+  id.residual_rms = numbers_or_nan(j.at("residual_rms"));
+  id.fit_r2 = numbers_or_nan(j.at("fit_r2"));
   for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
   return id;
 }
@@ -122,7 +100,8 @@ Identification read(const Json& j, const std::string& where) {
   const Json& state = j.at("state");
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
-  const auto estimate = numbers_from(state.at("estimate")), covariance = numbers_from(state.at("covariance"));
+  const auto estimate = numbers_or_nan(state.at("estimate")),
+             covariance = numbers_or_nan(state.at("covariance"));
   const auto count = static_cast<std::size_t>(id.space.count());
   if (estimate.size() != count || covariance.size() != count * count)
     throw Error(ErrorCode::input, where,
@@ -139,14 +118,14 @@ nlohmann::ordered_json summary_to_json(const Identification& id) {
           {"status", to_string(id.status)},
           {"reason", id.reason},
           {"method", to_string(id.method)},
-          {"base_parameters", array_of(id.base_parameters, parameter)},
-          {"physical_parameters", array_of(id.physical_parameters, parameter)},
-          {"condition_number", number(id.condition_number)},
-          {"residual_rms", numbers(id.residual_rms)},
-          {"fit_r2", numbers(id.fit_r2)},
-          {"q_noise", numbers(id.q_noise)},
-          {"dq_noise", numbers(id.dq_noise)},
-          {"logs", array_of(id.logs, log_json)}};
+          {"base_parameters", list_of<Json>(id.base_parameters, parameter)},
+          {"physical_parameters", list_of<Json>(id.physical_parameters, parameter)},
+          {"condition_number", number_or_null(id.condition_number)},
+          {"residual_rms", numbers_or_null(id.residual_rms)},
+          {"fit_r2", numbers_or_null(id.fit_r2)},
+          {"q_noise", numbers_or_null(id.q_noise)},
+          {"dq_noise", numbers_or_null(id.dq_noise)},
+          {"logs", list_of<Json>(id.logs, log_json)}};
 }
 
 nlohmann::ordered_json to_json(const Identification& id) {

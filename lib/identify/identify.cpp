@@ -3,147 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <thread>
-
 #include "lib/core/error.hpp"
-#include "lib/identify/gathered.hpp"
-#include "lib/identify/parameter_table.hpp"
+#include "lib/identify/fit_alike.hpp"
 #include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
-#include "lib/identify/shooting.hpp"
-#include "lib/identify/start_fit.hpp"
-#include "lib/identify/weak_form.hpp"
 
 namespace faultline {
 namespace {
-
-constexpr double kWidthDoubt = 1.15;  ///< of ln(width): a factor of about 3
-
-double nominal_timing(const Robot& robot) {
-  if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
-  return robot.torque_phi.value_or(0.5);
-}
-
-}  // namespace
-
-void IdentifyOptions::check() const {
-  const auto positive = [](const char* field, double value) {
-    if (!(value > 0.0))
-      throw Error(ErrorCode::usage, field, fmt::format("is {}; expected a number above 0", value));
-  };
-  positive("window_s", window_s);
-  positive("segment_s", segment_s);
-  positive("min_segment_rows", min_segment_rows - 2);
-  positive("max_rows", max_rows);
-  positive("max_windows", max_windows);
-  positive("max_iterations", max_iterations);
-  if (threads < 0)
-    throw Error(ErrorCode::usage, "threads", fmt::format("is {}; expected 0 or more", threads));
-}
-
-namespace {
-
-/// Facts with doubt about parameters of the space, and a wide one about every friction width.
-std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& robot) {
-  std::vector<ParameterPrior> priors;
-  for (int p = 0; p < space.timing(); ++p) {
-    std::string name = space.name(p);
-    std::erase(name, '_');
-    const auto it = robot.known.find(name);
-    if (it != robot.known.end() && it->second.std > 0.0)
-      priors.push_back({p, it->second.value, it->second.std});
-  }
-  for (int j = 0; j < space.joints(); ++j)
-    priors.push_back({space.log_width(j), std::log(robot.chain.friction[j].width), kWidthDoubt});
-  return priors;
-}
-
-bool has_fast_log(const Identification& id) {
-  return std::any_of(id.logs.begin(), id.logs.end(),
-                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsFriction_s; });
-}
-
-std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
-                                 const IdentifyOptions& options) {
-  const ParameterSpace& space = id.space;
-  const bool is_fast = has_fast_log(id);
-  std::vector<int> free;
-  for (int p = 0; p < space.linear(); ++p)
-    if (weak.free[p]) free.push_back(p);
-  for (int j = 0; j < space.joints(); ++j)
-    if (options.estimate_width && is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
-  return free;
-}
-
-int thread_count(const IdentifyOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-Issue model_error_issue() {
-  Issue issue;
-  issue.code = "model_error";
-  issue.severity = Severity::note;
-  issue.message =
-      "the motion keeps a regular error that no parameters of this model remove; values and intervals come "
-      "from the momentum balance over short windows instead of the output error";
-  return issue;
-}
 
 /// Whether the same base parameters mean other torques at other lengths.
 bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
   const Eigen::VectorXd ones = Eigen::VectorXd::LinSpaced(a.count(), 1.0, 2.0);
   const Eigen::VectorXd same = parameters_of(b, chain_from(a, ones), 0.0);
   return (same - ones).head(a.rigid()).cwiseAbs().maxCoeff() > 1e-6;
-}
-
-std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
-
-/// What is left after shooting is motion the model lacks, not noise: neighbours alike and far above
-/// roughness.
-bool model_error_dominates(const ShootingFit& shot, const Eigen::VectorXd& roughness,
-                           const Eigen::VectorXd& floor) {
-  for (Eigen::Index c = 0; c < roughness.size(); ++c)
-    if (shot.correlation[c] > 0.7 && shot.noise[c] > 3.0 * std::max(roughness[c], floor[c])) return true;
-  return false;
-}
-
-void take_weak_form(const WeakFit& weak, const Gathered& gathered, Identification& id) {
-  const Eigen::VectorXd noise = first_noise(gathered.roughness).cwiseMax(noise_floor(gathered.roughness));
-  id.method = IdentifyMethod::weak_form;
-  id.status = IdentificationStatus::converged;
-  id.estimate = weak.parameters;
-  id.covariance = weak.covariance;
-  id.q_noise = list(noise.head(id.space.joints()));
-  if (gathered.roughness.has_dq()) id.dq_noise = list(noise.tail(id.space.joints()));
-  id.reason = fmt::format("{} windows", weak.windows);
-}
-
-void take_shooting(const ShootingFit& shot, const Gathered& gathered, Identification& id) {
-  id.method = IdentifyMethod::output_error;
-  id.status = shot.converged ? IdentificationStatus::converged : IdentificationStatus::not_converged;
-  id.reason = shot.reason;
-  id.estimate = shot.parameters;
-  id.covariance = shot.covariance;
-  id.q_noise = list(shot.noise.head(id.space.joints()));
-  if (gathered.roughness.has_dq()) id.dq_noise = list(shot.noise.tail(id.space.joints()));
-}
-
-/// Fit in torque over the weak form's windows, whichever estimator gave the parameters.
-void judge_fit(const WeakWindows& windows, Identification& id) {
-  const WeakFit judged = fit_weak_form(windows, id.estimate, std::vector<bool>(id.space.count(), false));
-  id.residual_rms = judged.residual_rms;
-  id.fit_r2 = judged.r2;
-}
-
-/// Sharp friction serves the regression; a robot that is to be simulated keeps the width of its file.
-void smooth_friction(const Eigen::VectorXd& nominal, Identification& id) {
-  for (int j = 0; j < id.space.joints(); ++j) {
-    double& width = id.estimate[id.space.log_width(j)];
-    width = std::max(width, nominal[id.space.log_width(j)]);
-  }
 }
 
 /// Masses and lengths; when all lengths are settled, the chain is rebuilt on them.
@@ -155,70 +27,6 @@ void settle_physical(std::span<const BaseEstimate> estimates, Identification& id
   sized.chain.length = *physical.lengths;
   const ParameterSpace space = parameter_space(sized);
   if (space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space)) id.space = space;
-}
-
-/// A mass or inertia that only joints at rest show is confounded with their stiction.
-void doubt_still_joints(const WeakWindows& windows, const std::vector<int>& still, WeakFit& weak) {
-  constexpr double kShown = 1e-6;  ///< share of the squared column that moving joints must carry
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(windows.space().joints(), windows.space().rigid());
-  for (const WeakWindow& w : windows.all()) square += w.base.cwiseAbs2();
-  const Eigen::RowVectorXd all = square.colwise().sum();
-  for (int joint : still) square.row(joint - 1).setZero();
-  for (int p = 0; p < windows.space().rigid(); ++p)
-    if (square.col(p).sum() <= kShown * all[p]) weak.confounded[p] = true;
-}
-
-/// All but masses and lengths, of logs that carry the same payload.
-struct AlikeFit {
-  Identification id;
-  std::vector<bool> usable;  ///< by base parameter
-};
-
-AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
-                   const Progress& progress) {
-  AlikeFit fit;
-  Identification& id = fit.id;
-  id.robot = robot;
-  id.space = parameter_space(robot);
-  Gathered gathered{WeakWindows(id.space, options.window_s, options.max_windows),
-                    Excerpts(options.segment_s, options.min_segment_rows, options.max_rows),
-                    {}};
-  gather(logs, progress, gathered, id);
-
-  const std::vector<int> still = still_joints(gathered.roughness);
-  const Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
-  std::vector<bool> wanted = wanted_parameters(id.space, robot, still);
-  WeakFit weak =
-      start_fit(gathered.windows, nominal, options.estimate_offset && has_fast_log(id), robot, wanted);
-
-  bool weak_is_final = options.method == IdentifyMethod::weak_form;
-  if (!weak_is_final) {
-    const auto excerpts = gathered.excerpts.take();
-    const ShootingFit shot = fit_shooting(id.space, excerpts, weak.parameters,
-                                          free_parameters(weak, id, options), priors_of(id.space, robot),
-                                          first_noise(gathered.roughness), noise_floor(gathered.roughness),
-                                          {options.max_iterations, 6, thread_count(options)}, progress);
-    take_shooting(shot, gathered, id);
-    weak_is_final = options.method == IdentifyMethod::automatic &&
-                    model_error_dominates(shot, gathered.roughness.std(), noise_floor(gathered.roughness));
-    if (weak_is_final) id.issues.add(model_error_issue());
-  }
-  if (weak_is_final) {
-    if (options.estimate_width) weak = fit_weak_form_and_width(gathered.windows, nominal, wanted);
-    take_weak_form(weak, gathered, id);
-  }
-
-  doubt_still_joints(gathered.windows, still, weak);
-  id.condition_number = weak.condition_number;
-  judge_fit(gathered.windows, id);
-  if (weak_is_final) smooth_friction(nominal, id);
-  list_base_parameters(weak, {wanted, still, has_fast_log(id)}, id);
-  if (!all_told(id) && id.status == IdentificationStatus::converged) {
-    id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; " + not_excited(still);
-  }
-  for (int p = 0; p < id.space.rigid(); ++p) fit.usable.push_back(weak.free[p] && !weak.confounded[p]);
-  return fit;
 }
 
 void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {
@@ -238,6 +46,21 @@ Issue payload_issue(const Identification& loaded, double payload) {
 }
 
 }  // namespace
+
+void IdentifyOptions::check() const {
+  const auto positive = [](const char* field, double value) {
+    if (!(value > 0.0))
+      throw Error(ErrorCode::usage, field, fmt::format("is {}; expected a number above 0", value));
+  };
+  positive("window_s", window_s);
+  positive("segment_s", segment_s);
+  positive("min_segment_rows", min_segment_rows - 2);
+  positive("max_rows", max_rows);
+  positive("max_windows", max_windows);
+  positive("max_iterations", max_iterations);
+  if (threads < 0)
+    throw Error(ErrorCode::usage, "threads", fmt::format("is {}; expected 0 or more", threads));
+}
 
 Identification identify(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
                         const Progress& progress) {

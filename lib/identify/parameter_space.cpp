@@ -7,86 +7,14 @@
 #include <cmath>
 
 #include "lib/core/random.hpp"
+#include "lib/identify/base_candidates.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
 
-/// A way the links' inertial numbers may change.
-struct Candidate {
-  BaseParameter parameter;
-  Eigen::VectorXd direction;  ///< 10 n
-};
-
 constexpr int kProbes = 40;
 constexpr double kIndependent = 1e-7;  ///< share of a column that the columns before it must leave
-
-Candidate candidate(const std::string& name, const std::string& unit, int joints) {
-  return {{name, unit, name, false}, Eigen::VectorXd::Zero(joints * kLinkParameters)};
-}
-
-LinkVector rod_inertia(const Eigen::Vector3d& direction) {
-  LinkInertia<double> link;
-  link.inertia = Eigen::Matrix3d::Identity() - direction * direction.transpose();
-  return to_vector(link);
-}
-
-/// The inertial numbers of link i that its shape leaves free, the ones that carry most first.
-void add_link_candidates(const Robot& robot, int i, std::vector<Candidate>& out) {
-  const int n = robot.joints(), at = i * kLinkParameters;
-  const auto add = [&](const std::string& name, const std::string& unit, const LinkVector& v) {
-    out.push_back(candidate(name + std::to_string(i + 1), unit, n));
-    out.back().direction.segment<kLinkParameters>(at) = v;
-  };
-  const auto unit_vector = [](int k) { return LinkVector(LinkVector::Unit(k)); };
-  if (robot.shapes[i] == LinkShape::rod) {
-    const Eigen::Vector3d along = link_direction(robot, i);
-    LinkVector moment = LinkVector::Zero();
-    moment.segment<3>(1) = along;
-    add("I", "kg m^2", rod_inertia(along));
-    add("mx", "kg m", moment);
-  } else if (robot.shapes[i] == LinkShape::general) {
-    const char* const inertia[] = {"Izz", "Ixx", "Iyy", "Ixy", "Ixz", "Iyz"};
-    const int index[] = {6, 4, 5, 7, 8, 9};
-    for (int k = 0; k < 6; ++k) add(inertia[k], "kg m^2", unit_vector(index[k]));
-    add("mx", "kg m", unit_vector(1));
-    add("my", "kg m", unit_vector(2));
-    add("mz", "kg m", unit_vector(3));
-  }
-  add("m", "kg", unit_vector(0));
-  out.back().parameter.is_mass = true;
-}
-
-bool is_scara(const Robot& robot) { return robot.axes == "RRP" || robot.axes == "RRPR"; }
-
-/// a, b, c, m3 of physics of the SCARA: each direction changes that one number of M and G and no other.
-std::vector<Candidate> scara_candidates(const Robot& robot) {
-  const int n = robot.joints();
-  const double l1 = robot.chain.length[0], l2 = robot.chain.length[1];
-  const Eigen::Vector3d x1 = link_direction(robot, 0), x2 = link_direction(robot, 1);
-  const bool tool = n > 3;
-  const std::string carried = tool ? "(m3 + m4)" : "m3";
-  Candidate a = candidate("a", "kg m^2", n), b = candidate("b", "kg m^2", n), c = candidate("c", "kg m^2", n);
-  Candidate m = candidate("m3", "kg", n);
-  a.parameter.meaning = fmt::format("l1^2 (m1/3 + m2 + {})", carried);
-  b.parameter.meaning = fmt::format("l2^2 (m2/3 + {})", carried);
-  c.parameter.meaning = fmt::format("l1 l2 (m2/2 + {})", carried);
-  m.parameter.meaning = tool ? "m3 + m4" : "m3";
-  m.parameter.is_mass = true;
-  a.direction.segment<kLinkParameters>(0) = rod_inertia(x1);
-  b.direction.segment<kLinkParameters>(kLinkParameters) = rod_inertia(x2);
-  c.direction.segment<3>(kLinkParameters + 1) = x2 / l1;
-  m.direction[2 * kLinkParameters] = 1.0;
-  m.direction -= l1 * l1 * a.direction + l2 * l2 * b.direction + l1 * l2 * c.direction;
-  return {a, b, c, m};
-}
-
-std::vector<Candidate> candidates(const Robot& robot) {
-  std::vector<Candidate> out;
-  if (is_scara(robot) && robot.chain.length[0] > 0.0 && robot.chain.length[1] > 0.0)
-    out = scara_candidates(robot);
-  for (int i = 0; i < robot.joints(); ++i) add_link_candidates(robot, i, out);
-  return out;
-}
 
 JointVector<double> draw(Random& random, int n, double scale) {
   JointVector<double> v(n);
@@ -102,7 +30,7 @@ Eigen::MatrixXd probe(const Chain<double>& chain) {
   LinkRegressor y;
   for (int k = 0; k < kProbes; ++k) {
     const auto q = draw(random, n, 2.0), dq = draw(random, n, 2.0), ddq = draw(random, n, 5.0);
-    torque_regressor(chain, link_frames(chain, q), q, dq, ddq, y);
+    torque_regressor(chain, q, dq, ddq, y);
     all.middleRows(k * n, n) = y;
   }
   return all;
@@ -141,20 +69,20 @@ std::string ParameterSpace::unit(int p) const {
   if (p == timing()) return "samples";
   const bool is_width = p > timing();
   const int joint = is_width ? p - timing() - 1 : (p - rigid()) % joints();
-  const bool revolute = chain.geometry[joint].kind == AxisKind::revolute;
-  if (is_width) return revolute ? "rad/s" : "m/s";
-  if ((p - rigid()) / joints() == 0) return revolute ? "N m s/rad" : "N s/m";
-  return revolute ? "N m" : "N";
+  const AxisKind axis = chain.geometry[joint].kind;
+  if (is_width) return velocity_unit(axis);
+  if ((p - rigid()) / joints() == 0) return viscous_unit(axis);
+  return torque_unit(axis);
 }
 
 ParameterSpace parameter_space(const Robot& robot) {
   ParameterSpace space;
   space.chain = robot.chain;
   const Eigen::MatrixXd all = probe(robot.chain);
-  const auto list = candidates(robot);
+  const auto list = base_candidates(robot);
   Eigen::MatrixXd kept(all.rows(), 0), lift(all.cols(), 0);
-  std::vector<const Candidate*> rejected;
-  for (const Candidate& c : list) {
+  std::vector<const BaseCandidate*> rejected;
+  for (const BaseCandidate& c : list) {
     const Eigen::VectorXd column = all * c.direction;
     Eigen::VectorXd coefficients;
     if (column.norm() < 1e-9 * std::sqrt(static_cast<double>(column.size()))) continue;
@@ -170,7 +98,7 @@ ParameterSpace parameter_space(const Robot& robot) {
   }
   space.lift = lift;
   if (is_scara(robot)) return space;
-  for (const Candidate* c : rejected) {
+  for (const BaseCandidate* c : rejected) {
     Eigen::VectorXd coefficients;
     project(kept, all * c->direction, coefficients);
     explain(space, coefficients, c->parameter.name);

@@ -107,8 +107,9 @@ void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, Li
   }
 }
 
-void torque_regressor(const Chain<double>& chain, const LinkFrames& frames, const JointVector<double>& q,
-                      const JointVector<double>& dq, const JointVector<double>& ddq, LinkRegressor& out) {
+void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
+                      const JointVector<double>& ddq, LinkRegressor& out) {
+  const LinkFrames frames = link_frames(chain, q);
   reset(out, frames.joints);
   Vector3d omega = Vector3d::Zero(), alpha = Vector3d::Zero(), acceleration = -chain.gravity;
   for (int j = 0; j < frames.joints; ++j) {

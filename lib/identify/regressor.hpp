@@ -43,7 +43,7 @@ void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq,
 /// The part of dp/dt that is neither motor nor friction: dT/dq - G(q), where T is the kinetic energy.
 void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
 /// Inverse dynamics M ddq + h + G. The accelerations come from the recursion of Newton and Euler.
-void torque_regressor(const Chain<double>& chain, const LinkFrames& frames, const JointVector<double>& q,
-                      const JointVector<double>& dq, const JointVector<double>& ddq, LinkRegressor& out);
+void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
+                      const JointVector<double>& ddq, LinkRegressor& out);
 
 }  // namespace faultline

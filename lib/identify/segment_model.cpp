@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/segment_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-
-#include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {
@@ -190,17 +187,6 @@ void SegmentModel::run(const Excerpt& e, const Eigen::VectorXd& start, bool with
     motion.state.col(k + 1) = w.x;
     if (with_sensitivity) motion.sensitivity.middleRows(2 * n * (k + 1), 2 * n) = w.s;
   }
-}
-
-double stable_step(const Chain<double>& chain, const JointVector<double>& q) {
-  const JointMatrix<double> m = inertia_matrix(chain, q);
-  const JointMatrix<double> inverse =
-      m.ldlt().solve(JointMatrix<double>::Identity(chain.joints(), chain.joints()));
-  double rate = 1e-9;
-  for (int j = 0; j < chain.joints(); ++j)
-    rate = std::max(rate,
-                    std::abs(inverse(j, j)) * std::abs(chain.friction[j].coulomb) / chain.friction[j].width);
-  return 0.6 / rate;
 }
 
 }  // namespace faultline

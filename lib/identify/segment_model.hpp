@@ -46,7 +46,4 @@ class SegmentModel {
   std::vector<FastDynamics> directions_;  ///< of each free base parameter: its own torque
 };
 
-/// Longest step at which the integration follows the friction of `chain` around zero velocity, s.
-double stable_step(const Chain<double>& chain, const JointVector<double>& q);
-
 }  // namespace faultline

@@ -8,82 +8,15 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/core/statistics.hpp"
+#include "lib/identify/shooting_costs.hpp"
+#include "lib/identify/shooting_covariance.hpp"
 #include "lib/identify/shooting_evaluation.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kSettled = 0.03;  ///< relative change of a noise level below which rounds end
-constexpr double kBlock_s = 1.0;
-
-/// Hands Ceres what the evaluation has prepared.
-class ExcerptCost : public ceres::CostFunction {
- public:
-  ExcerptCost(const ShootingEvaluation& evaluation, int excerpt, int states, int free)
-      : evaluation_(evaluation), excerpt_(excerpt) {
-    set_num_residuals(evaluation.rows());
-    mutable_parameter_block_sizes()->push_back(states);
-    mutable_parameter_block_sizes()->push_back(free);
-  }
-
-  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    const ReducedExcerpt& r = evaluation_.reduced[excerpt_];
-    std::copy_n(r.residual.data(), r.residual.size(), residuals);
-    if (!jacobians) return true;
-    if (jacobians[0]) std::copy_n(r.by_state.data(), r.by_state.size(), jacobians[0]);
-    if (jacobians[1]) std::copy_n(r.by_parameter.data(), r.by_parameter.size(), jacobians[1]);
-    return true;
-  }
-
- private:
-  const ShootingEvaluation& evaluation_;
-  int excerpt_;
-};
-
-class PriorCost : public ceres::CostFunction {
- public:
-  PriorCost(int index, double value, double std, int free) : index_(index), value_(value), std_(std) {
-    set_num_residuals(1);
-    mutable_parameter_block_sizes()->push_back(free);
-  }
-
-  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
-    residual[0] = (x[0][index_] - value_) / std_;
-    if (!jacobians || !jacobians[0]) return true;
-    std::fill_n(jacobians[0], parameter_block_sizes()[0], 0.0);
-    jacobians[0][index_] = 1.0 / std_;
-    return true;
-  }
-
- private:
-  int index_;
-  double value_, std_;
-};
-
-void build(ceres::Problem& problem, ShootingEvaluation& evaluation, const ParameterSpace& space,
-           const std::vector<int>& free, const std::vector<ParameterPrior>& priors) {
-  double* parameters = evaluation.values();
-  const int count = static_cast<int>(free.size());
-  for (std::size_t i = 0; i < evaluation.count(); ++i)
-    problem.AddResidualBlock(new ExcerptCost(evaluation, static_cast<int>(i), 2 * space.joints(), count),
-                             nullptr, evaluation.state(i), parameters);
-  const auto index_of = [&](int p) {
-    const auto it = std::find(free.begin(), free.end(), p);
-    return it == free.end() ? -1 : static_cast<int>(it - free.begin());
-  };
-  for (const auto& prior : priors)
-    if (const int k = index_of(prior.parameter); k >= 0)
-      problem.AddResidualBlock(new PriorCost(k, prior.value, prior.std, count), nullptr, parameters);
-  if (const int k = index_of(space.timing()); k >= 0) {
-    problem.SetParameterLowerBound(parameters, k, -1.0);
-    problem.SetParameterUpperBound(parameters, k, 2.0);
-  }
-  for (int j = 0; j < space.joints(); ++j)
-    if (const int k = index_of(space.log_width(j)); k >= 0) {
-      problem.SetParameterLowerBound(parameters, k, std::log(evaluation.narrowest_width(j)));
-      problem.SetParameterUpperBound(parameters, k, std::log(0.5));
-    }
-}
 
 ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evaluation, int max_iterations,
                              bool last) {
@@ -125,9 +58,7 @@ Eigen::VectorXd measure_noise(const std::vector<Eigen::MatrixXd>& residuals,
   for (Eigen::Index c = 0; c < n2; ++c) {
     auto& s = size[c];
     if (s.empty()) continue;
-    auto middle = s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2);
-    std::nth_element(s.begin(), middle, s.end());
-    const double cut = kShootingOutlierStd * std::max(1.4826 * *middle, floor[c]);
+    const double cut = kShootingOutlierStd * std::max(1.4826 * upper_median_of(s), floor[c]);
     double sum = 0.0, count = 0.0;
     for (double v : s)
       if (v <= cut) sum += v * v, count += 1.0;
@@ -149,82 +80,43 @@ Eigen::VectorXd neighbour_correlation(const std::vector<Eigen::MatrixXd>& residu
   return product.cwiseQuotient(square);
 }
 
-/// Covariance of the free parameters when the residuals are white, by Ceres.
-bool white_covariance(ceres::Problem& problem, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::SPARSE_QR;
-  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  options.num_threads = 1;
-  ceres::Covariance covariance(options);
-  const double* block = evaluation.values();
-  const int n = evaluation.free();
-  const std::vector<std::pair<const double*, const double*>> wanted = {{block, block}};
-  if (!covariance.Compute(wanted, &problem)) return false;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
-  covariance.GetCovarianceBlock(block, block, c.data());
-  out = 0.5 * (c + c.transpose());
-  return out.allFinite();
-}
-
-/// Sandwich over blocks of about a second: what the residuals' own correlation says of the spread.
-Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
-                         const Eigen::MatrixXd& white) {
-  const Eigen::Index m = white.rows();
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
-  double blocks = 0.0;
-  for (std::size_t i = 0; i < excerpts.size(); ++i) {
-    // At the optimum an excerpt's gradient with respect to its own start is zero: what is left is of the
-    // parameters alone.
-    g += evaluation.reduced[i].by_parameter.transpose() * evaluation.reduced[i].residual;
-    const bool ends =
-        i + 1 == excerpts.size() || excerpts[i + 1].log != excerpts[i].log ||
-        std::floor(excerpts[i + 1].time[0] / kBlock_s) != std::floor(excerpts[i].time[0] / kBlock_s);
-    if (!ends) continue;
-    meat += g * g.transpose();
-    g.setZero();
-    blocks += 1.0;
-  }
-  const double correction = blocks / std::max(1.0, blocks - static_cast<double>(m));
-  return correction * white * meat * white;
-}
-
-/// The white covariance with every std at least that of the sandwich.
-Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
-  Eigen::VectorXd factor(white.rows());
-  for (Eigen::Index k = 0; k < white.rows(); ++k)
-    factor[k] = white(k, k) > 0.0 ? std::sqrt(std::max(1.0, robust(k, k) / white(k, k))) : 1.0;
-  widened = factor.maxCoeff();
-  return factor.asDiagonal() * white * factor.asDiagonal();
+/// Covariance of all parameters of the space, zero for those not free.
+bool measure_covariance(const ShootingProblem& problem, ceres::Problem& costs, ShootingEvaluation& evaluation,
+                        ShootingFit& fit) {
+  evaluation.PrepareForEvaluation(true, true);
+  Eigen::MatrixXd white;
+  if (!white_covariance(costs, evaluation, white)) return false;
+  const Eigen::MatrixXd wide = widen(white, sandwich(evaluation, problem.excerpts, white), fit.widened);
+  const std::vector<int>& free = problem.free;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    for (std::size_t k = 0; k < free.size(); ++k) fit.covariance(free[i], free[k]) = wide(i, k);
+  return true;
 }
 
 }  // namespace
 
-ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>& excerpts,
-                         const Eigen::VectorXd& start, const std::vector<int>& free,
-                         const std::vector<ParameterPrior>& priors, const Eigen::VectorXd& noise,
-                         const Eigen::VectorXd& floor, const ShootingOptions& options,
+ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& options,
                          const Progress& progress) {
   ShootingFit fit;
-  fit.parameters = start;
-  fit.noise = noise.cwiseMax(floor);
-  fit.covariance.setZero(space.count(), space.count());
-  fit.segments = static_cast<int>(excerpts.size());
-  ShootingEvaluation evaluation(space, excerpts, start, free, fit.noise, options.threads);
-  ceres::Problem::Options problem_options;
-  problem_options.evaluation_callback = &evaluation;
-  ceres::Problem problem(problem_options);
-  build(problem, evaluation, space, free, priors);
+  fit.parameters = problem.start;
+  fit.noise = problem.first_noise();
+  fit.covariance.setZero(problem.space.count(), problem.space.count());
+  fit.segments = static_cast<int>(problem.excerpts.size());
+  ShootingEvaluation evaluation(problem, options.threads);
+  ceres::Problem::Options costs_options;
+  costs_options.evaluation_callback = &evaluation;
+  ceres::Problem costs(costs_options);
+  add_costs(problem, evaluation, costs);
   bool settled = false;
   ceres::Solver::Summary summary;
   while (fit.rounds < options.max_rounds) {
     if (progress) progress("identifying", static_cast<double>(fit.rounds) / options.max_rounds);
-    summary = solve(problem, evaluation, options.max_iterations, settled);
+    summary = solve(costs, evaluation, options.max_iterations, settled);
     fit.iterations += static_cast<int>(summary.iterations.size()) - 1;
     ++fit.rounds;
     const auto residuals = evaluation.residuals();
-    const Eigen::VectorXd next =
-        measure_noise(residuals, excerpts, fit.noise, floor, static_cast<int>(free.size()));
+    const Eigen::VectorXd next = measure_noise(residuals, problem.excerpts, fit.noise, problem.floor,
+                                               static_cast<int>(problem.free.size()));
     const bool was_settled = settled;
     settled = ((next - fit.noise).array().abs() <= kSettled * fit.noise.array()).all();
     fit.noise = next;
@@ -236,16 +128,10 @@ ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>
   fit.converged = summary.termination_type == ceres::CONVERGENCE;
   fit.reason = fmt::format("{} iterations in {} rounds over {} segments; {}", fit.iterations, fit.rounds,
                            fit.segments, fit.converged ? "converged" : "stopped before convergence");
-  evaluation.PrepareForEvaluation(true, true);
-  Eigen::MatrixXd white;
-  if (!white_covariance(problem, evaluation, white)) {
+  if (!measure_covariance(problem, costs, evaluation, fit)) {
     fit.converged = false;
     fit.reason += "; the covariance is singular";
-    return fit;
   }
-  const Eigen::MatrixXd wide = widen(white, sandwich(evaluation, excerpts, white), fit.widened);
-  for (std::size_t i = 0; i < free.size(); ++i)
-    for (std::size_t k = 0; k < free.size(); ++k) fit.covariance(free[i], free[k]) = wide(i, k);
   return fit;
 }
 

@@ -38,14 +38,23 @@ struct ShootingFit {
   int segments = 0;
 };
 
+/// What is to be fitted. The space and the excerpts are borrowed.
+struct ShootingProblem {
+  const ParameterSpace& space;
+  const std::vector<Excerpt>& excerpts;
+  Eigen::VectorXd start;  ///< all parameters of the space
+  std::vector<int> free;  ///< those that move; the others stay at `start`
+  std::vector<ParameterPrior> priors;
+  Eigen::VectorXd noise;  ///< first guess of the std of q (first) and dq, by joint
+  Eigen::VectorXd floor;  ///< the least they can be: rounding
+
+  Eigen::VectorXd first_noise() const { return noise.cwiseMax(floor); }
+};
+
 /// Output error by multiple shooting: parameters and the start of every excerpt that bring the integrated
 /// motion nearest to the measured one, each channel weighted by its own residual (iterated), samples beyond
-/// four standard deviations weighted down. Ceres, Schur complement over the starts. `noise` is a first guess
-/// of the channels' standard deviations, `floor` the least they can be (rounding).
-ShootingFit fit_shooting(const ParameterSpace& space, const std::vector<Excerpt>& excerpts,
-                         const Eigen::VectorXd& start, const std::vector<int>& free,
-                         const std::vector<ParameterPrior>& priors, const Eigen::VectorXd& noise,
-                         const Eigen::VectorXd& floor, const ShootingOptions& options,
+/// four standard deviations weighted down. Ceres, Schur complement over the starts.
+ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& options,
                          const Progress& progress);
 
 }  // namespace faultline

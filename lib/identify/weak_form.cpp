@@ -3,9 +3,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "lib/core/statistics.hpp"
+#include "lib/identify/column_selection.hpp"
+#include "lib/identify/weak_system.hpp"
 
 namespace faultline {
 namespace {
@@ -14,120 +17,13 @@ constexpr int kRounds = 8;
 constexpr double kOutlierStd = 8.0;
 constexpr double kClearlyBetter = 1.3;  ///< Coulomb friction is sharp unless the logs strongly say otherwise
 constexpr double kResting = 0.03;       ///< of a joint's fastest window
-constexpr double kBlock_s = 1.0;
-constexpr double kDependent = 3e-3;   ///< share of a scaled column that must be its own
-constexpr double kNotExcited = 1e-9;  ///< of a column's largest entry
-
-/// All windows as one system, row (window, joint).
-struct System {
-  Eigen::MatrixXd a;
-  Eigen::VectorXd y;
-  Eigen::VectorXd use;     ///< 1, or 0 for rows to leave out
-  std::vector<int> block;  ///< of each row: windows of the same second of the same log
-  int joints = 0;
-};
-
-/// The known width nearest to that of `parameters`.
-int nearest_width(const ParameterSpace& space, const Eigen::VectorXd& parameters, int joint) {
-  int best = 0;
-  const auto distance = [&](int k) {
-    return std::abs(std::log(weak_width(space, joint, k)) - parameters[space.log_width(joint)]);
-  };
-  for (int k = 1; k < kWidths; ++k)
-    if (distance(k) < distance(best)) best = k;
-  return best;
-}
-
-System assemble(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
-  const ParameterSpace& space = windows.space();
-  const int n = space.joints(), count = static_cast<int>(windows.all().size());
-  System s;
-  s.joints = n;
-  s.a.setZero(count * n, space.linear());
-  s.y.resize(count * n);
-  s.use.setOnes(count * n);
-  std::vector<int> width;
-  for (int j = 0; j < n; ++j) width.push_back(nearest_width(space, parameters, j));
-  double start = 0.0;
-  int block = -1, log = -1;
-  for (int k = 0; k < count; ++k) {
-    const WeakWindow& w = windows.all()[k];
-    if (w.log != log || w.time_s - start >= kBlock_s) {
-      ++block;
-      log = w.log;
-      start = w.time_s;
-    }
-    s.a.block(k * n, 0, n, space.rigid()) = w.base;
-    for (int j = 0; j < n; ++j) {
-      s.a(k * n + j, space.viscous(j)) = w.viscous[j];
-      s.a(k * n + j, space.coulomb(j)) = w.coulomb(j, width[j]);
-      s.a(k * n + j, space.offset(j)) = 1.0;
-      s.a(k * n + j, space.timing()) = -w.timing[j];
-      s.y[k * n + j] = w.torque[j];
-      s.block.push_back(block);
-    }
-  }
-  return s;
-}
 
 /// 1.4826 times the median absolute value of every n-th entry from `joint`.
 double robust_scale(const Eigen::VectorXd& r, int joint, int n) {
   std::vector<double> size;
   for (Eigen::Index k = joint; k < r.size(); k += n) size.push_back(std::abs(r[k]));
   if (size.empty()) return 1.0;
-  auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return 1.4826 * *middle;
-}
-
-/// Columns of the weighted system that stand on their own, chosen by pivoted QR of the scaled columns.
-struct Selection {
-  std::vector<int> columns;
-  std::vector<bool> confounded;
-  double condition_number = 0.0;
-};
-
-double condition(const Eigen::MatrixXd& a) {
-  if (a.cols() == 0) return 0.0;
-  const auto s = Eigen::BDCSVD<Eigen::MatrixXd>(a).singularValues();
-  return s[0] / s[s.size() - 1];
-}
-
-Selection select_columns(const Eigen::MatrixXd& a, const std::vector<bool>& wanted, int rigid) {
-  Selection out;
-  out.confounded.assign(a.cols(), true);
-  std::vector<int> listed;
-  for (int c = 0; c < a.cols(); ++c)
-    if (wanted[c] && a.col(c).norm() > kNotExcited * std::sqrt(static_cast<double>(a.rows())))
-      listed.push_back(c);
-  Eigen::MatrixXd scaled(a.rows(), listed.size());
-  for (std::size_t i = 0; i < listed.size(); ++i) scaled.col(i) = a.col(listed[i]).normalized();
-  if (listed.empty()) return out;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-  const Eigen::MatrixXd r = qr.matrixR().topRows(scaled.cols()).triangularView<Eigen::Upper>();
-  const auto order = qr.colsPermutation().indices();
-  int rank = 0;
-  while (rank < scaled.cols() && std::abs(r(rank, rank)) > kDependent) ++rank;
-  for (int i = 0; i < rank; ++i) {
-    out.columns.push_back(listed[order[i]]);
-    out.confounded[listed[order[i]]] = false;
-  }
-  if (rank < scaled.cols()) {  // the rest are mixtures of those
-    const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
-                                        .triangularView<Eigen::Upper>()
-                                        .solve(r.topRightCorner(rank, scaled.cols() - rank));
-    for (int i = 0; i < rank; ++i)
-      if (mixture.row(i).cwiseAbs().maxCoeff() > 0.03) out.confounded[listed[order[i]]] = true;
-  }
-  std::sort(out.columns.begin(), out.columns.end());
-  Eigen::MatrixXd base(a.rows(), 0);
-  for (std::size_t i = 0; i < listed.size(); ++i)
-    if (listed[i] < rigid && std::binary_search(out.columns.begin(), out.columns.end(), listed[i])) {
-      base.conservativeResize(Eigen::NoChange, base.cols() + 1);
-      base.rightCols<1>() = scaled.col(i);
-    }
-  out.condition_number = condition(base);
-  return out;
+  return 1.4826 * upper_median_of(size);
 }
 
 Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) {
@@ -162,7 +58,8 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& a, const Eigen::VectorXd& weight
   return bread * meat * bread * std::max(1.0, blocks / std::max(1.0, blocks - static_cast<double>(m)));
 }
 
-void judge(const System& s, const Eigen::VectorXd& residual, const Eigen::VectorXd& robust, WeakFit& fit) {
+void judge(const WeakSystem& s, const Eigen::VectorXd& residual, const Eigen::VectorXd& robust,
+           WeakFit& fit) {
   for (int j = 0; j < s.joints; ++j) {
     double sum = 0.0, mean = 0.0, spread = 0.0, count = 0.0;
     for (Eigen::Index k = j; k < s.y.size(); k += s.joints)
@@ -178,7 +75,7 @@ void judge(const System& s, const Eigen::VectorXd& residual, const Eigen::Vector
   }
 }
 
-WeakFit fit_system(const System& s, const WeakWindows& windows, const Eigen::VectorXd& start,
+WeakFit fit_system(const WeakSystem& s, const WeakWindows& windows, const Eigen::VectorXd& start,
                    const std::vector<bool>& wanted) {
   const int linear = windows.space().linear();
   WeakFit fit;
@@ -192,7 +89,7 @@ WeakFit fit_system(const System& s, const WeakWindows& windows, const Eigen::Vec
     const double scale = std::max(robust_scale(s.y, j, s.joints), 1e-9);
     for (Eigen::Index k = j; k < s.y.size(); k += s.joints) row_weight[k] = 1.0 / (scale * scale);
   }
-  Selection selection;
+  ColumnSelection selection;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::VectorXd root = (row_weight.array() * robust.array()).sqrt();
     const Eigen::MatrixXd a = root.asDiagonal() * s.a;
@@ -229,7 +126,7 @@ WeakFit fit_system(const System& s, const WeakWindows& windows, const Eigen::Vec
 
 WeakFit fit_moving(const WeakWindows& windows, const Eigen::VectorXd& start,
                    const std::vector<bool>& wanted) {
-  System s = assemble(windows, start);
+  WeakSystem s = assemble(windows, start);
   const auto& all = windows.all();
   Eigen::VectorXd fastest = Eigen::VectorXd::Zero(s.joints);
   for (const WeakWindow& w : all) fastest = fastest.cwiseMax(w.speed);

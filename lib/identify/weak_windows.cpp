@@ -69,9 +69,18 @@ StepMeans step_means(const ParameterSpace& space, const Stretch& s, int k, const
 /// Smooth bump over (0, 1), zero with its slope at both ends.
 double bump(double x) { return std::pow(4.0 * x * (1.0 - x), 2); }
 
-/// Adds one sample's momentum balance to a window with the given weight.
-void add_step(WeakWindow& window, const Stretch& s, int k, double weight, const StateTerms& from,
-              const StateTerms& to, const StepMeans& means) {
+/// Sample k of a stretch, from one state to the next.
+struct Step {
+  int k = 0;
+  double weight = 1.0;
+  const StateTerms& from;
+  const StateTerms& to;
+  const StepMeans& means;
+};
+
+/// Adds one sample's momentum balance to a window with the weight of the step.
+void add_step(WeakWindow& window, const Stretch& s, const Step& step) {
+  const auto& [k, weight, from, to, means] = step;
   const double dt = s.time[k + 1] - s.time[k];
   window.base += weight * (to.momentum - from.momentum - dt * means.force);
   window.viscous += weight * (s.q_smooth.col(k + 1) - s.q_smooth.col(k));
@@ -132,8 +141,8 @@ void WeakWindows::add(const Stretch& s) {
     double total = 0.0;
     for (int k = 0; k < steps; ++k) total += weight[k] * (s.time[begin + k + 1] - s.time[begin + k]);
     for (int k = 0; k < steps; ++k)
-      add_step(window, s, begin + k, weight[k] / total, terms[begin + k], terms[begin + k + 1],
-               means[begin + k]);
+      add_step(window, s,
+               {begin + k, weight[k] / total, terms[begin + k], terms[begin + k + 1], means[begin + k]});
     rows_[s.log] += hop;
     keep(std::move(window));
   }

@@ -2,16 +2,12 @@
 #include "lib/log/channel_names.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <initializer_list>
 #include <string_view>
 
 namespace faultline {
 namespace {
-
-constexpr std::array kQuantities{Quantity::time, Quantity::q,     Quantity::dq,
-                                 Quantity::tau,  Quantity::q_ref, Quantity::dq_ref};
 
 const char* prefix_of(Quantity quantity) {
   switch (quantity) {
@@ -134,8 +130,8 @@ std::optional<Channel> canonical_channel(const std::string& name) {
   const std::string prefix = name.substr(0, digits + 1);
   const int joint = std::stoi(name.substr(digits + 1));
   if (joint < 1 || name[digits + 1] == '0') return std::nullopt;
-  for (const Quantity quantity : kQuantities)
-    if (quantity != Quantity::time && prefix == prefix_of(quantity)) return Channel{quantity, joint};
+  for (const Quantity quantity : kJointQuantities)
+    if (prefix == prefix_of(quantity)) return Channel{quantity, joint};
   return std::nullopt;
 }
 

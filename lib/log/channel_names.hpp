@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <compare>
 #include <optional>
 #include <string>
@@ -9,6 +10,10 @@
 namespace faultline {
 
 enum class Quantity { time, q, dq, tau, q_ref, dq_ref };
+
+/// What is recorded of each joint, in the order of a log's columns.
+inline constexpr std::array kJointQuantities{Quantity::q, Quantity::dq, Quantity::tau, Quantity::q_ref,
+                                             Quantity::dq_ref};
 
 /// A canonical channel: a quantity of a joint, which counts from 1; 0 for the time.
 struct Channel {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "lib/log/channel_names.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
@@ -47,16 +47,20 @@ void report(Issues& issues, const char* code, std::int64_t row, double t, const 
   issues.add({code, "t", Severity::warning, what + "; the row was left out", row, t, 1, 1});
 }
 
-/// Rows to keep, by index; `held` tells that the last row waits for the next segment.
-std::vector<int> judge(const std::vector<double>& time, std::int64_t first_row, bool at_end,
-                       CleanState& state, Issues& issues, bool& held) {
-  std::vector<int> kept;
-  kept.reserve(time.size());
+struct JudgedRows {
+  std::vector<int> kept;  ///< by index
+  bool held = false;      ///< the last row waits for the next segment
+};
+
+JudgedRows judge(const std::vector<double>& time, std::int64_t first_row, bool at_end, CleanState& state,
+                 Issues& issues) {
+  JudgedRows rows;
+  rows.kept.reserve(time.size());
   for (std::size_t i = 0; i < time.size(); ++i) {
     const char* fault = time_fault(time, i, state);
     if (!fault && leaps(time[i], state)) {
-      held = i + 1 == time.size() && !at_end;
-      if (held) return kept;
+      rows.held = i + 1 == time.size() && !at_end;
+      if (rows.held) return rows;
       if (next_is_between(time, i, state)) fault = "time_leap";
     }
     if (fault) {
@@ -65,22 +69,9 @@ std::vector<int> judge(const std::vector<double>& time, std::int64_t first_row, 
     }
     if (state.last_time > -1e300) state.last_step = time[i] - state.last_time;
     state.last_time = time[i];
-    kept.push_back(static_cast<int>(i));
+    rows.kept.push_back(static_cast<int>(i));
   }
-  return kept;
-}
-
-template <typename Visit>
-void visit_channels(Log& log, Visit visit) {
-  auto each = [&](JointSignals& signals, Quantity quantity) {
-    for (std::size_t j = 0; j < signals.size(); ++j)
-      visit(signals[j], Channel{quantity, static_cast<int>(j) + 1});
-  };
-  each(log.q, Quantity::q);
-  each(log.dq, Quantity::dq);
-  each(log.tau, Quantity::tau);
-  each(log.q_ref, Quantity::q_ref);
-  each(log.dq_ref, Quantity::dq_ref);
+  return rows;
 }
 
 void blank_implausible(std::vector<double>& values, Channel channel, const std::vector<double>& time,
@@ -106,7 +97,7 @@ void keep_rows(std::vector<double>& values, const std::vector<int>& kept) {
 }
 
 void keep_rows(Log& log, const std::vector<int>& kept) {
-  visit_channels(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
+  for_each_joint_channel(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
   for (ExtraChannel& extra : log.extra) keep_rows(extra.values, kept);
   keep_rows(log.time, kept);
 }
@@ -127,20 +118,19 @@ bool all_in_order(const std::vector<double>& time, CleanState& state) {
 }  // namespace
 
 Log clean(Log& segment, std::int64_t first_row, bool at_end, CleanState& state, Issues& issues) {
-  bool held = false;
-  std::vector<int> kept;
+  JudgedRows judged;
   const bool in_order = all_in_order(segment.time, state);
-  if (!in_order) kept = judge(segment.time, first_row, at_end, state, issues, held);
+  if (!in_order) judged = judge(segment.time, first_row, at_end, state, issues);
   Log waiting;
   const int rows = segment.rows();
-  if (held) {
+  if (judged.held) {
     waiting = slice(segment, rows - 1, rows);
     resize_like(segment, segment, rows - 1);
   }
-  visit_channels(segment, [&](std::vector<double>& values, Channel channel) {
+  for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
     blank_implausible(values, channel, segment.time, first_row, issues);
   });
-  if (!in_order && static_cast<int>(kept.size()) < segment.rows()) keep_rows(segment, kept);
+  if (!in_order && static_cast<int>(judged.kept.size()) < segment.rows()) keep_rows(segment, judged.kept);
   return waiting;
 }
 

@@ -2,30 +2,14 @@
 #include "lib/log/column_matching.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
-#include <tuple>
 
 #include "lib/core/error.hpp"
+#include "lib/log/column_families.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
-
-/// Columns whose names differ by a number only, one for each joint.
-struct Family {
-  Quantity quantity = Quantity::q;
-  int fitness = 0;
-  std::map<int, int> column_of;  ///< by the number in the name; 1 when it has none
-  bool numbered = false;
-
-  int first() const { return column_of.begin()->first == 0 ? 0 : 1; }
-  int joints() const {
-    int joints = 0;
-    while (column_of.count(first() + joints)) ++joints;
-    return joints;
-  }
-};
 
 class Matcher {
  public:
@@ -38,10 +22,10 @@ class Matcher {
     match_mapped();
     match_time();
     find_families();
-    match_quantity(Quantity::q);
-    require_positions();
-    for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref})
+    for (const Quantity quantity : kJointQuantities) {
       match_quantity(quantity);
+      if (quantity == Quantity::q) require_positions();
+    }
     finish();
     return std::move(matching_);
   }
@@ -123,52 +107,18 @@ class Matcher {
     if (taken_.count(Channel{})) return;
     const int column = find_time_column(names_);
     if (column >= 0) return add(Channel{}, column);
-    if (!match_time_pair()) fail_missing("t", meaning_of(Quantity::time));
-  }
-
-  /// Seconds and nanoseconds in two columns, as ROS writes a stamp.
-  bool match_time_pair() {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      for (const auto& [whole, part] : {std::pair{"sec", "nanosec"}, {"secs", "nsecs"}}) {
-        const std::string& name = names_[i];
-        const std::string prefix =
-            name.substr(0, name.size() - std::min(name.size(), std::string(whole).size()));
-        const int nanoseconds = column_named(prefix + part);
-        if (prefix + whole != name || nanoseconds < 0) continue;
-        if (prefix.find("time_from_start") != std::string::npos) continue;
-        add(Channel{}, static_cast<int>(i));
-        matching_.channels.back().nanoseconds_column = nanoseconds;
-        used_.insert(nanoseconds);
-        return true;
-      }
-    }
-    return false;
+    const auto pair = find_time_pair(names_);
+    if (!pair) fail_missing("t", meaning_of(Quantity::time));
+    add(Channel{}, pair->seconds);
+    matching_.channels.back().nanoseconds_column = pair->nanoseconds;
+    used_.insert(pair->nanoseconds);
   }
 
   void find_families() {
-    std::map<std::string, std::size_t> index;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (used_.count(static_cast<int>(i)) && !canonical_channel(names_[i])) continue;
-      const NameReading reading = read_name(names_[i]);
-      if (!reading.quantity) continue;
-      const auto [at, fresh] = index.emplace(reading.stem, families_.size());
-      if (fresh) families_.push_back({*reading.quantity, reading.fitness, {}, reading.number.has_value()});
-      Family& family = families_[at->second];
-      family.fitness = std::max(family.fitness, reading.fitness);
-      family.column_of.emplace(reading.number.value_or(1), static_cast<int>(i));
-    }
-  }
-
-  /// Canonical names first, then numbered ones, then the better fit, then more joints, then file order.
-  const Family* best_family(Quantity quantity) const {
-    const Family* best = nullptr;
-    auto rank = [](const Family& family) {
-      return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.joints());
+    const auto is_free = [&](int column) {
+      return !used_.count(column) || canonical_channel(names_[column]).has_value();
     };
-    for (const Family& family : families_)
-      if (family.quantity == quantity && family.joints() > 0 && (!best || rank(family) > rank(*best)))
-        best = &family;
-    return best;
+    families_ = column_families(names_, is_free);
   }
 
   /// A quantity that the robot file names for one joint is named there for all.
@@ -180,7 +130,7 @@ class Matcher {
   }
 
   void match_quantity(Quantity quantity) {
-    const Family* family = named_in_map(quantity) ? nullptr : best_family(quantity);
+    const ColumnFamily* family = named_in_map(quantity) ? nullptr : best_family(families_, quantity);
     if (family) {
       const int joints =
           quantity == Quantity::q ? family->joints() : std::min(family->joints(), matching_.joints);
@@ -191,10 +141,10 @@ class Matcher {
       while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
   }
 
-  void note_rivals(Quantity quantity, const Family& chosen) {
+  void note_rivals(Quantity quantity, const ColumnFamily& chosen) {
     if (chosen.fitness >= 100) return;
     std::string rivals;
-    for (const Family& family : families_) {
+    for (const ColumnFamily& family : families_) {
       if (family.quantity != quantity || &family == &chosen) continue;
       rivals += (rivals.empty() ? "\"" : ", \"") + names_[family.column_of.begin()->second] + "\"";
     }
@@ -240,7 +190,7 @@ class Matcher {
   const ColumnMap& map_;
   const std::string& path_;
   std::vector<std::string> names_;
-  std::vector<Family> families_;
+  std::vector<ColumnFamily> families_;
   std::set<Channel> taken_;
   std::set<int> used_;
   Matching matching_;

@@ -8,35 +8,9 @@
 #include <tuple>
 
 #include "lib/core/error.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
-namespace {
-
-JointSignals& signals_of(Log& log, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::dq:
-      return log.dq;
-    case Quantity::tau:
-      return log.tau;
-    case Quantity::q_ref:
-      return log.q_ref;
-    case Quantity::dq_ref:
-      return log.dq_ref;
-    default:
-      return log.q;
-  }
-}
-
-void prepend(std::vector<double>& values, const std::vector<double>& first) {
-  values.insert(values.begin(), first.begin(), first.end());
-}
-
-void prepend(JointSignals& signals, const JointSignals& first) {
-  for (std::size_t j = 0; j < first.size(); ++j) prepend(signals[j], first[j]);
-}
-
-}  // namespace
-
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
     : reader_(std::move(reader)), options_(options) {
   options_.segment_rows = std::max(options_.segment_rows, 1);
@@ -111,14 +85,9 @@ bool MappedSource::fill(Log& segment) {
 }
 
 void MappedSource::put_waiting_row_first(Log& segment) {
-  prepend(segment.time, waiting_.time);
-  prepend(segment.q, waiting_.q);
-  prepend(segment.dq, waiting_.dq);
-  prepend(segment.tau, waiting_.tau);
-  prepend(segment.q_ref, waiting_.q_ref);
-  prepend(segment.dq_ref, waiting_.dq_ref);
-  for (std::size_t i = 0; i < waiting_.extra.size(); ++i)
-    prepend(segment.extra[i].values, waiting_.extra[i].values);
+  for_each_column(segment, waiting_, [](std::vector<double>& values, const std::vector<double>& first) {
+    values.insert(values.begin(), first.begin(), first.end());
+  });
   segment_first_row_ -= 1;
 }
 
@@ -127,24 +96,18 @@ std::vector<double>& MappedSource::channel_of(Log& log, Channel channel) const {
 }
 
 void MappedSource::take_block(Log& segment) {
-  for (const Quantity quantity :
-       {Quantity::q, Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref}) {
+  for (const Quantity quantity : kJointQuantities) {
     const bool present =
         std::any_of(matching_.channels.begin(), matching_.channels.end(),
                     [&](const ChannelSource& source) { return source.channel.quantity == quantity; });
     signals_of(segment, quantity).resize(present ? matching_.joints : 0);
   }
   for (const ChannelSource& source : matching_.channels) take(source, channel_of(segment, source.channel));
-  for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref}) {
-    auto& signals = signals_of(segment, quantity);
-    for (int j = 0; j < static_cast<int>(signals.size()); ++j) {
-      const bool found =
-          std::any_of(matching_.channels.begin(), matching_.channels.end(), [&](const auto& source) {
-            return source.channel == Channel{quantity, j + 1};
-          });
-      if (!found) signals[j].assign(block_.rows, std::nan(""));
-    }
-  }
+  for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
+    const bool found = std::any_of(matching_.channels.begin(), matching_.channels.end(),
+                                   [&](const ChannelSource& source) { return source.channel == channel; });
+    if (!found) values.assign(block_.rows, std::nan(""));
+  });
   segment.extra.resize(matching_.extra.size());
   for (std::size_t i = 0; i < matching_.extra.size(); ++i) {
     const RawColumn& column = reader_->columns()[matching_.extra[i]];

@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "lib/log/quality.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "lib/log/channel_names.hpp"
+#include "lib/log/log_channels.hpp"
+#include "lib/log/quality_issues.hpp"
 
 namespace faultline {
 namespace {
 
-/// Fewer values than this are not judged constant or saturated.
-constexpr std::int64_t kFewestValues = 20;
-
 template <typename Visit>
 void visit_channels(const Log& log, Visit visit) {
-  auto each = [&](const JointSignals& signals, Quantity quantity) {
-    for (std::size_t j = 0; j < signals.size(); ++j)
-      visit(to_string({quantity, static_cast<int>(j) + 1}), std::string(), true, signals[j]);
-  };
-  each(log.q, Quantity::q);
-  each(log.dq, Quantity::dq);
-  each(log.tau, Quantity::tau);
-  each(log.q_ref, Quantity::q_ref);
-  each(log.dq_ref, Quantity::dq_ref);
+  for_each_joint_channel(log, [&](const std::vector<double>& values, Channel channel) {
+    visit(to_string(channel), std::string(), true, values);
+  });
   for (const ExtraChannel& extra : log.extra) visit(extra.name, extra.unit, false, extra.values);
 }
 
@@ -45,126 +35,6 @@ void add_values(ChannelSummary& channel, const std::vector<double>& values, cons
       channel.first_missing_s = segment.time[i];
     }
   }
-}
-
-bool starts_with(const std::string& name, const char* prefix) { return name.rfind(prefix, 0) == 0; }
-
-bool is_measurement(const ChannelSummary& channel) {
-  return channel.canonical && !starts_with(channel.name, "q_ref") && !starts_with(channel.name, "dq_ref");
-}
-
-double share(std::int64_t part, std::int64_t all) {
-  return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
-}
-
-void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& issues) {
-  if (time.period_s > options.longest_period_s)
-    issues.add(
-        {"unit_implausible", "t", Severity::severe,
-         fmt::format(
-             "the time steps by {:.6g}, which is hardly in seconds; if it is ms, us or ns, say so in the "
-             "header, \"t [ms]\", or the robot file: [log.columns] t = {{unit = \"ms\"}}",
-             time.period_s)});
-  if (time.gaps > 0)
-    issues.add(
-        {"time_gap", "t", Severity::warning,
-         fmt::format(
-             "rows are missing after {:.10g} s; gaps last {:.4g} s together, the longest {:.4g} s; nothing "
-             "was filled in",
-             time.first_gap_s, time.in_gaps_s, time.longest_gap_s),
-         time.first_gap_row, time.first_gap_s, time.gaps});
-  if (time.uneven_steps > time.rows / 100)
-    issues.add(
-        {"time_jitter", "t", Severity::warning,
-         fmt::format(
-             "{:.1f} % of the steps are uneven (rms {:.3g} s about {:.6g} s); the recorded times were used",
-             share(time.uneven_steps, time.rows - 1), time.jitter_s, time.period_s),
-         0, time.start_s, time.uneven_steps});
-}
-
-void judge_missing(const ChannelSummary& channel, Issues& issues) {
-  if (channel.missing == 0) return;
-  const bool all = channel.values == 0;
-  const Severity severity = !channel.canonical ? Severity::note : all ? Severity::severe : Severity::warning;
-  issues.add(
-      {"missing_values", channel.name, severity,
-       all ? "has no value at all"
-           : fmt::format("{:.2g} % of the values are missing, first at {:.10g} s; they stay missing",
-                         share(channel.missing, channel.values + channel.missing), channel.first_missing_s),
-       channel.first_missing_row, channel.first_missing_s, channel.missing});
-}
-
-void judge_constant(const ChannelSummary& channel, Issues& issues) {
-  if (!is_measurement(channel) || !channel.constant() || channel.values < kFewestValues) return;
-  issues.add({"constant_channel", channel.name, Severity::warning,
-              fmt::format("is {:.6g} in every row; a joint at rest, or a channel that was not connected",
-                          channel.min)});
-}
-
-void judge_saturated(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
-  if (!channel.canonical || !starts_with(channel.name, "tau") || channel.constant()) return;
-  for (const auto& [limit, times] : {std::pair{channel.min, channel.at_min}, {channel.max, channel.at_max}}) {
-    if (limit == 0.0 || times < kFewestValues ||
-        share(times, channel.values) < 100.0 * options.saturated_share)
-      continue;
-    issues.add({"saturated_channel", channel.name, Severity::warning,
-                fmt::format("is at its limit of {:.6g} in {:.2g} % of the rows", limit,
-                            share(times, channel.values)),
-                0, std::nan(""), times});
-  }
-}
-
-void judge_span(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
-  if (!channel.canonical || (!starts_with(channel.name, "q") && !starts_with(channel.name, "q_ref"))) return;
-  if (channel.values == 0) return;
-  const double largest = std::max(std::abs(channel.min), std::abs(channel.max));
-  if (channel.max - channel.min < options.position_span && largest < 5.0 * options.position_span) return;
-  issues.add(
-      {"unit_implausible", channel.name, Severity::severe,
-       fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in rad or m; if it is deg or mm, say so in the "
-           "header, \"{} [deg]\", or the robot file: [log.columns] {} = {{unit = \"deg\"}}",
-           channel.min, channel.max, channel.name, channel.name)});
-}
-
-void judge_speed(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
-  if (!channel.canonical || !starts_with(channel.name, "dq") || channel.values == 0) return;
-  if (std::max(std::abs(channel.min), std::abs(channel.max)) < options.fastest) return;
-  issues.add(
-      {"unit_implausible", channel.name, Severity::warning,
-       fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in rad/s or m/s; if it is deg/s, rpm or mm/s, "
-           "say so in the header or the robot file: [log.columns] {} = {{unit = \"deg/s\"}}",
-           channel.min, channel.max, channel.name)});
-}
-
-const char* guess_of(double factor) {
-  auto near = [&](double value) { return std::abs(factor / value - 1.0) < 0.1; };
-  if (factor < 0.0) return "the sign of one of them is wrong";
-  if (near(57.2958)) return "the position seems to be in degrees, the velocity in rad/s";
-  if (near(0.0174533)) return "the velocity seems to be in deg/s, the position in rad";
-  if (near(1000.0)) return "the position seems to be in mm, the velocity in m/s, or the time in ms";
-  if (near(0.001)) return "the velocity seems to be in mm/s, the position in m";
-  if (near(0.104720)) return "the velocity seems to be in rpm, the position in rad";
-  return "their units or a gear ratio differ";
-}
-
-void judge_velocity(const VelocityAgreement& agreement, int joint, Issues& issues) {
-  const std::string channel = to_string({Quantity::dq, joint});
-  if (agreement.verdict == VelocityVerdict::scaled)
-    issues.add(
-        {"velocity_contradicts_position", channel, Severity::severe,
-         fmt::format(
-             "the position changes {:.4g} times as fast as the velocity says: {}; correct it in the robot "
-             "file: [log.columns] {}",
-             agreement.factor, guess_of(agreement.factor), channel)});
-  if (agreement.verdict == VelocityVerdict::contradicts)
-    issues.add(
-        {"velocity_contradicts_position", channel, Severity::warning,
-         fmt::format(
-             "the velocity does not follow the position (correlation {:.2f}); one of them is of another "
-             "joint, or was stuck",
-             agreement.correlation)});
 }
 
 }  // namespace
@@ -188,13 +58,7 @@ LogQuality quality_of(const QualityState& state, const QualityOptions& options) 
   quality.time = state.time.result();
   quality.channels = state.channels;
   judge_time(quality.time, options, quality.issues);
-  for (const ChannelSummary& channel : state.channels) {
-    judge_missing(channel, quality.issues);
-    judge_constant(channel, quality.issues);
-    judge_saturated(channel, options, quality.issues);
-    judge_span(channel, options, quality.issues);
-    judge_speed(channel, options, quality.issues);
-  }
+  for (const ChannelSummary& channel : state.channels) judge_channel(channel, options, quality.issues);
   for (std::size_t j = 0; j < state.velocity.size(); ++j) {
     quality.velocity.push_back(state.velocity[j].result());
     judge_velocity(quality.velocity.back(), static_cast<int>(j) + 1, quality.issues);

@@ -5,30 +5,10 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
-
-/// Calls visit(to, from) for every column of two logs with the same channels.
-template <typename Visit>
-void visit_columns(Log& to, const Log& from, Visit visit) {
-  auto each = [&](JointSignals& a, const JointSignals& b) {
-    a.resize(b.size());
-    for (std::size_t j = 0; j < b.size(); ++j) visit(a[j], b[j]);
-  };
-  visit(to.time, from.time);
-  each(to.q, from.q);
-  each(to.dq, from.dq);
-  each(to.tau, from.tau);
-  each(to.q_ref, from.q_ref);
-  each(to.dq_ref, from.dq_ref);
-  to.extra.resize(from.extra.size());
-  for (std::size_t i = 0; i < from.extra.size(); ++i) {
-    to.extra[i].name = from.extra[i].name;
-    to.extra[i].unit = from.extra[i].unit;
-    visit(to.extra[i].values, from.extra[i].values);
-  }
-}
 
 /// A new row: `share` of the way from recorded row `left` to the one after it.
 struct NewRow {
@@ -104,7 +84,7 @@ class ResampledSource : public LogSource {
   }
 
   void make(Log& segment) {
-    visit_columns(segment, recorded_, [&](std::vector<double>& to, const std::vector<double>& from) {
+    for_each_column(segment, recorded_, [&](std::vector<double>& to, const std::vector<double>& from) {
       to.resize(rows_.size());
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         const NewRow& row = rows_[k];

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/statistics.hpp"
+
 namespace faultline {
 
 double median_step(const std::vector<double>& time) {
   if (time.size() < 2) return std::nan("");
   std::vector<double> steps(time.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time[i + 1] - time[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median_of(steps);
 }
 
 void TimeAxisPass::add(const std::vector<double>& time) {

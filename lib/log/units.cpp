@@ -2,6 +2,7 @@
 #include "lib/log/units.hpp"
 
 #include <cctype>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 
@@ -11,72 +12,46 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-const std::map<std::string, double, std::less<>>& factors() {
-  static const std::map<std::string, double, std::less<>> table{{"", 1.0},
-                                                                {"-", 1.0},
-                                                                {"1", 1.0},
-                                                                {"s", 1.0},
-                                                                {"sec", 1.0},
-                                                                {"secs", 1.0},
-                                                                {"second", 1.0},
-                                                                {"seconds", 1.0},
-                                                                {"ms", 1e-3},
-                                                                {"msec", 1e-3},
-                                                                {"millisec", 1e-3},
-                                                                {"milliseconds", 1e-3},
-                                                                {"us", 1e-6},
-                                                                {"µs", 1e-6},
-                                                                {"usec", 1e-6},
-                                                                {"microseconds", 1e-6},
-                                                                {"ns", 1e-9},
-                                                                {"nsec", 1e-9},
-                                                                {"nanosec", 1e-9},
-                                                                {"nanoseconds", 1e-9},
-                                                                {"min", 60.0},
-                                                                {"rad", 1.0},
-                                                                {"radian", 1.0},
-                                                                {"radians", 1.0},
-                                                                {"mrad", 1e-3},
-                                                                {"deg", kDegree},
-                                                                {"degree", kDegree},
-                                                                {"degrees", kDegree},
-                                                                {"°", kDegree},
-                                                                {"rev", kTurn},
-                                                                {"turn", kTurn},
-                                                                {"turns", kTurn},
-                                                                {"m", 1.0},
-                                                                {"meter", 1.0},
-                                                                {"metre", 1.0},
-                                                                {"mm", 1e-3},
-                                                                {"cm", 1e-2},
-                                                                {"um", 1e-6},
-                                                                {"µm", 1e-6},
-                                                                {"inch", 0.0254},
-                                                                {"rad/s", 1.0},
-                                                                {"rad/sec", 1.0},
-                                                                {"deg/s", kDegree},
-                                                                {"deg/sec", kDegree},
-                                                                {"°/s", kDegree},
-                                                                {"rpm", kTurn / 60.0},
-                                                                {"rev/min", kTurn / 60.0},
-                                                                {"rev/s", kTurn},
-                                                                {"m/s", 1.0},
-                                                                {"mm/s", 1e-3},
-                                                                {"cm/s", 1e-2},
-                                                                {"mm/sec", 1e-3},
-                                                                {"nm", 1.0},
-                                                                {"n·m", 1.0},
-                                                                {"mnm", 1e-3},
-                                                                {"knm", 1e3},
-                                                                {"ncm", 1e-2},
-                                                                {"n", 1.0},
-                                                                {"mn", 1e-3},
-                                                                {"kn", 1e3},
-                                                                {"a", 1.0},
-                                                                {"ma", 1e-3},
-                                                                {"v", 1.0},
-                                                                {"mv", 1e-3}};
-  return table;
+using Factors = std::map<std::string, double, std::less<>>;
+
+/// Each unit as plain() writes it.
+Factors known_units() {
+  Factors factors;
+  const auto add = [&](double factor, std::initializer_list<const char*> names) {
+    for (const char* name : names) factors.emplace(name, factor);
+  };
+  add(1.0, {"", "-", "1"});
+  add(1.0, {"s", "sec", "secs", "second", "seconds"});
+  add(1e-3, {"ms", "msec", "millisec", "milliseconds"});
+  add(1e-6, {"us", "µs", "usec", "microseconds"});
+  add(1e-9, {"ns", "nsec", "nanosec", "nanoseconds"});
+  add(60.0, {"min"});
+  add(1.0, {"rad", "radian", "radians"});
+  add(1e-3, {"mrad"});
+  add(kDegree, {"deg", "degree", "degrees", "°"});
+  add(kTurn, {"rev", "turn", "turns"});
+  add(1.0, {"m", "meter", "metre"});
+  add(1e-3, {"mm"});
+  add(1e-2, {"cm"});
+  add(1e-6, {"um", "µm"});
+  add(0.0254, {"inch"});
+  add(1.0, {"rad/s", "rad/sec"});
+  add(kDegree, {"deg/s", "deg/sec", "°/s"});
+  add(kTurn / 60.0, {"rpm", "rev/min"});
+  add(kTurn, {"rev/s"});
+  add(1.0, {"m/s"});
+  add(1e-3, {"mm/s", "mm/sec"});
+  add(1e-2, {"cm/s"});
+  add(1.0, {"nm", "n·m"});
+  add(1e-3, {"mnm"});
+  add(1e3, {"knm"});
+  add(1e-2, {"ncm"});
+  add(1.0, {"n"});
+  add(1e-3, {"mn"});
+  add(1e3, {"kn"});
+  add(1.0, {"a", "v"});
+  add(1e-3, {"ma", "mv"});
+  return factors;
 }
 
 /// Lower case without blanks and product signs, "N m" and "N*m" becoming "nm".
@@ -105,8 +80,9 @@ std::string trimmed(std::string_view text) {
 }  // namespace
 
 std::optional<double> si_factor(std::string_view unit) {
-  const auto found = factors().find(plain(unit));
-  if (found == factors().end()) return std::nullopt;
+  static const Factors factors = known_units();
+  const auto found = factors.find(plain(unit));
+  if (found == factors.end()) return std::nullopt;
   return found->second;
 }
 

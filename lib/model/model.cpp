@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lib/model/model.hpp"
 
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
-#include "lib/neural/json_matrix.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -18,10 +17,6 @@ namespace {
 
 constexpr const char* kSchemaName = "faultline/model/";
 constexpr int kSchemaVersion = 1;
-
-nlohmann::json number(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
-}
 
 nlohmann::json validation_to_json(const Validation& validation) {
   nlohmann::json rows = nlohmann::json::array();
@@ -33,16 +28,12 @@ nlohmann::json validation_to_json(const Validation& validation) {
                     {"right_joint", row.right_joint},
                     {"right_kind_and_joint", row.right_kind_and_joint},
                     {"right_or_named", row.right_or_named},
-                    {"median_delay_s", number(row.median_delay_s)},
-                    {"p90_delay_s", number(row.p90_delay_s)}});
+                    {"median_delay_s", number_or_null(row.median_delay_s)},
+                    {"p90_delay_s", number_or_null(row.p90_delay_s)}});
   return {{"rows", rows},
           {"early_alarms", validation.early_alarms},
           {"healthy_hours", validation.healthy_hours},
           {"false_alarms", validation.false_alarms}};
-}
-
-double number_or_nan(const nlohmann::json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 Validation validation_from_json(const nlohmann::json& json) {
@@ -121,7 +112,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.evidence = evidence_options_from_json(json.at("evidence"), where);
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
-  model.judges = judges_from_json(json.at("judges"), where);
+  model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
   for (const auto& source : json.at("sources"))
@@ -136,7 +127,7 @@ std::string model_to_json(const Model& model) {
   to_json(motion, model.motion);
   to_json(evidence, model.evidence);
   to_json(residual, model.residual);
-  to_json(judges, model.judges);
+  to_json(judges, model.episode_classifier);
   nlohmann::ordered_json json;
   json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
   json["name"] = model.name;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/classify/episode_classifier.hpp"
 #include "lib/classify/fault_criterion.hpp"
-#include "lib/classify/judges.hpp"
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
@@ -65,7 +65,7 @@ struct Model {
   EvidenceOptions evidence;
   std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
   ResidualGenerator residual;
-  Judges judges;
+  EpisodeClassifier episode_classifier;
   SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;

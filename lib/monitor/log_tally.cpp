@@ -2,6 +2,7 @@
 #include "lib/monitor/log_tally.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "lib/core/error.hpp"
@@ -22,6 +23,19 @@ void check_channels(const Log& segment, const LogSource& log, const Model& model
             "), without which no fault can be judged; map the columns in [log.columns] of the robot file");
 }
 
+/// The path as given when it is relative, else its file name: no name of a machine's folders in a report.
+std::string shown_path(const std::string& path) {
+  const std::filesystem::path given(path);
+  return given.is_absolute() ? given.filename().string() : given.generic_string();
+}
+
+void note_rejected(Issues& issues, int count) {
+  if (count > 0)
+    issues.add({"short_disturbance", "", Severity::note,
+                "a disturbance looked like a fault but did not last (wild values?); it was not reported", 0,
+                std::numeric_limits<double>::quiet_NaN(), count, 0});
+}
+
 }  // namespace
 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
@@ -37,6 +51,26 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
       complete = complete && std::isfinite(segment.q[j][k]) && std::isfinite(segment.tau[j][k]);
     judgeable_rows += complete;
   }
+}
+
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms) {
+  const LogQuality quality = quality_of(tally.quality);
+  LogFacts facts;
+  facts.path = shown_path(log.identity().path);
+  facts.sha256 = log.identity().sha256;
+  facts.format = log.identity().format;
+  facts.rows_read = log.identity().rows_read;
+  facts.rows_used = tally.rows;
+  facts.judgeable_rows = tally.judgeable_rows;
+  facts.start_s = tally.start_s;
+  facts.end_s = tally.end_s;
+  facts.sample_period_s = quality.time.period_s;
+  facts.joints = model.robot.joints();
+  facts.has_velocity = tally.has_velocity;
+  facts.issues = log.issues();
+  facts.issues.merge(quality.issues);
+  note_rejected(facts.issues, rejected_alarms);
+  return facts;
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "lib/diagnosis/diagnosis.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/model/model.hpp"
@@ -23,5 +24,9 @@ struct LogTally {
   /// torque.
   void take(const Log& segment, const LogSource& log, const Model& model);
 };
+
+/// The facts of a log that was read to its end; a note tells of disturbances that raised an alarm and did not
+/// last.
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms = 0);
 
 }  // namespace faultline

@@ -18,7 +18,7 @@ void shuffle(std::vector<int>& order, Random& random) {
 
 TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
                                   const BackPropagationOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, training, validation, options.stop, progress, "back-propagation");
+  TrainingWatch watch(start, {training, validation, options.stop, progress, "back-propagation"});
   Mlp mlp = std::move(start);
   Eigen::VectorXd weights = parameters_of(mlp), step = Eigen::VectorXd::Zero(weights.size());
   std::vector<int> order(training.count());

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/neural/json_matrix.hpp"
 #include "lib/neural/mlp.hpp"
@@ -34,12 +35,10 @@ void to_json(json& out, const Mlp& mlp) {
 Mlp mlp_from_json(const json& in, const std::string& where) {
   Mlp mlp;
   const std::string output = text_from_json(in, "output", where);
-  if (output == "logistic")
-    mlp.output = OutputKind::logistic;
-  else if (output == "softmax")
-    mlp.output = OutputKind::softmax;
-  else if (output != "linear")
+  const auto kind = enum_named(output, {OutputKind::linear, OutputKind::logistic, OutputKind::softmax});
+  if (!kind)
     throw Error(ErrorCode::input, where, "output: '" + output + "' is none of linear, logistic, softmax");
+  mlp.output = *kind;
   const json& layers = member_of(in, "layers", where);
   if (!layers.is_array() || layers.empty())
     throw Error(ErrorCode::input, where, "layers: expected a list of layers");

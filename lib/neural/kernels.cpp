@@ -49,9 +49,17 @@ struct Pack {
   }
 };
 
+/// Numbers of a layer, column-major: two tables of `rows` x `columns`, or one and a vector of `rows`.
+struct LayerNumbers {
+  const double* first;
+  const double* second;
+  int rows, columns;
+};
+
+/// `layer`: weights and bias of outputs x inputs.
 template <int Width>
-[[gnu::always_inline]] inline void affine_body(const double* weights, const double* bias, int outputs,
-                                               int inputs, const double* in, double* out) {
+[[gnu::always_inline]] inline void affine_body(LayerNumbers layer, const double* in, double* out) {
+  const auto [weights, bias, outputs, inputs] = layer;
   using P = Pack<Width>;
   for (int o = 0; o < outputs; ++o) {
     typename P::Type sum[P::kCount];
@@ -71,9 +79,10 @@ template <int Width>
   }
 }
 
+/// `layer`: centres and inverse radii of inputs x units.
 template <int Width>
-[[gnu::always_inline]] inline void distance_body(const double* centres, const double* inverse_radii,
-                                                 int inputs, int units, const double* in, double* sums) {
+[[gnu::always_inline]] inline void distance_body(LayerNumbers layer, const double* in, double* sums) {
+  const auto [centres, inverse_radii, inputs, units] = layer;
   using P = Pack<Width>;
   for (int u = 0; u < units; ++u) {
     typename P::Type sum[P::kCount] = {};
@@ -93,7 +102,7 @@ template <int Width>
 }
 
 using TanhKernel = void (*)(double*, int);
-using MatrixKernel = void (*)(const double*, const double*, int, int, const double*, double*);
+using MatrixKernel = void (*)(LayerNumbers, const double*, double*);
 
 struct Kernels {
   TanhKernel tanh;
@@ -104,32 +113,25 @@ struct Kernels {
 // The same bodies compiled for three instruction sets. Wider vectors hold more lanes; no lane sees a
 // difference.
 void tanh_base(double* v, int n) { tanh_body(v, n); }
-void affine_base(const double* w, const double* b, int o, int i, const double* in, double* out) {
-  affine_body<2>(w, b, o, i, in, out);
-}
-void distance_base(const double* c, const double* r, int i, int u, const double* in, double* out) {
-  distance_body<2>(c, r, i, u, in, out);
-}
+void affine_base(LayerNumbers layer, const double* in, double* out) { affine_body<2>(layer, in, out); }
+void distance_base(LayerNumbers layer, const double* in, double* out) { distance_body<2>(layer, in, out); }
 
 #if defined(__x86_64__) && defined(__GNUC__)
 [[gnu::target("avx2")]] void tanh_avx2(double* v, int n) { tanh_body(v, n); }
-[[gnu::target("avx2")]] void affine_avx2(const double* w, const double* b, int o, int i, const double* in,
-                                         double* out) {
-  affine_body<4>(w, b, o, i, in, out);
+[[gnu::target("avx2")]] void affine_avx2(LayerNumbers layer, const double* in, double* out) {
+  affine_body<4>(layer, in, out);
 }
-[[gnu::target("avx2")]] void distance_avx2(const double* c, const double* r, int i, int u, const double* in,
-                                           double* out) {
-  distance_body<4>(c, r, i, u, in, out);
+[[gnu::target("avx2")]] void distance_avx2(LayerNumbers layer, const double* in, double* out) {
+  distance_body<4>(layer, in, out);
 }
 [[gnu::target("avx512f,prefer-vector-width=512")]] void tanh_avx512(double* v, int n) { tanh_body(v, n); }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void affine_avx512(const double* w, const double* b, int o,
-                                                                      int i, const double* in, double* out) {
-  affine_body<8>(w, b, o, i, in, out);
+[[gnu::target("avx512f,prefer-vector-width=512")]] void affine_avx512(LayerNumbers layer, const double* in,
+                                                                      double* out) {
+  affine_body<8>(layer, in, out);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void distance_avx512(const double* c, const double* r,
-                                                                        int i, int u, const double* in,
+[[gnu::target("avx512f,prefer-vector-width=512")]] void distance_avx512(LayerNumbers layer, const double* in,
                                                                         double* out) {
-  distance_body<8>(c, r, i, u, in, out);
+  distance_body<8>(layer, in, out);
 }
 
 Kernels kernels_for(VectorUnit unit) {
@@ -140,6 +142,11 @@ Kernels kernels_for(VectorUnit unit) {
 #else
 Kernels kernels_for(VectorUnit) { return {tanh_base, affine_base, distance_base}; }
 #endif
+
+template <class Second>
+LayerNumbers numbers_of(const Eigen::MatrixXd& first, const Second& second) {
+  return {first.data(), second.data(), static_cast<int>(first.rows()), static_cast<int>(first.cols())};
+}
 
 const Kernels& kernels() {
   static const Kernels chosen = kernels_for(best_vector_unit());
@@ -161,19 +168,16 @@ void tanh_in_place(double* values, int count, VectorUnit unit) { kernels_for(uni
 
 void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in,
                   double* out) {
-  kernels().affine(weights.data(), bias.data(), static_cast<int>(weights.rows()),
-                   static_cast<int>(weights.cols()), in, out);
+  kernels().affine(numbers_of(weights, bias), in, out);
 }
 void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in, double* out,
                   VectorUnit unit) {
-  kernels_for(unit).affine(weights.data(), bias.data(), static_cast<int>(weights.rows()),
-                           static_cast<int>(weights.cols()), in, out);
+  kernels_for(unit).affine(numbers_of(weights, bias), in, out);
 }
 
 void squared_distances_lanes(const Eigen::MatrixXd& centres, const Eigen::MatrixXd& inverse_radii,
                              const double* in, double* sums) {
-  kernels().distance(centres.data(), inverse_radii.data(), static_cast<int>(centres.rows()),
-                     static_cast<int>(centres.cols()), in, sums);
+  kernels().distance(numbers_of(centres, inverse_radii), in, sums);
 }
 
 }  // namespace faultline

@@ -23,7 +23,7 @@ void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
   }
 }
 
-/// Damping between Gauss-Newton and gradient descent, moved by how well the quadratic model foretold a step.
+/// Damping between Gauss-Newton and gradient descent, moved by how well the quadratic model predicted a step.
 struct Damping {
   double value = 0.0;
   double growth = 2.0;
@@ -53,7 +53,7 @@ bool solve(const MatrixXd& normal, const VectorXd& gradient, double damping, Vec
 
 TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
                                      const LevenbergMarquardtOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, training, validation, options.stop, progress, "Levenberg-Marquardt training");
+  TrainingWatch watch(start, {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
   VectorXd weights = parameters_of(mlp), step;
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);

@@ -32,18 +32,40 @@ VectorXd direction(const std::deque<Pair>& memory, const VectorXd& gradient) {
   return d;
 }
 
-/// Halves the step until the loss falls by a share of what the slope promises (Armijo). False when it never
-/// does.
-bool search(Mlp& mlp, const VectorXd& from, const VectorXd& along, const LossGradient& start, double length,
-            const Patterns& patterns, double weight_decay, LossGradient& found, VectorXd& at) {
-  const double slope = start.gradient.dot(along);
-  for (int halvings = 0; halvings < 40; ++halvings, length *= 0.5) {
-    at = from + length * along;
-    set_parameters(mlp, at);
-    found = loss_gradient(mlp, patterns.inputs, patterns.targets, weight_decay);
-    if (found.loss <= start.loss + 1e-4 * length * slope) return true;
+/// Weights and what they cost.
+struct Point {
+  VectorXd weights;
+  LossGradient cost;
+};
+
+/// What is made small.
+struct Objective {
+  const Patterns& patterns;
+  double weight_decay = 0.0;
+
+  LossGradient at(const Mlp& mlp) const {
+    return loss_gradient(mlp, patterns.inputs, patterns.targets, weight_decay);
   }
-  set_parameters(mlp, from);
+};
+
+/// Where to look: `length` times `along` at first.
+struct Ray {
+  VectorXd along;
+  double length = 1.0;
+};
+
+/// Halves the step until the loss falls by a share of what the slope
+/// promises (Armijo). False, and the weights stay, when it never does.
+bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& ray, Point& found) {
+  const double slope = from.cost.gradient.dot(ray.along);
+  double length = ray.length;
+  for (int halvings = 0; halvings < 40; ++halvings, length *= 0.5) {
+    found.weights = from.weights + length * ray.along;
+    set_parameters(mlp, found.weights);
+    found.cost = objective.at(mlp);
+    if (found.cost.loss <= from.cost.loss + 1e-4 * length * slope) return true;
+  }
+  set_parameters(mlp, from.weights);
   return false;
 }
 
@@ -51,31 +73,31 @@ bool search(Mlp& mlp, const VectorXd& from, const VectorXd& along, const LossGra
 
 TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
                               const QuasiNewtonOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, training, validation, options.stop, progress, "quasi-Newton training");
+  TrainingWatch watch(start, {training, validation, options.stop, progress, "quasi-Newton training"});
   Mlp mlp = std::move(start);
-  VectorXd weights = parameters_of(mlp), next_weights;
-  LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay), next;
+  const Objective objective{training, options.weight_decay};
+  Point now{parameters_of(mlp), objective.at(mlp)}, next;
   std::deque<Pair> memory;
   for (;;) {
-    if (now.gradient.norm() < 1e-12) return watch.finish(std::move(mlp), TrainingStop::converged);
-    VectorXd along = direction(memory, now.gradient);
-    if (along.dot(now.gradient) >= 0.0) {
+    if (now.cost.gradient.norm() < 1e-12) return watch.finish(std::move(mlp), TrainingStop::converged);
+    Ray ray{direction(memory, now.cost.gradient)};
+    if (ray.along.dot(now.cost.gradient) >= 0.0) {
       memory.clear();
-      along = -now.gradient;
+      ray.along = -now.cost.gradient;
     }
-    const double first_length = memory.empty() ? std::min(1.0, 1.0 / now.gradient.norm()) : 1.0;
-    if (!search(mlp, weights, along, now, first_length, training, options.weight_decay, next, next_weights)) {
+    if (memory.empty()) ray.length = std::min(1.0, 1.0 / now.cost.gradient.norm());
+    if (!search(mlp, objective, now, ray, next)) {
       if (memory.empty()) return watch.finish(std::move(mlp), TrainingStop::no_descent);
       memory.clear();
       continue;
     }
-    Pair pair{next_weights - weights, next.gradient - now.gradient};
+    Pair pair{next.weights - now.weights, next.cost.gradient - now.cost.gradient};
     if (pair.step.dot(pair.change) > 1e-12 * pair.step.norm() * pair.change.norm())
       memory.push_back(std::move(pair));
     if (static_cast<int>(memory.size()) > options.memory) memory.pop_front();
-    std::swap(weights, next_weights);
     std::swap(now, next);
-    if (const auto stop = watch.after_iteration(mlp, now.loss)) return watch.finish(std::move(mlp), *stop);
+    if (const auto stop = watch.after_iteration(mlp, now.cost.loss))
+      return watch.finish(std::move(mlp), *stop);
   }
 }
 

@@ -33,14 +33,10 @@ std::string TrainingSummary::text() const {
                      to_string(stop), iterations, initial_mse, training_mse, validation_mse);
 }
 
-TrainingWatch::TrainingWatch(const Mlp& start, const Patterns& training, const Patterns& validation,
-                             const StopOptions& options, const Progress& progress, const char* what)
-    : training_(training),
-      validation_(validation),
-      options_(options),
-      progress_(progress),
-      what_(what),
-      best_(start) {
+TrainingWatch::TrainingWatch(const Mlp& start, const WatchedTraining& watched)
+    : watched_(watched), best_(start) {
+  const Patterns& training = watched.training;
+  const Patterns& validation = watched.validation;
   check_patterns(training, start.inputs(), start.outputs(), "training patterns");
   if (has_validation()) check_patterns(validation, start.inputs(), start.outputs(), "validation patterns");
   summary_.initial_mse = mean_squared_error(start, training);
@@ -48,7 +44,8 @@ TrainingWatch::TrainingWatch(const Mlp& start, const Patterns& training, const P
 }
 
 bool TrainingWatch::stalled(double loss) {
-  small_falls_ = last_loss_ - loss < options_.relative_tolerance * std::fabs(loss) ? small_falls_ + 1 : 0;
+  small_falls_ =
+      last_loss_ - loss < watched_.stop.relative_tolerance * std::fabs(loss) ? small_falls_ + 1 : 0;
   last_loss_ = loss;
   return small_falls_ >= 10;
 }
@@ -56,21 +53,23 @@ bool TrainingWatch::stalled(double loss) {
 std::optional<TrainingStop> TrainingWatch::after_iteration(const Mlp& mlp, double loss) {
   const int done = ++summary_.iterations;
   summary_.loss.push_back(loss);
-  if (progress_) progress_(what_, static_cast<double>(done) / options_.max_iterations);
+  if (watched_.progress)
+    watched_.progress(watched_.what, static_cast<double>(done) / watched_.stop.max_iterations);
   if (has_validation()) {
-    const double error = mean_squared_error(mlp, validation_);
+    const double error = mean_squared_error(mlp, watched_.validation);
     if (error < best_validation_) {
       best_validation_ = error;
       best_ = mlp;
       summary_.best_iteration = done;
-    } else if (done - summary_.best_iteration >= options_.patience) {
+    } else if (done - summary_.best_iteration >= watched_.stop.patience) {
       return TrainingStop::validation_rose;
     }
   }
-  if (options_.target_mse > 0.0 && mean_squared_error(mlp, training_) <= options_.target_mse)
+  if (watched_.stop.target_mse > 0.0 &&
+      mean_squared_error(mlp, watched_.training) <= watched_.stop.target_mse)
     return TrainingStop::target_reached;
   if (stalled(loss)) return TrainingStop::converged;
-  if (done >= options_.max_iterations) return TrainingStop::iteration_limit;
+  if (done >= watched_.stop.max_iterations) return TrainingStop::iteration_limit;
   return std::nullopt;
 }
 
@@ -78,8 +77,8 @@ TrainedMlp TrainingWatch::finish(Mlp last, TrainingStop stop) {
   TrainedMlp trained{has_validation() ? best_ : std::move(last), summary_};
   trained.summary.stop = stop;
   if (!has_validation()) trained.summary.best_iteration = summary_.iterations;
-  trained.summary.training_mse = mean_squared_error(trained.mlp, training_);
-  trained.summary.validation_mse = has_validation() ? mean_squared_error(trained.mlp, validation_)
+  trained.summary.training_mse = mean_squared_error(trained.mlp, watched_.training);
+  trained.summary.validation_mse = has_validation() ? mean_squared_error(trained.mlp, watched_.validation)
                                                     : std::numeric_limits<double>::quiet_NaN();
   return trained;
 }

@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// Diagnoses one log: listens to it, decides each episode, and puts everything into one value. Neither model
+/// Diagnoses one log: monitors it, decides each episode, and puts everything into one value. Neither model
 /// nor case base is changed. Throws Error(input) when the log cannot be processed.
 Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
                    const DiagnoseOptions& options = {});

@@ -6,24 +6,30 @@
 #include <mutex>
 
 #include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/monitor/monitor.hpp"
 
 namespace faultline {
 namespace {
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
+constexpr double kMostRaised = 2.0;  // times the threshold before
+
+bool alarmed_early(const MonitoredRun& run) {
+  return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
+                     [&](const MonitoredEpisode& episode) { return episode.evidence.alarm_s < run.onset_s; });
 }
 
-bool alarmed_early(const HeardRun& run) {
-  return std::any_of(run.heard.episodes.begin(), run.heard.episodes.end(),
-                     [&](const EpisodeEvidence& episode) { return episode.alarm_s < run.onset_s; });
+double largest_ratio(const MonitoredRun& run) {
+  double largest = run.log.largest_ratio;
+  for (const MonitoredEpisode& episode : run.log.episodes)
+    largest = std::max(largest, episode.evidence.hypotheses[episode.evidence.best].log_likelihood_ratio);
+  return largest;
 }
 
-void count(const HeardRun& run, int episode, const FaultFinding& finding, ValidationRow& row,
+void count(const MonitoredRun& run, double alarm_s, const FaultFinding& finding, ValidationRow& row,
            std::vector<double>& delays) {
   ++row.detected;
   const bool kind = finding.label.kind == run.label.kind, joint = finding.label.joint == run.label.joint;
@@ -33,24 +39,22 @@ void count(const HeardRun& run, int episode, const FaultFinding& finding, Valida
   row.right_joint += joint;
   row.right_kind_and_joint += kind && joint;
   row.right_or_named += (kind && joint) || named;
-  delays.push_back(run.heard.episodes[episode].alarm_s - run.onset_s);
+  delays.push_back(alarm_s - run.onset_s);
 }
 
 }  // namespace
 
-std::vector<HeardRun> hear_twin_runs(const Twin& twin, const Model& model,
-                                     const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
-                                     int threads, const Progress& progress) {
-  std::vector<HeardRun> runs(labels.size());
+std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
+                                              const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
+                                              int threads, const Progress& progress) {
+  std::vector<MonitoredRun> runs(labels.size());
   std::mutex reporting;
   int done = 0;
   parallel_for(static_cast<int>(labels.size()), threads, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
-    runs[i].label = run.label;
-    runs[i].onset_s = run.onset_s;
-    runs[i].length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
+    const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated");
-    runs[i].heard = listen(source, model);
+    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitor(source, model)};
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));
@@ -58,36 +62,52 @@ std::vector<HeardRun> hear_twin_runs(const Twin& twin, const Model& model,
   return runs;
 }
 
-int episode_of_fault(const HeardRun& run) {
-  for (std::size_t i = 0; i < run.heard.episodes.size(); ++i)
-    if (run.heard.episodes[i].alarm_s >= run.onset_s) return static_cast<int>(i);
-  return -1;
+std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
+                                           const std::vector<FaultKind>& kinds) {
+  std::vector<FaultLabel> labels;
+  for (const FaultLabel& label : labels_of(bank).labels) {
+    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), label.kind) != kinds.end();
+    if (wanted && label.kind != FaultKind::unknown && label.joint > 0)
+      labels.insert(labels.end(), count, label);
+  }
+  return labels;
 }
 
-Validation validate(const std::vector<HeardRun>& faulty, const std::vector<HeardRun>& healthy,
+const MonitoredEpisode* episode_of_fault(const MonitoredRun& run) {
+  for (const MonitoredEpisode& episode : run.log.episodes)
+    if (episode.evidence.alarm_s >= run.onset_s) return &episode;
+  return nullptr;
+}
+
+double calm_threshold(double threshold, std::span<const MonitoredRun> healthy) {
+  double largest = 0.0;
+  for (const MonitoredRun& run : healthy) largest = std::max(largest, largest_ratio(run));
+  return std::max(threshold, std::min(kCalmMargin * largest, kMostRaised * threshold));
+}
+
+Validation validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
                     const Model& model, const CaseBase& cases) {
   Validation validation;
   std::map<FaultKind, ValidationRow> rows;
   std::map<FaultKind, std::vector<double>> delays;
-  for (const HeardRun& run : faulty) {
+  for (const MonitoredRun& run : faulty) {
     ValidationRow& row = rows[run.label.kind];
     row.kind = run.label.kind;
     ++row.runs;
     validation.early_alarms += alarmed_early(run);
-    const int i = episode_of_fault(run);
-    if (i < 0) continue;
-    const FaultFinding finding =
-        decide_episode(run.heard.episodes[i], run.heard.episode_residuals[i], model, cases);
-    count(run, i, finding, row, delays[run.label.kind]);
+    const MonitoredEpisode* episode = episode_of_fault(run);
+    if (!episode) continue;
+    const FaultFinding finding = decide_episode(*episode, model, cases);
+    count(run, episode->evidence.alarm_s, finding, row, delays[run.label.kind]);
   }
   for (auto& [kind, row] : rows) {
-    row.median_delay_s = quantile(delays[kind], 0.5);
-    row.p90_delay_s = quantile(delays[kind], 0.9);
+    row.median_delay_s = lower_quantile(delays[kind], 0.5);
+    row.p90_delay_s = lower_quantile(delays[kind], 0.9);
     validation.rows.push_back(row);
   }
-  for (const HeardRun& run : healthy) {
+  for (const MonitoredRun& run : healthy) {
     validation.healthy_hours += run.length_s / 3600.0;
-    validation.false_alarms += static_cast<int>(run.heard.episodes.size());
+    validation.false_alarms += static_cast<int>(run.log.episodes.size());
   }
   return validation;
 }

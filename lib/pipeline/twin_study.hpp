@@ -1,33 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
 #include "lib/core/progress.hpp"
-#include "lib/monitor/listen.hpp"
+#include "lib/model/model.hpp"
+#include "lib/monitor/monitored_log.hpp"
 #include "lib/twin/twin.hpp"
 
 namespace faultline {
 
-/// A simulated run as the pipeline heard it.
-struct HeardRun {
+/// A log whose fault is known, as monitoring left it.
+struct MonitoredRun {
   FaultLabel label;
   double onset_s = 0.0;
-  double length_s = 0.0;
-  Heard heard;
+  double length_s = 0.0;  ///< time from its first to its last row
+  std::string origin;     ///< where it comes from, as a case tells it
+  MonitoredLog log;
 };
 
-/// One run of the twin for each label, heard with the model; run i has the seed stream `first_seed + i`.
-std::vector<HeardRun> hear_twin_runs(const Twin& twin, const Model& model,
-                                     const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
-                                     int threads, const Progress& progress);
+/// One run of the twin for each label, monitored with the model; run i has the seed stream `first_seed + i`.
+std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
+                                              const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
+                                              int threads, const Progress& progress = {});
 
-/// The episode that belongs to the run's fault: the first alarm not before its onset; -1 when there is none.
-int episode_of_fault(const HeardRun& run);
+/// Every label the bank can name `count` times: of the kinds asked for, all if none is; joint by joint.
+std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
+                                           const std::vector<FaultKind>& kinds);
+
+/// The episode that belongs to the run's fault: the first alarm not before its onset; null when there is
+/// none.
+const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
+
+/// The alarm threshold raised above what simulated healthy runs reach, but not to where it would hide faults
+/// because a controller of the twin went astray; the false alarms of the validation tell whether that was
+/// enough.
+double calm_threshold(double threshold, std::span<const MonitoredRun> healthy);
 
 /// What the pipeline makes of runs that it was not trained on.
-Validation validate(const std::vector<HeardRun>& faulty, const std::vector<HeardRun>& healthy,
+Validation validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
                     const Model& model, const CaseBase& cases);
 
 }  // namespace faultline

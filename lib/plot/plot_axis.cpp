@@ -10,17 +10,9 @@
 namespace faultline {
 namespace {
 
-double nice_step(double span, int count) {
-  const double rough = span / std::max(count, 1);
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough * 0.999) return factor * power;
-  return 10.0 * power;
-}
-
 std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
   std::vector<PlotTick> ticks;
-  const double step = nice_step(axis.high - axis.low, count);
+  const double step = tick_step(axis.high - axis.low, count, 0.001);
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
   const auto first = static_cast<long long>(std::ceil(axis.low / step - 1e-9));
   const auto last = static_cast<long long>(std::floor(axis.high / step + 1e-9));
@@ -45,6 +37,14 @@ std::vector<PlotTick> log_ticks(const PlotAxis& axis, int count) {
 }
 
 }  // namespace
+
+double tick_step(double span, int count, double tolerance) {
+  const double rough = span / std::max(count, 1);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= rough * (1.0 - tolerance)) return factor * power;
+  return 10.0 * power;
+}
 
 double PlotAxis::px(double value) const {
   const double share =

@@ -20,6 +20,10 @@ struct PlotTick {
   std::string text;
 };
 
+/// 1, 2 or 5 times a power of ten, the smallest with at most about `count` steps over `span`; it may be
+/// smaller than that takes by a share of `tolerance`.
+double tick_step(double span, int count, double tolerance = 0.0);
+
 /// Ticks at 1, 2 or 5 times a power of ten (linear) or at powers of ten (logarithmic), about `count` of them.
 std::vector<PlotTick> ticks_of(const PlotAxis& axis, int count);
 

@@ -15,9 +15,9 @@ struct Envelope {
 };
 
 struct JointCurves {
-  Envelope q, q_foretold;       ///< rad or m; foretold one step ahead by the residual generator
-  Envelope dq, dq_foretold;     ///< rad/s or m/s
-  Envelope tau, tau_needed;     ///< N m or N; needed by the healthy robot for the motion that was measured
+  Envelope q, q_predicted;      ///< rad or m; predicted one step ahead by the residual generator
+  Envelope dq, dq_predicted;    ///< rad/s or m/s
+  Envelope tau, tau_required;   ///< N m or N; required of the healthy robot by the motion that was measured
   std::vector<float> residual;  ///< one a bin: largest magnitude of the normalised velocity residual
 };
 

@@ -97,11 +97,11 @@ void WindowCurves::take_prediction(const Log& segment, int row, const Residuals&
     const auto joint = static_cast<Eigen::Index>(j);
     Joint& to = joints_[j];
     to.residual.add(bin, std::abs(residuals.velocity(joint, i)));
-    to.q_foretold.add(bin, segment.q[j][row] - residuals.position(joint, i) * healthy.position_rms[joint]);
+    to.q_predicted.add(bin, segment.q[j][row] - residuals.position(joint, i) * healthy.position_rms[joint]);
     if (!segment.dq.empty())
-      to.dq_foretold.add(bin,
-                         segment.dq[j][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint]);
-    to.tau_needed.add(bin, residuals.tau(joint, i) + residuals.torque(joint, i));
+      to.dq_predicted.add(bin,
+                          segment.dq[j][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint]);
+    to.tau_required.add(bin, residuals.tau(joint, i) + residuals.torque(joint, i));
   }
 }
 
@@ -124,8 +124,8 @@ void WindowCurves::take_outputs(const Residuals& residuals) {
 CurveWindow WindowCurves::curves() const {
   CurveWindow out = window_;
   for (const Joint& joint : joints_)
-    out.joints.push_back({joint.q.envelope(), joint.q_foretold.envelope(), joint.dq.envelope(),
-                          joint.dq_foretold.envelope(), joint.tau.envelope(), joint.tau_needed.envelope(),
+    out.joints.push_back({joint.q.envelope(), joint.q_predicted.envelope(), joint.dq.envelope(),
+                          joint.dq_predicted.envelope(), joint.tau.envelope(), joint.tau_required.envelope(),
                           largest_of(joint.residual.envelope())});
   for (const Network& network : networks_)
     out.networks.push_back({network.label, network.mlp.envelope(), network.rbfn.envelope()});

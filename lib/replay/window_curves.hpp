@@ -24,7 +24,7 @@ class WindowCurves {
 
  private:
   struct Joint {
-    EnvelopeBuilder q, q_foretold, dq, dq_foretold, tau, tau_needed, residual;
+    EnvelopeBuilder q, q_predicted, dq, dq_predicted, tau, tau_required, residual;
   };
   struct Network {
     FaultLabel label;

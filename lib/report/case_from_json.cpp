@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "lib/report/case_from_json.hpp"
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/json_values.hpp"
 
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double number_from(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
 FaultLabel label_from(const Json& json) {
-  const Json& joint = json.at("joint");
-  return {fault_kind_from(json.at("kind").get<std::string>()), joint.is_null() ? 0 : joint.get<int>()};
+  return {fault_kind_from(json.at("kind").get<std::string>()), count_or_zero(json.at("joint"))};
 }
 
-CaseOpinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
+Opinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
 
 const Json& fault_with_id(const Json& diagnosis, const std::string& where, int id) {
   for (const Json& fault : diagnosis.at("faults"))
@@ -36,7 +31,7 @@ std::vector<double> features_from(const Json& json, const std::vector<std::strin
     if (!json.contains(name))
       throw Error(ErrorCode::input, "features",
                   "\"" + name + "\", which this case base compares, is not among them");
-    values.push_back(number_from(json.at(name)));
+    values.push_back(number_or_nan(json.at(name)));
   }
   return values;
 }
@@ -51,7 +46,7 @@ Case parsed(const std::string& text, const std::string& where, int fault_id,
   c.decision = c.label = label_from(fault);
   c.episode.mlp = opinion_from(fault.at("opinions").at("mlp"));
   c.episode.rbfn = opinion_from(fault.at("opinions").at("rbfn"));
-  c.episode.evidence = number_from(fault.at("episode").at("evidence"));
+  c.episode.evidence = number_or_nan(fault.at("episode").at("evidence"));
   c.episode.features = features_from(fault.at("episode").at("features"), names);
   c.origin = json.at("log").at("path").get<std::string>();
   return c;

@@ -1,48 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "lib/report/csv.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <vector>
 
+#include "lib/core/csv_cell.hpp"
 #include "lib/core/utf8.hpp"
+#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
 
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
-
-std::string joint(const FaultLabel& label) { return label.joint > 0 ? std::to_string(label.joint) : ""; }
-
-std::string cell(const std::string& text) {
-  const std::string valid = valid_utf8(text);
-  if (valid.find_first_of(",\"\r\n") == std::string::npos) return valid;
-  std::string quoted = "\"";
-  for (const char c : valid) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string row(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + cell(cells[i]);
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csv_cell(valid_utf8(cells[i]));
   return line + "\n";
 }
 
 std::string alternatives(const FaultFinding& fault) {
   std::string text;
-  for (const Alternative& a : fault.could_also_be)
-    text += (text.empty() ? "" : ";") + std::string(to_string(a.label.kind)) +
-            (a.label.joint > 0 ? " " + std::to_string(a.label.joint) : "");
+  for (const Alternative& a : fault.could_also_be) text += (text.empty() ? "" : ";") + label_text(a.label);
   return text;
 }
 
 std::string fault_row(const Diagnosis& d, const FaultFinding& f) {
-  return row({d.log.path, to_string(f.label.kind), joint(f.label), number(f.onset_s), number(f.end_s),
-              number(f.alarm_s), number(f.confidence), to_string(f.decided_by), to_string(f.mlp.label.kind),
-              joint(f.mlp.label), number(f.mlp.confidence), to_string(f.rbfn.label.kind), joint(f.rbfn.label),
-              number(f.rbfn.confidence), alternatives(f), to_string(d.verdict), d.log.sha256,
-              d.model.sha256});
+  return row({d.log.path, to_string(f.label.kind), csv_joint(f.label.joint), csv_cell(f.onset_s),
+              csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence), to_string(f.decided_by),
+              to_string(f.mlp.label.kind), csv_joint(f.mlp.label.joint), csv_cell(f.mlp.confidence),
+              to_string(f.rbfn.label.kind), csv_joint(f.rbfn.label.joint), csv_cell(f.rbfn.confidence),
+              alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256});
 }
 
 std::string healthy_row(const Diagnosis& d) {

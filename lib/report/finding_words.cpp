@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lib/report/layout.hpp"
+#include "lib/core/number_text.hpp"
 
 namespace faultline {
 
@@ -40,7 +40,5 @@ std::string issue_line(const Issue& issue) {
   return fmt::format("{} ({}, {} times{}{}): {}", to_string(issue.severity), issue.code, issue.count, where,
                      dropped, issue.message);
 }
-
-std::string percent_text(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
 }  // namespace faultline

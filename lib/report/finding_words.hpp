@@ -17,7 +17,4 @@ std::string evidence_line(const EvidenceItem& item);
 /// "warning (time_backward, 2 times in t, first in row 17, 2 rows left out): ...".
 std::string issue_line(const Issue& issue);
 
-/// "96 %".
-std::string percent_text(double share);
-
 }  // namespace faultline

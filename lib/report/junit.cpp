@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {
 
-std::string seconds(double time_s) {
-  return std::isfinite(time_s) ? fmt::format("{:.3f} s", time_s) : "unknown time";
-}
+std::string seconds(double time_s) { return std::isfinite(time_s) ? seconds_text(time_s) : "unknown time"; }
 
 std::string failure(const FaultFinding& fault) {
   return fmt::format(

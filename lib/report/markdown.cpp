@@ -5,9 +5,10 @@
 
 #include <string_view>
 
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -65,9 +66,9 @@ std::string finding(const FaultFinding& f) {
 
 std::string residuals(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.peak_s, d.log.sample_period_s), value_text(r.position_rms)});
+                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return table({"joint", "velocity residual rms (1 = healthy)", "largest", "at", "position rms"}, rows);
 }
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <ranges>
 
+#include "lib/core/number_text.hpp"
+#include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/layout.hpp"
 
 namespace faultline {
 namespace {
@@ -39,8 +41,8 @@ std::string header(const Diagnosis& d, const TimelineOptions& options) {
 }
 
 Paint paint_of(Verdict verdict) {
-  if (verdict == Verdict::healthy) return Paint::green;
-  return verdict == Verdict::faulty ? Paint::red : Paint::yellow;
+  if (verdict == Verdict::healthy) return Paint::bold_green;
+  return verdict == Verdict::faulty ? Paint::bold_red : Paint::yellow;
 }
 
 class FaultBlock {
@@ -119,9 +121,9 @@ std::string residuals(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   std::string text = "Residuals against the regenerated fault-free motion (1 = as in the healthy logs)\n";
   text += "  joint  velocity rms  largest  at            position rms\n";
-  for (const JointResidualSummary& r : d.residuals)
+  for (const JointResidual& r : d.residuals)
     text += fmt::format("  {:<7}{:<14}{:<9}{:<14}{}\n", r.joint, value_text(r.velocity_rms),
-                        value_text(r.velocity_peak), time_text(r.peak_s, d.log.sample_period_s),
+                        value_text(r.velocity_peak), time_text(r.velocity_peak_s, d.log.sample_period_s),
                         value_text(r.position_rms));
   return text + "\n";
 }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/report/layout.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/paint.hpp"
+#include "lib/plot/plot_axis.hpp"
 
 namespace faultline {
 namespace {
@@ -84,22 +86,14 @@ std::string rendered(const Bar& bar, const TimelineOptions& options) {
   for (std::size_t i = 0; i < bar.cells.size(); ++i) {
     const bool marked = bar.marks[i] != ' ';
     const std::string text = marked ? std::string(1, bar.marks[i]) : glyph(bar.cells[i], options.unicode);
-    line += bar.cells[i] == Cell::fine && !marked ? text : painted(text, Paint::red, options.color);
+    line += bar.cells[i] == Cell::fine && !marked ? text : painted(text, Paint::bold_red, options.color);
   }
   return fmt::format("  {:<{}}{}\n", bar.label, kLabelWidth - 2, line);
 }
 
-/// 1, 2 or 5 times a power of ten, so that about six ticks stand on the axis.
-double tick_step(double span_s) {
-  const double rough = span_s / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10.0 * power;
-}
-
 std::string axis(const Scale& scale) {
   const double zero_s = time_zero(scale.start_s);
-  const double step = tick_step(scale.end_s - scale.start_s);
+  const double step = tick_step(scale.end_s - scale.start_s, 6);
   std::string line(kLabelWidth + scale.cells + 12, ' ');
   std::size_t free_from = 0;
   for (double k = std::ceil(scale.start_s / step); k * step <= scale.end_s; k += 1.0) {

@@ -9,9 +9,10 @@
 #include <numbers>
 
 #include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/residual/fit_residual.hpp"
-#include "lib/residual/pattern_pool.hpp"
-#include "lib/residual/twin_patterns.hpp"
+#include "lib/residual/transition_reservoir.hpp"
+#include "lib/residual/twin_transitions.hpp"
 
 namespace faultline {
 namespace {
@@ -29,12 +30,6 @@ struct Survey {
   std::int64_t rows = 0;
   VectorXd low, high;  // of q
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void widen(Survey& survey, const Log& segment) {
   for (int j = 0; j < segment.joints(); ++j)
@@ -70,7 +65,7 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
     }
   }
   if (periods.empty()) throw Error(ErrorCode::input, "healthy logs", "have no two rows to learn from");
-  survey.period_s = median(std::move(periods));
+  survey.period_s = upper_median_of(periods);
   return survey;
 }
 
@@ -98,7 +93,7 @@ std::int64_t block_size(const Survey& survey, const TransitionShape& shape) {
 
 /// Transitions for training, validation and measuring, from blocks that do not overlap.
 struct Pools {
-  PatternPool training, validation, check;
+  TransitionReservoir training, validation, check;
 };
 
 bool usable(const Transitions& t, int column) {

@@ -10,7 +10,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/residual/residual_generator.hpp"
-#include "lib/residual/twin_patterns.hpp"
+#include "lib/residual/twin_transitions.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -22,7 +22,7 @@ struct ResidualOptions {
   PredictedQuantity target = PredictedQuantity::change;
   ResidualTrainer trainer = ResidualTrainer::levenberg_marquardt;
   std::vector<int> hidden = {49};  ///< units of each hidden layer
-  /// Time to foretell over, s; rounded down to whole rows, at least one. 0 = 20 ms: at 1 kHz the velocity
+  /// Time to predict over, s; rounded down to whole rows, at least one. 0 = 20 ms: at 1 kHz the velocity
   /// changes by more than its noise, at 13.7 Hz it is one row.
   double step_s = 0.0;
   /// Rows between predictions; 0 = a third of the step, so that each row lies in about three predictions.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/robot/runge_kutta.hpp"
+
 namespace faultline {
 namespace {
 
@@ -38,17 +40,13 @@ JointState physics_step(const FastDynamics& robot, const JointState& start, cons
   const int steps = substeps(robot, start, duration);
   const double h = duration / steps;
   JointState x = start;
-  Vector a1, a2, a3, a4;
+  const auto acceleration = [&](double, const Vector& q, const Vector& dq, Vector& ddq) {
+    robot.acceleration(q, dq, tau, ddq);
+  };
+  Vector a1;
   for (int i = 0; i < steps; ++i) {
     robot.acceleration(x.q, x.dq, tau, a1);
-    const Vector v2 = x.dq + 0.5 * h * a1;
-    robot.acceleration(x.q + 0.5 * h * x.dq, v2, tau, a2);
-    const Vector v3 = x.dq + 0.5 * h * a2;
-    robot.acceleration(x.q + 0.5 * h * v2, v3, tau, a3);
-    const Vector v4 = x.dq + h * a3;
-    robot.acceleration(x.q + h * v3, v4, tau, a4);
-    x.q += h / 6.0 * (x.dq + 2.0 * v2 + 2.0 * v3 + v4);
-    x.dq += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    runge_kutta_step(h, a1, acceleration, x.q, x.dq);
   }
   return x;
 }

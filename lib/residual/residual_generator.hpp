@@ -13,7 +13,7 @@
 
 namespace faultline {
 
-/// What foretells the fault-free motion.
+/// What predicts the fault-free motion.
 enum class ResidualKind {
   mlp,      ///< the paper: a network from (q, dq, tau) now to (q, dq) one step later
   physics,  ///< the identified robot, integrated over the step
@@ -34,7 +34,7 @@ struct HealthyResiduals {
   Eigen::VectorXd position_max, velocity_max, torque_max;  ///< largest magnitudes
 };
 
-/// Foretells (q, dq) one step ahead for a robot that works as it should.
+/// Predicts (q, dq) one step ahead for a robot that works as it should.
 struct ResidualGenerator {
   ResidualKind kind = ResidualKind::mlp;
   PredictedQuantity target = PredictedQuantity::change;
@@ -55,10 +55,10 @@ struct ResidualGenerator {
 Eigen::MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& transitions);
 
 /// Change of q (upper half) and dq (lower half) over each transition that the part before the network
-/// foretells: physics for the kinds that have it, else zero. 2 joints x transitions.
+/// predicts: physics for the kinds that have it, else zero. 2 joints x transitions.
 Eigen::MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions);
 
-/// Foretold change of q and dq, 2 joints x transitions. NaN where an input is missing or the log has a gap.
+/// Predicted change of q and dq, 2 joints x transitions. NaN where an input is missing or the log has a gap.
 Eigen::MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions& transitions);
 /// What was measured, with joints that go round taken modulo a turn.
 Eigen::MatrixXd measured_change(const ResidualGenerator& generator, const Transitions& transitions);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/neural/json_matrix.hpp"
 #include "lib/residual/residual_generator.hpp"
@@ -13,23 +14,9 @@ namespace {
 using nlohmann::json;
 
 ResidualKind kind_from(const std::string& name, const std::string& where) {
-  for (ResidualKind kind : {ResidualKind::mlp, ResidualKind::physics, ResidualKind::hybrid})
-    if (name == to_string(kind)) return kind;
+  if (const auto kind = enum_named(name, {ResidualKind::mlp, ResidualKind::physics, ResidualKind::hybrid}))
+    return *kind;
   throw Error(ErrorCode::input, where, "kind: '" + name + "' is none of mlp, physics, hybrid");
-}
-
-bool flag_from(const json& object, const char* key, const std::string& where) {
-  const json& value = member_of(object, key, where);
-  if (!value.is_boolean())
-    throw Error(ErrorCode::input, where, fmt::format("{}: expected true or false", key));
-  return value.get<bool>();
-}
-
-int count_from(const json& object, const char* key, const std::string& where) {
-  const json& value = member_of(object, key, where);
-  if (!value.is_number_integer() || value.get<std::int64_t>() < 1 || value.get<std::int64_t>() > 1000000)
-    throw Error(ErrorCode::input, where, fmt::format("{}: expected a whole number of at least 1", key));
-  return value.get<int>();
 }
 
 json shape_to_json(const TransitionShape& shape) {
@@ -40,12 +27,12 @@ json shape_to_json(const TransitionShape& shape) {
 
 TransitionShape shape_from_json(const json& in, const std::string& where) {
   TransitionShape shape;
-  shape.joints = count_from(in, "joints", where);
-  shape.step = count_from(in, "step", where);
-  shape.stride = count_from(in, "stride", where);
+  shape.joints = count_from_json(in, "joints", where);
+  shape.step = count_from_json(in, "step", where);
+  shape.stride = count_from_json(in, "stride", where);
   shape.step_s = number_from_json(in, "step_s", where);
   shape.torque_phi = number_from_json(in, "torque_phi", where);
-  shape.derive_velocity = flag_from(in, "derive_velocity", where);
+  shape.derive_velocity = flag_from_json(in, "derive_velocity", where);
   if (shape.stride > shape.step || !(shape.step_s > 0.0))
     throw Error(ErrorCode::input, where, "shape: stride must not exceed step, and step_s must be positive");
   return shape;
@@ -63,7 +50,7 @@ json healthy_to_json(const HealthyResiduals& healthy) {
 
 HealthyResiduals healthy_from_json(const json& in, int joints, const std::string& where) {
   HealthyResiduals healthy;
-  healthy.patterns = count_from(in, "patterns", where);
+  healthy.patterns = count_from_json(in, "patterns", where);
   const auto read = [&](const char* key, bool divisor) {
     Eigen::VectorXd values = vector_from_json(in, key, where);
     if (values.size() != joints || (divisor && !(values.array() > 0.0).all()))
@@ -122,7 +109,7 @@ ResidualGenerator residual_generator_from_json(const json& in, const Chain<doubl
     throw Error(ErrorCode::input, where, "target: '" + target + "' is none of change, state");
   generator.target = target == "state" ? PredictedQuantity::state : PredictedQuantity::change;
   generator.shape = shape_from_json(member_of(in, "shape", where), where + ", shape");
-  generator.uses_mean_torque = flag_from(in, "uses_mean_torque", where);
+  generator.uses_mean_torque = flag_from_json(in, "uses_mean_torque", where);
   generator.chain = chain;
   if (generator.joints() != chain.joints())
     throw Error(ErrorCode::input, where,

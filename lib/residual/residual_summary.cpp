@@ -30,6 +30,7 @@ std::vector<JointResidual> ResidualSummary::joints() const {
   std::vector<JointResidual> out;
   for (const Sums& sums : sums_) {
     JointResidual joint;
+    joint.joint = static_cast<int>(out.size()) + 1;
     joint.count = sums.count;
     if (sums.count > 0) {
       const double count = static_cast<double>(sums.count);

@@ -9,10 +9,11 @@
 
 namespace faultline {
 
-/// The residual of one joint over some time; normalised by the healthy rms, so that about 1 is healthy. NaN
-/// when no residual could be computed.
+/// The residual of one joint over some time: measured minus regenerated fault-free motion (the one-step
+/// prediction of the MLP), normalised by its healthy rms, so that about 1 is healthy. NaN when no residual
+/// could be computed.
 struct JointResidual {
-  std::int64_t count = 0;  ///< predictions that count: those without missing numbers
+  int joint = 0;  ///< from 1
   double velocity_rms = std::numeric_limits<double>::quiet_NaN();
   double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest magnitude
   double velocity_peak_s = std::numeric_limits<double>::quiet_NaN();
@@ -20,6 +21,7 @@ struct JointResidual {
   double position_peak = std::numeric_limits<double>::quiet_NaN();
   double mean_ratio =
       std::numeric_limits<double>::quiet_NaN();  ///< of Residuals::ratio: about -1 for a free joint
+  std::int64_t count = 0;                        ///< predictions that count: those without missing numbers
 };
 
 /// Sums residuals of a log, or of an interval of it, as they stream by.

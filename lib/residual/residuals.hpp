@@ -11,7 +11,7 @@
 
 namespace faultline {
 
-/// Measured minus foretold, one column a prediction; joints x predictions. A prediction belongs to its later
+/// Measured minus predicted, one column a prediction; joints x predictions. A prediction belongs to its later
 /// row.
 struct Residuals {
   std::vector<std::int64_t> row;  ///< counted from the first row of the log

@@ -110,4 +110,19 @@ Transitions collect_transitions(const Log& segment, const TransitionShape& shape
   return out;
 }
 
+Transitions joined(const Transitions& first, const Transitions& second) {
+  Transitions all = first;
+  all.row.insert(all.row.end(), second.row.begin(), second.row.end());
+  all.time.conservativeResize(all.count());
+  all.time.tail(second.count()) = second.time;
+  all.duration.conservativeResize(all.count());
+  all.duration.tail(second.count()) = second.duration;
+  for_each_matrix(all, second, [](Eigen::MatrixXd& mine, const Eigen::MatrixXd& more) {
+    const Eigen::Index before = mine.cols();
+    mine.conservativeResize(Eigen::NoChange, before + more.cols());
+    mine.rightCols(more.cols()) = more;
+  });
+  return all;
+}
+
 }  // namespace faultline

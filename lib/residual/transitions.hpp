@@ -32,6 +32,17 @@ struct Transitions {
   int count() const { return static_cast<int>(row.size()); }
 };
 
+/// Calls visit(mine, theirs) for each pair of matrices of joints x pairs.
+template <typename Visit>
+void for_each_matrix(Transitions& mine, const Transitions& theirs, Visit visit) {
+  visit(mine.q, theirs.q);
+  visit(mine.dq, theirs.dq);
+  visit(mine.tau, theirs.tau);
+  visit(mine.mean_tau, theirs.mean_tau);
+  visit(mine.next_q, theirs.next_q);
+  visit(mine.next_dq, theirs.next_dq);
+}
+
 /// What crosses a segment border: the last rows.
 struct TransitionState {
   Log tail;
@@ -41,5 +52,8 @@ struct TransitionState {
 /// All pairs whose later row lies in `segment`. Throws Error(input) when a channel is missing or the joints
 /// are not those of the shape.
 Transitions collect_transitions(const Log& segment, const TransitionShape& shape, TransitionState& state);
+
+/// The columns of `first`, then those of `second`.
+Transitions joined(const Transitions& first, const Transitions& second);
 
 }  // namespace faultline

@@ -8,84 +8,10 @@
 namespace faultline {
 namespace {
 
-constexpr double kParallel = 1e-13;
-
-bool has_parallel_axes(const Chain<double>& chain) {
-  const Eigen::Vector3d& normal = chain.geometry[0].axis;
-  for (const JointGeometry& joint : chain.geometry)
-    if (joint.axis.cross(normal).norm() > kParallel) return false;
-  return true;
-}
-
-/// The bodies that turn as one with a revolute joint, seen along the normal, about that joint.
-struct PlanarBody {
-  double mass = 0.0;
-  Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();
-  double inertia = 0.0;
-  Eigen::Vector2d reach = Eigen::Vector2d::Zero();  ///< to the next revolute joint
-};
-
 /// tanh to 1e-16 absolute, about twice as fast as libm's.
 double fast_tanh(double x) { return 1.0 - 2.0 / (std::exp(2.0 * x) + 1.0); }
 
 }  // namespace
-
-FastDynamics::FastDynamics(const Chain<double>& chain) : chain_(chain), joints_(chain.joints()) {
-  for (const auto& f : chain_.friction)
-    has_friction_ = has_friction_ || f.viscous != 0.0 || f.coulomb != 0.0 || f.offset != 0.0;
-  if (chain_.rotor_inertia.empty()) chain_.rotor_inertia.assign(joints_, 0.0);
-  planar_ = joints_ > 0 && has_parallel_axes(chain_);
-  if (planar_) set_up_planar(chain_.geometry[0].axis);
-}
-
-void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 2, 3> plane;
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  plane << u.transpose(), normal.cross(u).transpose();
-  PerJoint<PlanarBody> bodies{};
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  // of the link's frame on its body
-  for (int i = 0; i < joints_; ++i) {
-    const JointGeometry& joint = chain_.geometry[i];
-    sign_[i] = joint.axis.dot(normal) > 0.0 ? 1.0 : -1.0;
-    Eigen::Vector3d offset = joint.offset;
-    if (i > 0) offset += chain_.length[i - 1] * joint.direction;
-    place += plane * offset;
-    if (joint.kind == AxisKind::revolute) {
-      if (revolute_ > 0) bodies[revolute_ - 1].reach = place;
-      revolute_joint_[revolute_++] = i;
-      place.setZero();
-    } else {
-      prismatic_joint_[prismatic_++] = i;
-    }
-    if (revolute_ == 0) continue;
-    const LinkInertia<double>& link = chain_.links[i];
-    const Eigen::Vector2d moment = plane * link.first_moment;
-    PlanarBody& body = bodies[revolute_ - 1];
-    body.mass += link.mass;
-    body.first_moment += moment + link.mass * place;
-    body.inertia +=
-        normal.dot(link.inertia * normal) + 2.0 * place.dot(moment) + link.mass * place.squaredNorm();
-  }
-  double carried = 0.0;
-  for (int i = joints_ - 1; i >= 0; --i) {
-    carried += chain_.links[i].mass;
-    carried_mass_[i] = carried;
-    weight_[i] = -sign_[i] * normal.dot(chain_.gravity) * carried;
-  }
-  const Eigen::Vector2d g = plane * chain_.gravity;
-  gravity_in_plane_ = g.norm() > 1e-14 * chain_.gravity.norm();
-  double beyond = 0.0;
-  for (int j = revolute_ - 1; j >= 0; --j) {
-    const Eigen::Vector2d s = bodies[j].first_moment + beyond * bodies[j].reach;
-    diagonal_[j] = bodies[j].inertia + beyond * bodies[j].reach.squaredNorm();
-    gravity_[j] = {g.x() * s.y() - g.y() * s.x(), g.x() * s.x() + g.y() * s.y()};
-    for (int i = 0; i < j; ++i) {
-      const Eigen::Vector2d& d = bodies[i].reach;
-      pairs_[i][j] = {d.dot(s), d.y() * s.x() - d.x() * s.y()};
-    }
-    beyond += bodies[j].mass;
-  }
-}
 
 void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, double* inertia,
                                            double* bias) const {
@@ -137,16 +63,20 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
       inertia[joint * n + other] = inertia[other * n + joint] = sign_[joint] * sign_[other] * sum;
     }
   }
+  add_prismatic(inertia, bias);
+  for (int i = 0; i < n; ++i) inertia[i * n + i] += chain_.rotor_inertia[i];
+}
+
+void FastDynamics::add_prismatic(double* inertia, double* bias) const {
   for (int i = 0; i < prismatic_; ++i) {
     const int joint = prismatic_joint_[i];
     bias[joint] = weight_[joint];
     for (int k = 0; k <= i; ++k) {
       const int other = prismatic_joint_[k];
-      inertia[joint * n + other] = inertia[other * n + joint] =
+      inertia[joint * joints_ + other] = inertia[other * joints_ + joint] =
           sign_[joint] * sign_[other] * carried_mass_[joint];
     }
   }
-  for (int i = 0; i < n; ++i) inertia[i * n + i] += chain_.rotor_inertia[i];
 }
 
 void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,

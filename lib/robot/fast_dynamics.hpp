@@ -40,6 +40,7 @@ class FastDynamics {
 
   void set_up_planar(const Eigen::Vector3d& normal);
   void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
+  void add_prismatic(double* inertia, double* bias) const;
 
   Chain<double> chain_;
   int joints_ = 0;

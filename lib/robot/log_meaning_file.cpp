@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/log/channel_names.hpp"
+#include "lib/robot/robot_words.hpp"
+
 namespace faultline {
 namespace {
 
@@ -28,8 +31,8 @@ ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
 
 std::vector<std::string> channel_names(int joints) {
   std::vector<std::string> names{"t"};
-  for (const char* prefix : {"q", "dq", "tau", "q_ref", "dq_ref"})
-    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  for (const Quantity quantity : kJointQuantities)
+    for (int j = 1; j <= joints; ++j) names.push_back(to_string(Channel{quantity, j}));
   return names;
 }
 
@@ -37,18 +40,12 @@ std::vector<std::string> channel_names(int joints) {
 
 LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
   LogMeaning result;
-  if (log.has("torque")) {
-    const std::string meaning = log.choice("torque", {"commanded", "measured", "current"});
-    result.torque = meaning == "commanded"  ? TorqueMeaning::commanded
-                    : meaning == "measured" ? TorqueMeaning::measured
-                                            : TorqueMeaning::current;
-  }
-  if (log.has("torque_between_samples")) {
-    const std::string timing = log.choice("torque_between_samples", {"held", "linear", "unknown"});
-    result.torque_between_samples = timing == "held"     ? TorqueTiming::held
-                                    : timing == "linear" ? TorqueTiming::linear
-                                                         : TorqueTiming::unknown;
-  }
+  if (log.has("torque"))
+    result.torque =
+        log.choice_of("torque", {TorqueMeaning::commanded, TorqueMeaning::measured, TorqueMeaning::current});
+  if (log.has("torque_between_samples"))
+    result.torque_between_samples = log.choice_of(
+        "torque_between_samples", {TorqueTiming::held, TorqueTiming::linear, TorqueTiming::unknown});
   const TomlTable columns = log.table("columns");
   const auto names = channel_names(joints);
   for (const std::string& channel : columns.keys()) {

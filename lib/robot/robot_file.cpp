@@ -4,146 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/robot/chain_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
+#include "lib/robot/nearest_word.hpp"
+#include "lib/robot/robot_words.hpp"
+#include "lib/robot/toml_values.hpp"
 
 namespace faultline {
 namespace {
-
-Eigen::Vector3d vector3(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback) {
-  if (!table.has(key)) return fallback;
-  const auto values = table.numbers(key, 3);
-  return {values[0], values[1], values[2]};
-}
-
-Eigen::Vector3d unit_vector(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback) {
-  const Eigen::Vector3d v = vector3(table, key, fallback);
-  if (v.norm() < 1e-9) table.fail(key, "expected a direction, found a vector of length zero");
-  return std::abs(v.norm() - 1.0) < 1e-12 ? v : v.normalized();
-}
-
-/// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz].
-Eigen::Matrix3d inertia_tensor(const TomlTable& table, const std::string& key) {
-  const auto v = table.numbers(key, -1);
-  if (v.size() != 3 && v.size() != 6)
-    table.fail(key,
-               fmt::format("expected [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], found {} numbers", v.size()));
-  Eigen::Matrix3d m = Eigen::Vector3d(v[0], v[1], v[2]).asDiagonal();
-  if (v.size() == 6) {
-    m(0, 1) = m(1, 0) = v[3];
-    m(0, 2) = m(2, 0) = v[4];
-    m(1, 2) = m(2, 1) = v[5];
-  }
-  return m;
-}
-
-double not_negative(const TomlTable& table, const std::string& key, double fallback) {
-  const double value = table.number(key, fallback);
-  if (value < 0.0) table.fail(key, fmt::format("expected a number that is not negative, found {}", value));
-  return value;
-}
-
-double positive(const TomlTable& table, const std::string& key, double fallback) {
-  const double value = table.number(key, fallback);
-  if (value <= 0.0) table.fail(key, fmt::format("expected a positive number, found {}", value));
-  return value;
-}
-
-void check_signs(const TomlTable& table, const std::string& key, const std::vector<double>& values,
-                 bool zero_allowed) {
-  for (const double v : values)
-    if (v < 0.0 || (v == 0.0 && !zero_allowed))
-      table.fail(key,
-                 fmt::format("expected {} numbers, found {}", zero_allowed ? "non-negative" : "positive", v));
-}
-
-/// [[joint]] without `axes`: every axis from its table.
-Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& joints) {
-  if (joints.empty())
-    table.fail(
-        "", fmt::format("says nothing about the axes; expected axes = \"RRP\" (base to tip) or one [[joint]] "
-                        "table an axis{}",
-                        table.has("axis") ? "; the key is \"axes\", not \"axis\"" : ""));
-  if (joints.size() > kMaxJoints)
-    table.fail("joint", fmt::format("expected at most {} joints, found {}", kMaxJoints, joints.size()));
-  Robot robot;
-  for (const TomlTable& joint : joints) {
-    const bool revolute = joint.choice("kind", {"revolute", "prismatic"}) == "revolute";
-    JointGeometry geometry;
-    geometry.kind = revolute ? AxisKind::revolute : AxisKind::prismatic;
-    const bool on_last_axis = robot.chain.geometry.empty() || joint.has("offset") ||
-                              robot.chain.geometry.back().kind == AxisKind::prismatic;
-    if (on_last_axis) geometry.direction.setZero();
-    robot.chain.geometry.push_back(geometry);
-    robot.shapes.push_back(revolute ? LinkShape::rod : LinkShape::point);
-  }
-  const std::size_t n = joints.size();
-  robot.chain.links.resize(n);
-  robot.chain.friction.resize(n);
-  robot.chain.rotor_inertia.assign(n, 0.0);
-  return robot;
-}
-
-void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    JointGeometry& geometry = robot.chain.geometry[i];
-    geometry.axis = unit_vector(joints[i], "axis", geometry.axis);
-    geometry.offset = vector3(joints[i], "offset", geometry.offset);
-    if (joints[i].has("direction"))
-      geometry.direction = i == 0 ? vector3(joints[i], "direction", {0, 0, 0})
-                                  : unit_vector(joints[i], "direction", geometry.direction);
-    if (i == 0 && !geometry.direction.isZero())
-      joints[i].fail("direction", "the first joint has no link before it; place it with offset");
-    const char* kind = geometry.kind == AxisKind::revolute ? "revolute" : "prismatic";
-    if (joints[i].has("kind") && joints[i].choice("kind", {"revolute", "prismatic"}) != kind)
-      joints[i].fail("kind",
-                     fmt::format("contradicts axes = \"{}\", in which this joint is {}", robot.axes, kind));
-  }
-}
-
-void read_link(Robot& robot, int i, const TomlTable& table) {
-  if (table.has("shape")) {
-    const std::string shape = table.choice("shape", {"rod", "point", "general"});
-    robot.shapes[i] = shape == "rod"     ? LinkShape::rod
-                      : shape == "point" ? LinkShape::point
-                                         : LinkShape::general;
-  } else if (table.has("inertia") || table.has("centre") || table.has("inertia_at_joint")) {
-    robot.shapes[i] = LinkShape::general;
-  }
-  robot.chain.length[i] = not_negative(table, "length", robot.shapes[i] == LinkShape::rod ? 1.0 : 0.0);
-  const double mass = not_negative(table, "mass", 1.0);
-  LinkInertia<double>& link = robot.chain.links[i];
-  if (robot.shapes[i] == LinkShape::rod) {
-    link = uniform_rod(mass, robot.chain.length[i], link_direction(robot, i));
-  } else if (robot.shapes[i] == LinkShape::point) {
-    link = point_mass(mass);
-  } else if (table.has("inertia_at_joint")) {
-    link.mass = mass;
-    link.first_moment = vector3(table, "first_moment", {0, 0, 0});
-    link.inertia = inertia_tensor(table, "inertia_at_joint");
-  } else {
-    const bool stated = table.has("inertia");
-    link = general_body(
-        mass, vector3(table, "centre", {0, 0, 0}),
-        stated ? inertia_tensor(table, "inertia") : Eigen::Matrix3d(0.01 * Eigen::Matrix3d::Identity()));
-  }
-}
-
-void read_links(Robot& robot, const TomlTable& table) {
-  const auto links = table.tables("link");
-  if (!links.empty() && static_cast<int>(links.size()) != robot.joints())
-    table.fail("link", fmt::format("expected one [[link]] for each of the {} joints, base to tip, found {}",
-                                   robot.joints(), links.size()));
-  if (links.empty() && robot.chain.length.empty()) {  // a chain given axis by axis: unit masses and lengths
-    robot.chain.length.assign(robot.joints(), 0.0);
-    for (int i = 0; i < robot.joints(); ++i) read_link(robot, i, TomlTable::parse("", ""));
-  }
-  robot.chain.length.resize(robot.joints(), 0.0);
-  for (std::size_t i = 0; i < links.size(); ++i) read_link(robot, static_cast<int>(i), links[i]);
-}
 
 void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
   const int n = robot.joints();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "lib/robot/robot_file.hpp"
+#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
@@ -41,7 +42,7 @@ std::string joint_text(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
   const Friction<double>& f = robot.chain.friction[i];
   std::string text = "\n[[joint]]\n";
-  text += fmt::format("kind = \"{}\"\n", joint.kind == AxisKind::revolute ? "revolute" : "prismatic");
+  text += fmt::format("kind = \"{}\"\n", to_string(joint.kind));
   text += fmt::format("axis = {}\noffset = {}\n", numbers(joint.axis), numbers(joint.offset));
   if (!joint.direction.isZero()) text += fmt::format("direction = {}\n", numbers(joint.direction));
   if (robot.identified) return text;  // [identified] has the rest
@@ -53,9 +54,7 @@ std::string joint_text(const Robot& robot, int i) {
 std::string link_text(const Robot& robot, int i) {
   const LinkInertia<double>& link = robot.chain.links[i];
   const LinkShape shape = robot.shapes[i];
-  std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", shape == LinkShape::rod     ? "rod"
-                                                                 : shape == LinkShape::point ? "point"
-                                                                                             : "general");
+  std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", to_string(shape));
   if (robot.identified) return text;  // [identified] has the rest
   text += fmt::format("mass = {}\nlength = {}\n", number(link.mass), number(robot.chain.length[i]));
   if (shape == LinkShape::general)
@@ -85,11 +84,8 @@ std::string column_text(const std::string& channel, const ColumnSpec& spec) {
 }
 
 std::string log_text(const LogMeaning& log) {
-  constexpr const char* kMeanings[] = {"commanded", "measured", "current"};
-  constexpr const char* kTimings[] = {"held", "linear", "unknown"};
   std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
-                                 kMeanings[static_cast<int>(log.torque)],
-                                 kTimings[static_cast<int>(log.torque_between_samples)]);
+                                 to_string(log.torque), to_string(log.torque_between_samples));
   if (!log.columns.empty()) text += "\n[log.columns]\n";
   for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);
   return text;

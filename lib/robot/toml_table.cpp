@@ -3,48 +3,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
-#include <set>
-#include <sstream>
 
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+#include "lib/robot/nearest_word.hpp"
+#include "lib/robot/toml_table_data.hpp"
 
 namespace faultline {
-
-struct TomlTable::Data {
-  std::shared_ptr<const toml::table> root;  ///< keeps the nodes alive
-  const toml::table* table = nullptr;
-  std::string where;   ///< the file
-  std::string prefix;  ///< "log.columns." for the keys of [log.columns]
-  std::set<std::string> asked;
-  std::vector<std::shared_ptr<Data>> children;
-
-  const toml::node* find(const std::string& key) {
-    asked.insert(key);
-    return table->get(key);
-  }
-
-  std::shared_ptr<Data> child(const toml::table& of, const std::string& name) {
-    auto data = std::make_shared<Data>(Data{root, &of, where, prefix + name + ".", {}, {}});
-    children.push_back(data);
-    return data;
-  }
-
-  std::string place(const std::string& key) const {
-    const toml::node* node = key.empty() ? table : table->get(key);
-    const auto line = (node ? node : table)->source().begin.line;
-    std::string name = prefix + key;
-    if (key.empty() && !name.empty()) name.pop_back();  // the table itself
-    return where + (line ? fmt::format(", line {}", line) : "") + (name.empty() ? "" : ", key " + name);
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& message) const {
-    throw Error(ErrorCode::usage, place(key), message);
-  }
-};
 
 namespace {
 
@@ -53,48 +20,7 @@ const toml::table& empty_table() {
   return table;
 }
 
-std::string shown(const toml::node& node) {
-  std::ostringstream out;
-  node.visit([&](const auto& value) {
-    if constexpr (toml::is_value<decltype(value)>)
-      out << value;
-    else if constexpr (toml::is_array<decltype(value)>)
-      out << "a list";
-    else
-      out << "a table";
-  });
-  return out.str();
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 }  // namespace
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
-  for (const std::string& candidate : known) {
-    const std::size_t d = edit_distance(word, candidate);
-    if (d < distance) {
-      distance = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 TomlTable TomlTable::parse(const std::string& text, const std::string& where) {
   try {
@@ -128,31 +54,8 @@ bool TomlTable::is_array(const std::string& key) const {
   return node && node->is_array();
 }
 
-namespace {
-
-/// What every getter needs: the value of a node, or the failure that says what was found.
-template <typename Data>
-const toml::node& required(Data& data, const std::string& key, const char* expected) {
-  if (const toml::node* node = data.find(key)) return *node;
-  std::vector<std::string> present;
-  for (const auto& [name, node] : *data.table) present.emplace_back(name.str());
-  const std::string near = nearest_word(key, present);
-  data.fail("", fmt::format("the key {}{} is missing; expected {}{}", data.prefix, key, expected,
-                            near.empty() ? "" : fmt::format(". Is \"{}\" a misspelling of it?", near)));
-}
-
-template <typename Data>
-double as_number(const Data& data, const std::string& key, const toml::node& node) {
-  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value))
-    data.fail(key, fmt::format("expected a finite number, found {}", shown(node)));
-  return *value;
-}
-
-}  // namespace
-
 double TomlTable::number(const std::string& key) const {
-  return as_number(*data_, key, required(*data_, key, "a number"));
+  return data_->as_number(key, data_->required(key, "a number"));
 }
 
 double TomlTable::number(const std::string& key, double fallback) const {
@@ -160,7 +63,7 @@ double TomlTable::number(const std::string& key, double fallback) const {
 }
 
 double TomlTable::any_number(const std::string& key) const {
-  const toml::node& node = required(*data_, key, "a number");
+  const toml::node& node = data_->required(key, "a number");
   if (!node.is_number()) fail(key, fmt::format("expected a number, found {}", shown(node)));
   return *node.value<double>();
 }
@@ -180,56 +83,13 @@ bool TomlTable::flag(const std::string& key, bool fallback) const {
 }
 
 std::string TomlTable::text(const std::string& key) const {
-  const toml::node& node = required(*data_, key, "a text in quotes");
+  const toml::node& node = data_->required(key, "a text in quotes");
   if (!node.is_string()) fail(key, fmt::format("expected a text in quotes, found {}", shown(node)));
   return *node.value<std::string>();
 }
 
 std::string TomlTable::text(const std::string& key, const std::string& fallback) const {
   return has(key) ? text(key) : fallback;
-}
-
-std::vector<double> TomlTable::numbers(const std::string& key, int count) const {
-  const std::string expected =
-      count < 0 ? "a list of numbers" : fmt::format("a list of {} number{}", count, count == 1 ? "" : "s");
-  const toml::node& node = required(*data_, key, expected.c_str());
-  const toml::array* list = node.as_array();
-  if (!list) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));
-  if (count >= 0 && list->size() != static_cast<std::size_t>(count))
-    fail(key, fmt::format("expected {}, found {} of them", expected, list->size()));
-  std::vector<double> values;
-  for (const toml::node& item : *list) values.push_back(as_number(*data_, key, item));
-  return values;
-}
-
-std::vector<std::vector<double>> TomlTable::number_rows(const std::string& key, int count) const {
-  const std::string expected = fmt::format("a list of lists of {} numbers", count);
-  const toml::node& node = required(*data_, key, expected.c_str());
-  std::vector<std::vector<double>> rows;
-  if (!node.is_array()) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));
-  for (const toml::node& row : *node.as_array()) {
-    if (!row.is_array() || row.as_array()->size() != static_cast<std::size_t>(count))
-      fail(key, fmt::format("expected {}, found another row in it", expected));
-    rows.emplace_back();
-    for (const toml::node& item : *row.as_array()) rows.back().push_back(as_number(*data_, key, item));
-  }
-  return rows;
-}
-
-std::vector<double> TomlTable::each(const std::string& key, int count) const {
-  if (is_array(key)) return numbers(key, count);
-  return std::vector<double>(count, number(key));
-}
-
-std::vector<std::string> TomlTable::texts(const std::string& key) const {
-  const toml::node& node = required(*data_, key, "a list of texts in quotes");
-  if (!node.is_array()) fail(key, fmt::format("expected a list of texts, found {}", shown(node)));
-  std::vector<std::string> values;
-  for (const toml::node& item : *node.as_array()) {
-    if (!item.is_string()) fail(key, fmt::format("expected texts in quotes, found {} in it", shown(item)));
-    values.push_back(*item.value<std::string>());
-  }
-  return values;
 }
 
 std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& choices) const {
@@ -244,21 +104,6 @@ TomlTable TomlTable::table(const std::string& key) const {
   const toml::node* node = data_->find(key);
   if (node && !node->is_table()) fail(key, fmt::format("expected a table, found {}", shown(*node)));
   return TomlTable(data_->child(node ? *node->as_table() : empty_table(), key));
-}
-
-std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
-  const toml::node* node = data_->find(key);
-  std::vector<TomlTable> result;
-  if (!node) return result;
-  const toml::array* list = node->as_array();
-  if (!list) fail(key, fmt::format("expected a list of tables ([[{}]]), found {}", key, shown(*node)));
-  for (const toml::node& item : *list) {
-    if (!item.is_table())
-      fail(key, fmt::format("expected a list of tables ([[{}]]), found {} in it", key, shown(item)));
-    result.push_back(
-        TomlTable(data_->child(*item.as_table(), fmt::format("{}[{}]", key, result.size() + 1))));
-  }
-  return result;
 }
 
 void TomlTable::finish() const {

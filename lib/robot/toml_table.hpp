@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/enum_named.hpp"
+
 namespace faultline {
 
 /// A table of an option file (TOML) that remembers which keys were asked for, so that finish() can name the
@@ -40,6 +42,13 @@ class TomlTable {
   std::vector<std::string> texts(const std::string& key) const;
   /// One of `choices`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices) const;
+  /// The one of `all` whose to_string() the text is.
+  template <typename Enum>
+  Enum choice_of(const std::string& key, std::initializer_list<Enum> all) const {
+    std::vector<std::string> words;
+    for (const Enum value : all) words.emplace_back(to_string(value));
+    return *enum_named(choice(key, words), all);
+  }
   /// An empty table when the key is absent.
   TomlTable table(const std::string& key) const;
   /// A list of tables ([[key]]); empty when the key is absent.
@@ -55,8 +64,5 @@ class TomlTable {
 
   std::shared_ptr<Data> data_;
 };
-
-/// The one of `known` nearest to `word` by edit distance, or "" when none is near enough to be a misspelling.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace faultline

@@ -1,63 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/motion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
+#include "lib/simulate/motion_check.hpp"
 
 namespace faultline {
 namespace {
-
-[[noreturn]] void bad(const char* key, const std::string& message) {
-  throw Error(ErrorCode::usage, std::string("motion.") + key, message);
-}
-
-/// `given`, or the paper's bench ranges when it is empty.
-std::vector<double> range_end(const Robot& robot, const std::vector<double>& given, const char* key,
-                              bool high) {
-  if (!given.empty() && static_cast<int>(given.size()) != robot.joints())
-    bad(key, fmt::format("expected {} numbers, found {}", robot.joints(), given.size()));
-  if (!given.empty()) return given;
-  std::vector<double> ends;
-  for (const JointGeometry& joint : robot.chain.geometry)
-    ends.push_back(joint.kind == AxisKind::revolute ? (high ? 2.0 : -2.0) : (high ? 0.05 : -0.35));
-  return ends;
-}
-
-void check(const Robot& robot, const MotionSpec& spec, const std::vector<double>& low,
-           const std::vector<double>& high) {
-  for (int i = 0; i < robot.joints(); ++i)
-    if (!(low[i] <= high[i]))
-      bad("low", fmt::format("{} of joint {} is above high, {}", low[i], i + 1, high[i]));
-  if (!(spec.move_min_s > 0.0 && spec.move_min_s <= spec.move_max_s))
-    bad("move_s",
-        fmt::format("expected 0 < shortest <= longest, found {} and {}", spec.move_min_s, spec.move_max_s));
-  if (!(spec.dwell_min_s >= 0.0 && spec.dwell_min_s <= spec.dwell_max_s))
-    bad("dwell_s", fmt::format("expected 0 <= shortest <= longest, found {} and {}", spec.dwell_min_s,
-                               spec.dwell_max_s));
-  if (!(spec.blend > 0.0 && spec.blend <= 0.5))
-    bad("blend", fmt::format("expected 0 to 0.5, found {}", spec.blend));
-  if (spec.harmonics < 1 || !(spec.fourier_period_s > 0.0))
-    bad("harmonics", "expected at least one harmonic and a positive period");
-  for (const auto& point : spec.points)
-    if (static_cast<int>(point.size()) != robot.joints())
-      bad("points", fmt::format("expected points of {} numbers, found {}", robot.joints(), point.size()));
-}
-
-void check(const Robot& robot, const SampledMotion& replay) {
-  const auto n = static_cast<std::size_t>(robot.joints());
-  if (!(replay.period_s > 0.0)) bad("replay", "expected samples with a positive period");
-  if (replay.q.size() != n || replay.dq.size() != n || replay.q[0].size() < 2)
-    bad("replay", fmt::format("expected q and dq of {} joints with at least 2 samples", n));
-  for (std::size_t i = 0; i < n; ++i)
-    if (replay.q[i].size() != replay.q[0].size() || replay.dq[i].size() != replay.q[0].size())
-      bad("replay", "its columns differ in length");
-}
 
 /// Path parameter of a move and its derivatives by tau = time / length of the move.
 struct Path {
@@ -82,26 +34,25 @@ Path trapezoid(double x, double blend) {
 Motion::Motion(const Robot& robot, const MotionSpec& spec, double duration_s, std::uint64_t seed)
     : joints_(robot.joints()), profile_(spec.profile), blend_(spec.blend) {
   if (profile_ == MotionProfile::replay) {
-    check(robot, spec.replay);
+    check_replay(robot, spec.replay);
     replay_ = spec.replay;
     return;
   }
-  const auto low = range_end(robot, spec.low, "low", false), high = range_end(robot, spec.high, "high", true);
-  check(robot, spec, low, high);
+  const JointRanges ranges = checked_ranges(robot, spec);
   if (profile_ == MotionProfile::fourier)
-    plan_harmonics(spec, low, high, seed);
+    plan_harmonics(spec, ranges, seed);
   else
-    plan_moves(spec, low, high, duration_s, seed);
+    plan_moves(spec, ranges, duration_s, seed);
 }
 
-void Motion::plan_moves(const MotionSpec& spec, const std::vector<double>& low,
-                        const std::vector<double>& high, double duration_s, std::uint64_t seed) {
+void Motion::plan_moves(const MotionSpec& spec, const JointRanges& ranges, double duration_s,
+                        std::uint64_t seed) {
   Random random(seed);
   std::size_t visited = 0;
   const auto next_point = [&] {
     JointVector<double> point(joints_);
     for (int i = 0; i < joints_; ++i)
-      point[i] = spec.points.empty() ? random.uniform(low[i], high[i])
+      point[i] = spec.points.empty() ? random.uniform(ranges.low[i], ranges.high[i])
                                      : spec.points[visited % spec.points.size()][i];
     ++visited;
     return point;
@@ -118,8 +69,7 @@ void Motion::plan_moves(const MotionSpec& spec, const std::vector<double>& low,
 
 /// Random harmonics of falling amplitude, scaled so that they fill the joint's range; the first sine takes
 /// the slope that makes the period start at rest.
-void Motion::plan_harmonics(const MotionSpec& spec, const std::vector<double>& low,
-                            const std::vector<double>& high, std::uint64_t seed) {
+void Motion::plan_harmonics(const MotionSpec& spec, const JointRanges& ranges, std::uint64_t seed) {
   Random random(seed);
   base_rate_ = 2.0 * std::numbers::pi / spec.fourier_period_s;
   centre_.resize(joints_);
@@ -142,12 +92,12 @@ void Motion::plan_harmonics(const MotionSpec& spec, const std::vector<double>& l
       least = step ? std::min(least, value) : value;
       most = step ? std::max(most, value) : value;
     }
-    const double scale = most > least ? (high[i] - low[i]) / (most - least) : 0.0;
+    const double scale = most > least ? (ranges.high[i] - ranges.low[i]) / (most - least) : 0.0;
     for (Harmonic& harmonic : harmonics_) {
       harmonic.cosine[i] *= scale;
       harmonic.sine[i] *= scale;
     }
-    centre_[i] = low[i] - scale * least;
+    centre_[i] = ranges.low[i] - scale * least;
   }
 }
 

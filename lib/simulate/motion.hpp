@@ -43,6 +43,11 @@ struct MotionSpec {
   SampledMotion replay{};
 };
 
+/// Ends of the joints' ranges, rad or m.
+struct JointRanges {
+  std::vector<double> low, high;
+};
+
 /// The reference at one moment.
 struct Reference {
   JointVector<double> q, dq, ddq;
@@ -67,10 +72,8 @@ class Motion {
     JointVector<double> sine, cosine;
   };
 
-  void plan_moves(const MotionSpec& spec, const std::vector<double>& low, const std::vector<double>& high,
-                  double duration_s, std::uint64_t seed);
-  void plan_harmonics(const MotionSpec& spec, const std::vector<double>& low, const std::vector<double>& high,
-                      std::uint64_t seed);
+  void plan_moves(const MotionSpec& spec, const JointRanges& ranges, double duration_s, std::uint64_t seed);
+  void plan_harmonics(const MotionSpec& spec, const JointRanges& ranges, std::uint64_t seed);
   void move_at(double t, Reference& reference) const;
   void harmonics_at(double t, Reference& reference) const;
   void replay_at(double t, Reference& reference) const;

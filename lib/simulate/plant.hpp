@@ -32,12 +32,12 @@ class Plant {
   void advance(double from, double to, const JointVector<double>& tau);
 
  private:
+  void set_stops(const JointStops& stops);
   void enter(double now);
   void choose_steps(Chain<double>& chain);
   double safe_step(const JointVector<double>& ddq) const;
   void impact();
   void integrate(double length, const JointVector<double>& tau);
-  void runge_kutta(double h, const JointVector<double>& tau, const JointVector<double>& a1);
   void accelerate(const JointVector<double>& at, const JointVector<double>& rate,
                   const JointVector<double>& tau, JointVector<double>& out) const;
 

@@ -86,16 +86,23 @@ Log empty_log(const Robot& robot, const SimulationSpec& spec, int rows) {
   return log;
 }
 
-void record(Log& log, int row, double t, const Sensors& sensors, const JointVector<double>& tau,
-            const Reference& reference) {
-  log.time[row] = t;
+/// What a controller sees and does at one moment.
+struct ControlTick {
+  double time_s = 0.0;
+  const Sensors& sensors;
+  const JointVector<double>& tau;
+  const Reference& reference;
+};
+
+void record(Log& log, int row, const ControlTick& tick) {
+  log.time[row] = tick.time_s;
   for (int i = 0; i < log.joints(); ++i) {
-    log.q[i][row] = sensors.q[i];
-    log.dq[i][row] = sensors.dq[i];
-    log.tau[i][row] = tau[i];
+    log.q[i][row] = tick.sensors.q[i];
+    log.dq[i][row] = tick.sensors.dq[i];
+    log.tau[i][row] = tick.tau[i];
     if (log.q_ref.empty()) continue;
-    log.q_ref[i][row] = reference.q[i];
-    log.dq_ref[i][row] = reference.dq[i];
+    log.q_ref[i][row] = tick.reference.q[i];
+    log.dq_ref[i][row] = tick.reference.dq[i];
   }
 }
 
@@ -167,7 +174,7 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
       controller.torque(reference, sensors.q, sensors.dq, tau);
       for (std::size_t i = 0; i < spec.torque_limit.size(); ++i)
         tau[i] = std::clamp(tau[i], -spec.torque_limit[i], spec.torque_limit[i]);
-      if (k == 0) record(run.log, row, t, sensors, tau, reference);
+      if (k == 0) record(run.log, row, {t, sensors, tau, reference});
       plant.advance(t, clock.at(tick + 1), tau);
       run.end = state_of(plant, spec.overspeed);
     }

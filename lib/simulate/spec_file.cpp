@@ -11,6 +11,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -196,29 +197,6 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
 SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options) {
   return simulation_from_toml(read_file(path), path, std::filesystem::path(path).parent_path().string(),
                               options);
-}
-
-std::string labels_header() {
-  return "file,fault,joint,onset_s,end_s,robot,size,size_unit,viscous,seed,sample_period_s,control_period_s,"
-         "duration_s,end_reason\n";
-}
-
-std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
-  const std::string start = spec.name + "." + file.format;
-  const std::string end = fmt::format("{},{},{},{},{}\n", spec.seed, spec.simulation.sample_period_s,
-                                      spec.simulation.control_period_s,
-                                      run.log.rows() ? run.log.time.back() : 0.0, to_string(run.end));
-  const std::string& robot = file.robot.name;
-  if (run.truth.empty()) return fmt::format("{},none,0,,,{},,,,{}", start, robot, end);
-  std::string lines;
-  for (const FaultEvent& fault : run.truth) {
-    const std::string unit = size_unit(file.robot, fault);
-    lines +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}", start, to_string(fault.kind), fault.joint, fault.onset_s,
-                    fault.end_s, robot, unit.empty() ? "" : fmt::format("{}", fault.size), unit,
-                    describe(fault.kind).size_count > 1 ? fmt::format("{}", fault.viscous) : "", end);
-  }
-  return lines;
 }
 
 }  // namespace faultline

@@ -66,15 +66,14 @@ void add(Agreement& agreement, const SampleDetector& detector, const MonitoredRu
 }
 
 void measure(double sigma) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, kController);
+  const Experiment experiment = experiment_on(bench_robot(), kController, kSeed);
   const RunPlan plan = run_plan(kController, false);
   GeneratorRecipe recipe;
   recipe.sigma = sigma;
   recipe.fit.kind = ResidualKind::physics;
-  const ResidualGenerator generator = train_generator(robot, kController, recipe, ranges, kSeed).generator;
+  const ResidualGenerator generator = train_generator(experiment, recipe).generator;
   const auto runs = [&](const RunSet& set, SeedUse use) {
-    return with_noise(monitored_runs(robot, kController, set, kSeed, use), ranges, sigma, kSeed, use);
+    return with_noise(monitored_runs(experiment, set, use), experiment, sigma, use);
   };
   const SampleDetector detector = train_best_detector(generator, runs(plan.training, SeedUse::run_training),
                                                       plan.patterns_per_class, kSeed);

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "lib/batch/index_page.hpp"
+#include "lib/batch/page/index_page.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -22,35 +22,6 @@ Observation example() {
 
 ToleranceChain none() { return {}; }
 
-TEST(GoldenTolerance, IsAbsolutePlusRelative) {
-  const Tolerance t{0.1, 0.01};
-  EXPECT_TRUE(t.agree(10.0, 10.199));
-  EXPECT_FALSE(t.agree(10.0, 10.201));
-  EXPECT_TRUE(t.agree(-10.0, -9.801));
-  EXPECT_FALSE(Tolerance{}.agree(1.0, std::nextafter(1.0, 2.0)));
-}
-
-TEST(GoldenTolerance, NanEqualsNanOnly) {
-  const Tolerance wide{1e9, 1e9};
-  EXPECT_TRUE(wide.agree(kNan, kNan));
-  EXPECT_FALSE(wide.agree(kNan, 0.0));
-  EXPECT_FALSE(wide.agree(0.0, kNan));
-  EXPECT_TRUE(wide.agree(INFINITY, INFINITY));
-  EXPECT_FALSE(wide.agree(INFINITY, -INFINITY));
-  EXPECT_FALSE(wide.agree(INFINITY, 1.0));
-}
-
-TEST(GoldenTolerance, TheNearestTableDecidesAndTheChannelGoesBeforeItsFamily) {
-  Tolerances log, all;
-  all.by_channel = {{"dq2", {0.2, 0}}, {"dq", {0.1, 0}}, {"q", {0.3, 0}}};
-  log.by_channel = {{"dq", {0.5, 0}}};
-  EXPECT_EQ(tolerance_of({&all}, "dq2", "dq").absolute, 0.2);
-  EXPECT_EQ(tolerance_of({&all}, "dq1", "dq").absolute, 0.1);
-  EXPECT_EQ(tolerance_of({&log, &all}, "dq2", "dq").absolute, 0.5);
-  EXPECT_EQ(tolerance_of({&log, &all}, "q2", "q").absolute, 0.3);
-  EXPECT_EQ(tolerance_of({}, "q2", "q").absolute, 0.0);
-}
-
 TEST(GoldenComparison, TheSameIsTheSameAlsoWhereItIsNan) {
   EXPECT_TRUE(compare(example(), example(), none()).same());
   EXPECT_EQ(first_divergence(compare(example(), example(), none())), nullptr);

@@ -8,7 +8,7 @@
 
 #include "lib/html/html_report.hpp"
 #include "lib/html/report_details.hpp"
-#include "lib/replay/envelope_builder.hpp"
+#include "lib/pipeline/diagnose.hpp"
 #include "tests/pipeline/small_robot.hpp"
 
 namespace faultline {
@@ -59,29 +59,6 @@ void no_peak_is_lost_however_few_the_bins() {
   EXPECT_EQ(*std::min_element(joint.q.values.begin(), joint.q.values.end()), -55.0f);
 }
 
-TEST(RunCurves, ExtremesStandInTheOrderInWhichTheyCame) {
-  EnvelopeBuilder builder(3);
-  for (const double v : {2.0, 5.0, 1.0, 3.0}) builder.add(0, v);
-  for (const double v : {2.0, 1.0, 5.0}) builder.add(1, v);
-  builder.add(2, std::nan(""));
-  const std::vector<float> values = builder.envelope().values;
-  EXPECT_EQ(std::vector<float>(values.begin(), values.begin() + 4), (std::vector<float>{5, 1, 1, 5}));
-  EXPECT_TRUE(std::isnan(values[4]) && std::isnan(values[5]));
-}
-
-TEST(RunCurves, AJitteringClockLeavesNoGapsButMissingValuesAndLongGapsDo) {
-  EnvelopeBuilder builder(8);
-  builder.add(0, 1.0);
-  builder.add(2, 2.0);  // nothing fell into bin 1
-  builder.add(3, std::nan(""));
-  builder.add(4, 3.0);
-  builder.add(7, 4.0);  // nor into 5 and 6
-  const std::vector<float> values = builder.envelope().values;
-  EXPECT_EQ(values[2], 1.0f);
-  EXPECT_EQ(values[3], 1.0f);
-  for (const int bin : {3, 5}) EXPECT_TRUE(std::isnan(values[2 * bin])) << bin;
-}
-
 void detail_lies_around_the_fault_and_holds_both_networks() {
   MemorySource source(free_swinging_run(), "run.csv");
   const Diagnosis d = diagnose(source, learned().model, learned().cases);
@@ -98,17 +75,17 @@ void detail_lies_around_the_fault_and_holds_both_networks() {
   EXPECT_GT(largest(detail.joints[0].residual), curves.healthy_residual.at(0));
 }
 
-void what_is_foretold_is_near_what_is_measured_when_healthy() {
+void what_is_predicted_is_near_what_is_measured_when_healthy() {
   MemorySource source(simulate(small_robot(), small_run(7.0), 33).log, "run.csv");
   const Diagnosis d = diagnose(source, learned().model, learned().cases);
   ASSERT_EQ(d.verdict, Verdict::healthy);
   const JointCurves joint = run_curves(source, learned().model, d).whole.joints.at(0);
-  ASSERT_EQ(joint.q.values.size(), joint.q_foretold.values.size());
+  ASSERT_EQ(joint.q.values.size(), joint.q_predicted.values.size());
   int compared = 0;
   for (std::size_t i = 2; i < joint.q.values.size(); ++i) {
-    if (!std::isfinite(joint.q_foretold.values[i])) continue;
+    if (!std::isfinite(joint.q_predicted.values[i])) continue;
     ++compared;
-    EXPECT_NEAR(joint.q.values[i], joint.q_foretold.values[i], 0.01) << i;
+    EXPECT_NEAR(joint.q.values[i], joint.q_predicted.values[i], 0.01) << i;
   }
   EXPECT_GT(compared, 500);
 }
@@ -139,7 +116,7 @@ void evidence_grows_from_the_onset_past_the_threshold() {
 // Learning takes seconds, so these share one model in one process.
 TEST(RunCurves, ShowTheRun) {
   no_peak_is_lost_however_few_the_bins();
-  what_is_foretold_is_near_what_is_measured_when_healthy();
+  what_is_predicted_is_near_what_is_measured_when_healthy();
   log_without_a_span_of_time_gives_none();
   detail_lies_around_the_fault_and_holds_both_networks();
   evidence_grows_from_the_onset_past_the_threshold();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/diagnosis/decision.hpp"
+#include "lib/diagnosis/merge_faults.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
@@ -24,7 +24,7 @@ inline Diagnosis healthy_diagnosis() {
     d.residuals.push_back({.joint = joint,
                            .velocity_rms = 0.97 + 0.01 * joint,
                            .velocity_peak = 3.5 + joint,
-                           .peak_s = 1.25 * joint,
+                           .velocity_peak_s = 1.25 * joint,
                            .position_rms = 1.0});
   return d;
 }
@@ -40,7 +40,8 @@ inline FaultFinding locked_joint() {
   f.rbfn = {f.label, 0.95};
   f.decided_by = DecidedBy::agreement;
   f.precedents = {{12, f.label, 0.83, "changed the brake relay"}, {31, f.label, 0.71, ""}};
-  add_alternative(f, {FaultKind::stuck_encoder, 2});
+  const FaultLabel stuck{FaultKind::stuck_encoder, 2};
+  f.could_also_be = {{stuck, why_alike(f.label, stuck)}};
   f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
                 {"residual_peak", 41.5, "healthy rms", "largest velocity residual of joint 2"}};
   f.next_check = next_check_for(f.label);
@@ -65,7 +66,8 @@ inline Diagnosis faulty_diagnosis() {
   d.residuals[1].velocity_rms = 12.5;
   d.residuals[1].velocity_peak = 41.5;
   d.cannot_see = {"the torque is the commanded one, so a fault inside the drive shows only in the motion"};
-  order_faults(d);
+  number_by_onset(d.faults);
+  d.verdict = Verdict::faulty;
   return d;
 }
 
@@ -84,7 +86,8 @@ inline Diagnosis hostile_diagnosis() {
   f.could_also_be = {{{FaultKind::collision, 1}, "the MLP says so"}};
   f.next_check = next_check_for(f.label);
   d.faults.push_back(f);
-  order_faults(d);
+  number_by_onset(d.faults);
+  d.verdict = Verdict::faulty;
   return d;
 }
 

@@ -13,7 +13,6 @@
 #include "lib/report/csv.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
-#include "lib/report/layout.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 
@@ -154,7 +153,7 @@ std::size_t largest_page(int joints) {
     std::minstd_rand random(1);
     for (JointCurves& joint : w.joints)
       for (Envelope* e :
-           {&joint.q, &joint.q_foretold, &joint.dq, &joint.dq_foretold, &joint.tau, &joint.tau_needed})
+           {&joint.q, &joint.q_predicted, &joint.dq, &joint.dq_predicted, &joint.tau, &joint.tau_required})
         for (float& value : e->values) value = static_cast<float>(random() % 10000);
     return w;
   };
@@ -166,7 +165,7 @@ std::size_t largest_page(int joints) {
     const int bins = 4 * options.all_details / (joints * options.most_details);
     details.curves.details.push_back(window(i + 1, 200.0 * i - 1.0, 200.0 * i + 3.0, bins));
   }
-  order_faults(d);
+  number_by_onset(d.faults);
   return render_html(d, details).size();
 }
 
@@ -247,22 +246,6 @@ TEST(Timeline, TimesOutsideTheLogStayInside) {
   EXPECT_FALSE(render_timeline(d).empty());
   d.log.end_s = d.log.start_s;
   EXPECT_TRUE(render_timeline(d).empty());
-}
-
-TEST(Layout, WrapsAtWordsAndCountsCharactersNotBytes) {
-  EXPECT_EQ(wrapped("one two three", "  ", 9), "  one two\n  three\n");
-  EXPECT_EQ(wrapped("\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9", "", 5), "\xc3\xa9\xc3\xa9 \xc3\xa9\xc3\xa9\n");
-  EXPECT_EQ(wrapped("", "  ", 9), "");
-}
-
-TEST(Layout, PrintableDropsEscapes) {
-  EXPECT_EQ(printable("a\x1b[2J\tb\x7f\xc2\x9b\xc3\xa9"), "a?[2J b??\xc3\xa9");
-}
-
-TEST(Layout, TimesShowSingleSamples) {
-  EXPECT_EQ(time_text(1.23456, 0.073), "1.235 s");
-  EXPECT_EQ(time_text(1.23456, 0.0001), "1.2346 s");
-  EXPECT_EQ(time_text(std::nan(""), 0.1), "unknown");
 }
 
 }  // namespace

@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
-#include "lib/core/error.hpp"
-
 namespace faultline {
 namespace {
 
@@ -28,23 +24,6 @@ void expect_same_chain(const Chain<double>& a, const Chain<double>& b) {
     EXPECT_EQ(a.friction[i].offset, b.friction[i].offset);
     EXPECT_EQ(a.friction[i].width, b.friction[i].width);
   }
-}
-
-/// The error a text gives, as "where: message".
-std::string error_of(const std::string& text) {
-  try {
-    robot_from_toml(text, "r.toml");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::usage);
-    return error.what();
-  }
-  return "no error";
-}
-
-void expect_error(const std::string& text, const std::vector<std::string>& parts) {
-  const std::string error = error_of(text);
-  for (const std::string& part : parts)
-    EXPECT_NE(error.find(part), std::string::npos) << part << " in: " << error;
 }
 
 const char* const kFull = R"(
@@ -177,52 +156,6 @@ mass = 0.7
   EXPECT_EQ(robot.chain.friction[1].viscous, 0.5);
   EXPECT_EQ(robot.chain.links[2].mass, 0.7);
   expect_same_chain(robot.chain, robot_from_toml(robot_file_text(robot), "again").chain);
-}
-
-TEST(RobotFile, MissingAxesAreNamed) {
-  expect_error("name = \"x\"", {"r.toml", "axes = \"RRP\"", "[[joint]]"});
-}
-
-TEST(RobotFile, UnknownAxesListThePresets) {
-  expect_error("\naxes = \"RXP\"", {"r.toml, line 2, key axes", "\"RXP\"", "RRPR", "[[joint]]"});
-}
-
-TEST(RobotFile, UnknownKeySuggestsTheNearest) {
-  expect_error("axes = \"RRP\"\n\ngravty = [0,0,1]",
-               {"r.toml, line 3, key gravty", "did you mean \"gravity\""});
-  expect_error("axes = \"RRP\"\n[log]\ntorqe = \"held\"",
-               {"line 3, key log.torqe", "did you mean \"torque\""});
-}
-
-TEST(RobotFile, WrongTypesSayWhatWasExpected) {
-  expect_error("axes = 3", {"line 1, key axes", "expected a text in quotes, found 3"});
-  expect_error("axes = \"RRP\"\ngravity = [0, 0]", {"key gravity", "3 numbers", "found 2"});
-  expect_error("axes = \"RRP\"\ngravity = 9.81", {"key gravity", "found 9.81"});
-  expect_error("axes = \"RRP\"\n[known]\nl1 = \"long\"", {"line 3, key known.l1", "finite number", "long"});
-  expect_error("axes = \"RRP\"\n[known]\nl1 = nan", {"known.l1", "finite number"});
-}
-
-TEST(RobotFile, WrongValuesSayWhatWasExpected) {
-  expect_error("axes = \"RRP\"\n[known]\nm9 = 1", {"known.m9", "joint from 1 to 3"});
-  expect_error("axes = \"RRP\"\n[known]\nm1 = -1", {"known.m1", "not negative"});
-  expect_error("axes = \"RRP\"\n[log]\ntorque = \"comanded\"", {"log.torque", "did you mean \"commanded\""});
-  expect_error("axes = \"RRP\"\n[log.columns]\nq4 = \"x\"", {"log.columns.q4", "q1..q3"});
-  expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {sign = 2}", {"log.columns.q1.sign", "1 or -1"});
-  expect_error("axes = \"RRP\"\n[[link]]\nmass = 1", {"key link", "each of the 3 joints", "found 1"});
-  expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
-}
-
-TEST(RobotFile, BrokenTomlNamesThePlace) {
-  expect_error("axes = \"RRP\"\n[known\n", {"r.toml, line 2", "not valid TOML"});
-}
-
-TEST(RobotFile, MissingFileIsAnInputError) {
-  try {
-    load_robot_file("/nonexistent/robot.toml");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::input);
-  }
 }
 
 }  // namespace

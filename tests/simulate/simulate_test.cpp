@@ -6,45 +6,11 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/robot/dynamics.hpp"
+#include "lib/simulate/plant.hpp"
+#include "tests/simulate/short_runs.hpp"
 
 namespace faultline {
 namespace {
-
-Robot industrial() {
-  Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
-  robot.chain.friction = {{2.0, 3.0, 0.0, 0.02}, {1.0, 2.0, 0.0, 0.02}, {20.0, 8.0, 0.0, 0.01}};
-  return robot;
-}
-
-SimulationSpec short_run(double duration_s = 3.0) {
-  SimulationSpec spec;
-  spec.duration_s = duration_s;
-  spec.motion.dwell_max_s = 0.3;
-  spec.record_reference = true;
-  return spec;
-}
-
-SimulationSpec with_fault(FaultKind kind, int joint, double onset_s, double size = 0.0,
-                          double duration_s = 3.0) {
-  SimulationSpec spec = short_run(duration_s);
-  spec.faults = {{kind, joint, onset_s, std::numeric_limits<double>::infinity(), size, 0.0}};
-  return spec;
-}
-
-JointVector<double> row_of(const JointSignals& signals, int row) {
-  JointVector<double> values(static_cast<int>(signals.size()));
-  for (int i = 0; i < values.size(); ++i) values[i] = signals[i][row];
-  return values;
-}
-
-/// Torque that the motion between two rows asks for on the healthy robot, by central differences of dq.
-JointVector<double> torque_needed(const Chain<double>& chain, const Log& log, int row) {
-  const double dt = log.time[row + 1] - log.time[row - 1];
-  const JointVector<double> ddq = (row_of(log.dq, row + 1) - row_of(log.dq, row - 1)) / dt;
-  return inverse_dynamics(chain, row_of(log.q, row), row_of(log.dq, row), ddq);
-}
 
 TEST(Simulate, HealthyRunFollowsItsReferenceAndTheDynamics) {
   const Robot robot = industrial();
@@ -104,118 +70,6 @@ TEST(Simulate, EncoderStepsAreMultiples) {
   spec.noise.q_resolution = {0.01, 0.01, 0.001};
   const SimulatedRun run = simulate(industrial(), spec);
   for (const double v : run.log.q[0]) EXPECT_NEAR(v / 0.01, std::round(v / 0.01), 1e-9);
-}
-
-TEST(Simulate, FreeSwingingJointGetsNoTorque) {
-  const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::free_swinging, 2, 1.0));
-  for (int k = 1010; k < 1500; k += 70) {
-    const auto needed = torque_needed(robot.chain, run.log, k);
-    EXPECT_NEAR(needed[1], 0.0, 0.05);
-    EXPECT_GT(std::abs(run.log.tau[1][k]), 0.2);  // commanded all the same
-  }
-  ASSERT_EQ(run.truth.size(), 1u);
-  EXPECT_EQ(run.truth[0].onset_s, 1.0);
-  EXPECT_EQ(run.truth[0].end_s, 3.0);
-}
-
-TEST(Simulate, TorqueLossTakesItsShare) {
-  const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::torque_loss, 3, 1.0, 0.4));
-  for (int k = 1050; k < 2900; k += 185) {
-    const double applied = 0.5 * (run.log.tau[2][k] + run.log.tau[2][k - 1]);
-    EXPECT_NEAR(torque_needed(robot.chain, run.log, k)[2], 0.6 * applied, 0.1);
-  }
-}
-
-TEST(Simulate, LockedJointStopsAtOnceAndMomentumPasses) {
-  const Robot robot = industrial();
-  SimulationSpec spec = short_run();
-  spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
-  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
-  spec.faults = {{FaultKind::locked, 2, 0.8004, 2.0, 0.0, 0.0}};
-  const SimulatedRun run = simulate(robot, spec);
-  const auto before = row_of(run.log.dq, 800), after = row_of(run.log.dq, 801);
-  ASSERT_GT(std::abs(before[1]), 0.5);
-  for (int k = 801; k <= 2000; ++k) ASSERT_EQ(run.log.dq[1][k], 0.0);
-  EXPECT_EQ(run.log.q[1][801], run.log.q[1][2000]);
-  const auto q = row_of(run.log.q, 801);
-  EXPECT_NEAR((inertia_matrix(robot.chain, q) * before)[0], (inertia_matrix(robot.chain, q) * after)[0],
-              0.05);
-  EXPECT_GT(std::abs(run.log.dq[1][2100]), 0.0);  // released again
-}
-
-TEST(Simulate, SensorFaultsGoThroughTheFeedback) {
-  const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::sensor_bias, 1, 1.0, 0.02);
-  spec.motion.points = {{0.0, 0.0, 0.0}};
-  const SimulatedRun run = simulate(robot, spec);
-  EXPECT_NEAR(run.log.q[0][999], 0.0, 1e-6);
-  EXPECT_NEAR(run.log.q[0][1000], 0.02, 1e-6);
-  EXPECT_LT(run.log.tau[0][1000], -1.0);       // the controller corrects what it sees
-  EXPECT_NEAR(run.log.q[0][2900], 0.0, 5e-3);  // and the true joint ends 0.02 off
-}
-
-TEST(Simulate, StuckEncoderRepeatsItsReading) {
-  SimulationSpec spec = with_fault(FaultKind::stuck_encoder, 1, 1.0);
-  spec.noise.q = {1e-4, 1e-4, 2e-5};
-  spec.noise.dq = {5e-3, 5e-3, 1e-3};
-  spec.overspeed = {8.0, 8.0, 3.0};
-  const SimulatedRun run = simulate(industrial(), spec);
-  ASSERT_GT(run.log.rows(), 1010);
-  for (int k = 1000; k < run.log.rows(); ++k) {
-    ASSERT_EQ(run.log.q[0][k], run.log.q[0][999]);
-    ASSERT_EQ(run.log.dq[0][k], run.log.dq[0][999]);
-  }
-  EXPECT_NE(run.log.q[0][999], run.log.q[0][998]);
-}
-
-TEST(Simulate, DriftGrowsWithTime) {
-  SimulationSpec spec = with_fault(FaultKind::sensor_drift, 2, 1.0, 0.05);
-  spec.motion.points = {{0.0, 0.0, 0.0}};
-  spec.controller.bandwidth_rad_s = 1e-3;  // nobody follows the drift
-  const SimulatedRun run = simulate(industrial(), spec);
-  EXPECT_NEAR(run.log.q[1][2000] - run.log.q[1][1000], 0.05, 1e-4);
-}
-
-TEST(Simulate, FrictionIncreaseAddsToTheTorque) {
-  const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::friction_increase, 1, 0.8, 4.0);
-  spec.faults[0].viscous = 1.5;
-  spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
-  const SimulatedRun run = simulate(robot, spec);
-  for (int k = 900; k < 1200; k += 50) {
-    const double dq = run.log.dq[0][k];
-    ASSERT_GT(dq, 0.1);
-    const double applied = 0.5 * (run.log.tau[0][k] + run.log.tau[0][k - 1]);
-    EXPECT_NEAR(applied - torque_needed(robot.chain, run.log, k)[0], 4.0 + 1.5 * dq, 0.2);
-  }
-}
-
-TEST(Simulate, PayloadAddsMassAtTheTip) {
-  const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::payload_change, 3, 1.0, 1.0));
-  Robot loaded = industrial();
-  set_masses_and_lengths(loaded, {8.0, 5.0, 3.5}, {0.35, 0.3, 0.0});
-  for (int k = 1100; k < 2900; k += 180) {
-    const JointVector<double> applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
-    EXPECT_LT((torque_needed(loaded.chain, run.log, k) - applied).cwiseAbs().maxCoeff(), 0.2);
-  }
-}
-
-TEST(Simulate, CollisionIsAPulseOfExternalTorque) {
-  const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::collision, 1, 1.0, 30.0);
-  spec.faults[0].end_s = 1.05;
-  const SimulatedRun run = simulate(robot, spec);
-  const auto missing = [&](int k) {
-    const double applied = 0.5 * (run.log.tau[0][k] + run.log.tau[0][k - 1]);
-    return torque_needed(robot.chain, run.log, k)[0] - applied;
-  };
-  EXPECT_NEAR(missing(1025), 30.0, 1.0);
-  EXPECT_NEAR(missing(990), 0.0, 0.2);
-  EXPECT_NEAR(missing(1060), 0.0, 0.5);
-  EXPECT_EQ(run.truth.at(0).end_s, 1.05);
 }
 
 TEST(Simulate, TorqueLimitHolds) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/core/error.hpp"
+#include "lib/simulate/run_labels.hpp"
 
 namespace faultline {
 namespace {

@@ -58,20 +58,20 @@ std::array<double, 2> errors(const SampleClassifier& classifier, const std::vect
 
 ClassifierBench::ClassifierBench(ControllerReading controller, std::uint64_t seed, int generator_iterations,
                                  int test_trajectories)
-    : controller_(controller), seed_(seed), robot_(bench_robot()), ranges_(half_ranges(robot_, controller)) {
+    : experiment_(experiment_on(bench_robot(), controller, seed)) {
   GeneratorRecipe recipe;
   recipe.fit.max_iterations = generator_iterations;
-  paper_ = train_generator(robot_, controller, recipe, ranges_, seed).generator;
+  paper_ = train_generator(experiment_, recipe).generator;
   for (int noise = 0; noise < 3; ++noise)
-    tests_[noise] = fault_patterns(robot_, controller,
+    tests_[noise] = fault_patterns(experiment_,
                                    {.count = test_trajectories,
                                     .sigma = kNoiseReadings[noise],
                                     .torque_phi = torque_phi(RecipeGenerator::physics)},
-                                   ranges_, seed, SeedUse::classifier_test);
+                                   SeedUse::classifier_test);
 }
 
 double ClassifierBench::torque_phi(RecipeGenerator kind) const {
-  const bool moves = kind == RecipeGenerator::physics && controller_ != ControllerReading::held;
+  const bool moves = kind == RecipeGenerator::physics && experiment_.controller != ControllerReading::held;
   return moves ? kLinearTorque : 0.0;
 }
 
@@ -80,24 +80,23 @@ ResidualGenerator ClassifierBench::generator(const ClassifierRecipe& recipe) con
   ResidualGenerator generator = paper_;
   if (recipe.generator != RecipeGenerator::paper) generator.kind = ResidualKind::physics;
   generator.shape.torque_phi = torque_phi(recipe.generator);
-  const auto check = healthy_trajectories(robot_, controller_, kHealthyCheck, recipe.sigma, ranges_, seed_,
-                                          SeedUse::learning_logs);
+  const auto check = healthy_trajectories(experiment_, kHealthyCheck, recipe.sigma, SeedUse::learning_logs);
   measure_healthy(generator, transitions_of(check, generator.shape.torque_phi));
   Eigen::VectorXd& scale = generator.healthy.torque_rms;
-  scale = scale.cwiseMax(kLeastTorqueScale * ranges_.tau);
+  scale = scale.cwiseMax(kLeastTorqueScale * experiment_.ranges.tau);
   return generator;
 }
 
 FaultPatterns ClassifierBench::training_patterns(const ClassifierRecipe& recipe) const {
   const FaultTrajectories trajectories{recipe.trajectories, recipe.sigma, torque_phi(recipe.generator)};
-  return fault_patterns(robot_, controller_, trajectories, ranges_, seed_, SeedUse::classifier_training);
+  return fault_patterns(experiment_, trajectories, SeedUse::classifier_training);
 }
 
 ClassifierErrors ClassifierBench::measure(const ClassifierRecipe& recipe) const {
   const ResidualGenerator generator = this->generator(recipe);
   const auto training = labelled(generator, training_patterns(recipe));
   SampleClassifierOptions options = recipe.classifier;
-  options.seed = options.rbfn.map.seed = seed_of(seed_, SeedUse::classifier_training, ~0ull);
+  options.seed = options.rbfn.map.seed = seed_of(experiment_.seed, SeedUse::classifier_training, ~0ull);
   const SampleClassifier classifier = train_sample_classifier(training, generator, options).classifier;
   ClassifierErrors result;
   const auto trained = errors(classifier, training);

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "lib/reproduce/classifier/classifier_recipe.hpp"
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/residual/residual_generator.hpp"
 
@@ -33,8 +33,7 @@ class ClassifierBench {
   Eigen::VectorXd velocity_residual(const Transitions& transitions) const;
   FaultPatterns training_patterns(const ClassifierRecipe& recipe) const;
 
-  const Robot& robot() const { return robot_; }
-  const HalfRanges& ranges() const { return ranges_; }
+  const Experiment& experiment() const { return experiment_; }
   /// Test patterns at one of kNoiseReadings, with the mean torque over each sample as for `physics`.
   const FaultPatterns& test(int noise) const { return tests_[noise]; }
 
@@ -42,10 +41,7 @@ class ClassifierBench {
   double torque_phi(RecipeGenerator kind) const;
   ResidualGenerator generator(const ClassifierRecipe& recipe) const;
 
-  ControllerReading controller_;
-  std::uint64_t seed_;
-  Robot robot_;
-  HalfRanges ranges_;
+  Experiment experiment_;
   ResidualGenerator paper_;
   std::array<FaultPatterns, 3> tests_;
 };

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 
 namespace faultline {
 
-/// What foretells the fault-free sample.
+/// What predicts the fault-free sample.
 enum class RecipeGenerator {
   paper,         ///< the MLP 9-49-6 on 2500 clean patterns
   physics_held,  ///< the robot with its parameters known, the torque constant over the sample

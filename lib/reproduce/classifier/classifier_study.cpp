@@ -29,19 +29,17 @@ Effort effort_of(const ReproduceOptions& options) {
           .posterior_test = 45};
 }
 
-std::array<double, 3> posterior_errors(const ClassifierBench& bench, ControllerReading controller,
-                                       TorqueBetween between, const Effort& effort, std::uint64_t seed) {
+std::array<double, 3> posterior_errors(const Experiment& experiment, TorqueBetween between,
+                                       const Effort& effort) {
   FaultTrajectories set{.count = effort.posterior_learning, .torque_phi = 0.5};
-  const auto draw = [&](SeedUse use) {
-    return fault_patterns(bench.robot(), controller, set, bench.ranges(), seed, use);
-  };
-  const TransitionModel model = learn_transition_model(SampleModel(bench.robot(), controller, between),
-                                                       draw(SeedUse::classifier_training));
+  const auto draw = [&](SeedUse use) { return fault_patterns(experiment, set, use); };
+  const TransitionModel model = learn_transition_model(
+      SampleModel(experiment.robot, experiment.controller, between), draw(SeedUse::classifier_training));
   set.count = effort.posterior_test;
   std::array<double, 3> errors{};
   for (int noise = 0; noise < 3; ++noise) {
     set.sigma = kNoiseReadings[noise];
-    errors[noise] = posterior_error(model, draw(SeedUse::classifier_test), bench.ranges(), set.sigma);
+    errors[noise] = posterior_error(model, draw(SeedUse::classifier_test), experiment.ranges, set.sigma);
   }
   return errors;
 }
@@ -56,10 +54,10 @@ ClassifierFindings find(ControllerReading controller, const std::vector<Classifi
     found.velocity_residual[output] = bench.velocity_residual(training.of_class[output]);
   }
   for (const ClassifierRecipe& recipe : recipes) found.by_recipe.push_back(bench.measure(recipe));
-  found.posterior = posterior_errors(bench, controller, TorqueBetween::controlled, effort, seed);
+  found.posterior = posterior_errors(bench.experiment(), TorqueBetween::controlled, effort);
   found.posterior_next.fill(std::numeric_limits<double>::quiet_NaN());
   if (controller != ControllerReading::held)
-    found.posterior_next = posterior_errors(bench, controller, TorqueBetween::linear, effort, seed);
+    found.posterior_next = posterior_errors(bench.experiment(), TorqueBetween::linear, effort);
   return found;
 }
 

@@ -61,7 +61,7 @@ VectorXd regressors(const SampleModel& model, const Sample& s, const VectorXd& s
   return all;
 }
 
-VectorXd foretold(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
+VectorXd predicted(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
   const auto n = state.size() / 2;
   const JointState end = model.next({state.head(n), state.tail(n)}, s.tau, s.next_tau, output);
   VectorXd later(2 * n);
@@ -69,8 +69,8 @@ VectorXd foretold(const SampleModel& model, const Sample& s, const VectorXd& sta
   return later;
 }
 
-VectorXd foretold(const TransitionModel& model, const Sample& s, const VectorXd& state, int output) {
-  return foretold(model.sample, s, state, output) +
+VectorXd predicted(const TransitionModel& model, const Sample& s, const VectorXd& state, int output) {
+  return predicted(model.sample, s, state, output) +
          state_per_torque(model.sample, state) *
              mean_at(model.between[output], regressors(model.sample, s, state, output));
 }
@@ -82,7 +82,7 @@ MatrixXd jacobian(const TransitionModel& model, const Sample& s, const VectorXd&
     up[k] += kStep * half[k];
     down[k] -= kStep * half[k];
     slope.col(k) =
-        (foretold(model, s, up, output) - foretold(model, s, down, output)) / (2.0 * kStep * half[k]);
+        (predicted(model, s, up, output) - predicted(model, s, down, output)) / (2.0 * kStep * half[k]);
   }
   return slope;
 }
@@ -95,7 +95,7 @@ double log_likelihood(const TransitionModel& model, const Sample& s, const Vecto
   const MatrixXd between = covariance_at(model.between[output], regressors(model.sample, s, s.state, output));
   MatrixXd covariance = slope * noise * slope.transpose() + noise + effect * between * effect.transpose();
   covariance.diagonal() += (kRounding * half).cwiseAbs2();
-  const VectorXd off = s.later - foretold(model, s, s.state, output);
+  const VectorXd off = s.later - predicted(model, s, s.state, output);
   // In half ranges, so that the factor is well conditioned.
   const MatrixXd scaled = half.cwiseInverse().asDiagonal() * covariance * half.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> factor(scaled);
@@ -112,7 +112,7 @@ TransitionModel learn_transition_model(SampleModel sample_model, const FaultPatt
     MatrixXd left(2 * known.q.rows(), known.count()), causes(1 + 3 * known.q.rows(), known.count());
     for (int i = 0; i < known.count(); ++i) {
       const Sample s = sample(known, i);
-      const VectorXd error = s.later - foretold(model.sample, s, s.state, output);
+      const VectorXd error = s.later - predicted(model.sample, s, s.state, output);
       left.col(i) = state_per_torque(model.sample, s.state).inverse() * error;
       causes.col(i) = regressors(model.sample, s, s.state, output);
     }

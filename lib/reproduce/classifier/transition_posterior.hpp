@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/reproduce/classifier/local_gaussian.hpp"
-#include "lib/reproduce/protocol/fault_trajectories.hpp"
+#include "lib/reproduce/classifier/sample_model.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
-#include "lib/reproduce/protocol/sample_model.hpp"
 
 namespace faultline {
 
@@ -15,8 +15,8 @@ namespace faultline {
 struct TransitionModel {
   SampleModel sample;
   /// What the torque does between the samples that the model does not know, of each class: M(q) e / dt^2
-  /// (upper half) and M(q) de / dt (lower half), with e and de the errors of the foretold q and dq, N m or N;
-  /// given (1, dq, tau, ddq), the last by the model at the sample's start.
+  /// (upper half) and M(q) de / dt (lower half), with e and de the errors of the predicted q and dq, N m or
+  /// N; given (1, dq, tau, ddq), the last by the model at the sample's start.
   std::array<LocalGaussian, kFaultClasses> between;
 };
 

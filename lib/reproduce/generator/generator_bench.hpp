@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
@@ -20,21 +19,17 @@ enum class GeneratorTest {
 inline constexpr int kGeneratorTests = 4;
 
 struct GeneratorBench {
-  Robot robot;  ///< the true one
-  ControllerReading controller = ControllerReading::held;
-  std::uint64_t seed = 1;
-  HalfRanges ranges;
+  Experiment experiment;
   std::array<std::vector<Log>, kGeneratorTests> tests;
 };
-GeneratorBench generator_bench(const Robot& robot, ControllerReading controller, const HalfRanges& ranges,
-                               int trajectories, std::uint64_t seed);
+GeneratorBench generator_bench(const Experiment& experiment, int trajectories);
 
 /// Normalised MSE, an output a row (q1..qn, dq1..dqn), a GeneratorTest a column.
 using GeneratorErrors = Eigen::MatrixXd;
 GeneratorErrors errors_of(const ResidualGenerator& generator, const GeneratorBench& bench);
-/// Of foretelling that nothing changes.
+/// Of predicting that nothing changes.
 GeneratorErrors persistence_errors(const GeneratorBench& bench);
-/// Of the generator trained as the recipe says on this bench's robot, controller and seed.
+/// Of the generator trained as the recipe says in this bench's experiment.
 GeneratorErrors errors_of(const GeneratorRecipe& recipe, const GeneratorBench& bench);
 
 }  // namespace faultline

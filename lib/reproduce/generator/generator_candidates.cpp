@@ -12,7 +12,7 @@ constexpr int kPatternsInATrajectory = 25;
 
 std::string patterns_of(int trajectories) { return fmt::format("{}", trajectories * kPatternsInATrajectory); }
 
-bool is_held(const IdentifiedBench& on) { return on.bench.controller == ControllerReading::held; }
+bool is_held(const IdentifiedBench& on) { return on.bench.experiment.controller == ControllerReading::held; }
 
 /// The least that is known of the torque between samples: half way, unless it is held.
 double middle(const IdentifiedBench& on) { return is_held(on) ? 0.0 : 0.5; }
@@ -34,7 +34,7 @@ GeneratorCandidate mlp(std::string name, const GeneratorRecipe& recipe, const St
 Errors physics_errors(const Chain<double>& chain, double torque_phi, const IdentifiedBench& on) {
   GeneratorRecipe recipe{.torque_phi = torque_phi, .assumed = chain};
   recipe.fit.kind = ResidualKind::physics;
-  return errors_of(untrained_generator(on.bench.robot, recipe), on.bench);
+  return errors_of(untrained_generator(on.bench.experiment.robot, recipe), on.bench);
 }
 
 Errors hybrid_errors(const Chain<double>& chain, double torque_phi, const GeneratorScale& scale,
@@ -63,8 +63,9 @@ GeneratorCandidate persistence(const StudyFigures& study) {
 }
 
 GeneratorCandidate true_physics(const StudyFigures& study) {
-  return {kPhysicsTrue, "-", study,
-          [](const IdentifiedBench& on) { return physics_errors(on.bench.robot.chain, middle(on), on); }};
+  return {kPhysicsTrue, "-", study, [](const IdentifiedBench& on) {
+            return physics_errors(on.bench.experiment.robot.chain, middle(on), on);
+          }};
 }
 
 GeneratorCandidate identified_physics() {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/reproduce/generator/generator_bench.hpp"
-#include "lib/reproduce/protocol/identified_robot.hpp"
+#include "lib/reproduce/generator/identified_robot.hpp"
 
 namespace faultline {
 

@@ -26,13 +26,13 @@ std::optional<Measured> by_seed(const GeneratorMeasurements& all, int candidate,
   return measured;
 }
 
-IdentifiedBench identified_bench(const Robot& robot, ControllerReading controller, const HalfRanges& ranges,
-                                 const GeneratorScale& scale, bool with_fast_logs, std::uint64_t seed) {
-  IdentifiedBench out{generator_bench(robot, controller, ranges, scale.test_trajectories, seed),
-                      identified_robot(robot, controller, scale.slow_logs, ranges, seed),
+IdentifiedBench identified_bench(const Experiment& experiment, const GeneratorComparison& comparison) {
+  const GeneratorScale& scale = comparison.scale;
+  IdentifiedBench out{generator_bench(experiment, scale.test_trajectories),
+                      identified_robot(experiment, scale.slow_logs),
                       {}};
-  if (with_fast_logs && controller != ControllerReading::held)
-    out.identified_at_1khz = identified_robot(robot, controller, scale.fast_logs, ranges, seed);
+  if (comparison.with_fast_logs && experiment.controller != ControllerReading::held)
+    out.identified_at_1khz = identified_robot(experiment, scale.fast_logs);
   return out;
 }
 
@@ -59,15 +59,14 @@ int GeneratorMeasurements::find(const std::string& name) const {
   throw Error(ErrorCode::internal, "GeneratorMeasurements", "no candidate is called " + name);
 }
 
-GeneratorMeasurements measure_generators(const Robot& robot, std::vector<GeneratorCandidate> candidates,
-                                         const GeneratorScale& scale, bool with_fast_logs,
+GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
                                          const ReproduceOptions& options, const Progress& progress) {
-  GeneratorMeasurements out{std::move(candidates), options.seeds, {}};
+  GeneratorMeasurements out{comparison.candidates, options.seeds, {}};
   const int benches = kControllers * options.seeds, count = static_cast<int>(out.candidates.size());
   out.errors.resize(static_cast<std::size_t>(benches) * out.candidates.size());
   std::vector<HalfRanges> ranges;
   for (const ControllerReading controller : kControllerReadings)
-    ranges.push_back(half_ranges(robot, controller));
+    ranges.push_back(half_ranges(comparison.robot, controller));
 
   std::mutex reporting;
   int done = 0;
@@ -78,8 +77,9 @@ GeneratorMeasurements measure_generators(const Robot& robot, std::vector<Generat
   std::vector<IdentifiedBench> identified(benches);
   parallel_for(benches, options.threads, [&](int i) {
     const int controller = i / options.seeds;
-    identified[i] = identified_bench(robot, kControllerReadings[controller], ranges[controller], scale,
-                                     with_fast_logs, options.seed + i % options.seeds);
+    identified[i] = identified_bench({comparison.robot, kControllerReadings[controller], ranges[controller],
+                                      options.seed + i % options.seeds},
+                                     comparison);
     report();
   });
   parallel_for(benches * count, options.threads, [&](int i) {

@@ -27,9 +27,16 @@ struct GeneratorMeasurements {
   int find(const std::string& name) const;
 };
 
-/// Identifies `robot` under each controller and seed and measures all candidates on it.
-GeneratorMeasurements measure_generators(const Robot& robot, std::vector<GeneratorCandidate> candidates,
-                                         const GeneratorScale& scale, bool with_fast_logs,
+/// What is compared, and on which robot.
+struct GeneratorComparison {
+  Robot robot;
+  std::vector<GeneratorCandidate> candidates;
+  GeneratorScale scale;
+  bool with_fast_logs = false;  ///< also identified from a log at 1 kHz
+};
+
+/// Identifies the robot under each controller and seed and measures all candidates on it.
+GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
                                          const ReproduceOptions& options, const Progress& progress);
 
 }  // namespace faultline

@@ -38,10 +38,10 @@ std::vector<Goal> goals_of(const GeneratorMeasurements& smooth, const GeneratorM
 StudyResult generator_study(const ReproduceOptions& options, const Progress& progress) {
   options.check();
   const GeneratorScale scale = options.quick ? quick_scale() : full_scale();
-  const GeneratorMeasurements smooth = measure_generators(bench_robot(), paper_candidates(scale), scale,
-                                                          false, options, part_of(progress, 0.0, 0.7));
+  const GeneratorMeasurements smooth = measure_generators({bench_robot(), paper_candidates(scale), scale},
+                                                          options, part_of(progress, 0.0, 0.7));
   const GeneratorMeasurements friction =
-      measure_generators(bench_robot_with_friction(), friction_candidates(scale), scale, true, options,
+      measure_generators({bench_robot_with_friction(), friction_candidates(scale), scale, true}, options,
                          part_of(progress, 0.7, 1.0));
   return {{generator_mse_table(smooth, scale), generator_by_output_table(smooth),
            generator_friction_table(friction, scale)},

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/progress.hpp"
 #include "lib/plot/line_plot.hpp"
 #include "lib/reproduce/page/result_table.hpp"
 #include "lib/reproduce/protocol/reproduce_options.hpp"
@@ -25,9 +24,6 @@ struct Reproduction {
   std::vector<Figure> figures;
   std::vector<Goal> goals;
 };
-
-/// Runs the whole reproduction; the same options but `threads` give the same numbers.
-Reproduction reproduce(const ReproduceOptions& options = {}, const Progress& progress = {});
 
 /// A page with all of it; pictures are taken from `<id>.svg` beside it.
 std::string reproduction_markdown(const Reproduction& reproduction);

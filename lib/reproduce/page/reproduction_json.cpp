@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/json_values.hpp"
 #include "lib/core/version.hpp"
 #include "lib/reproduce/page/reproduction.hpp"
 
@@ -10,41 +10,48 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json measured_json(const Measured& measured) {
-  Json by_seed = Json::array();
-  for (const double value : measured.by_seed) by_seed.push_back(number(value));
-  return {{"mean", number(measured.mean())}, {"spread", number(measured.spread())}, {"by_seed", by_seed}};
+  return {{"mean", number_or_null(measured.mean())},
+          {"spread", number_or_null(measured.spread())},
+          {"by_seed", numbers_or_null(measured.by_seed)}};
 }
 
 /// Labels and figures in the order of the table's columns.
 Json row_json(const ResultRow& row) {
-  Json figures = Json::array();
-  for (const std::optional<Measured>& figure : row.figures)
-    figures.push_back(figure ? measured_json(*figure) : Json(nullptr));
-  return {{"labels", row.labels}, {"figures", figures}};
+  const auto figure_json = [](const std::optional<Measured>& figure) {
+    return figure ? measured_json(*figure) : Json(nullptr);
+  };
+  return {{"labels", row.labels}, {"figures", list_of<Json>(row.figures, figure_json)}};
 }
 
+Json column_json(const FigureColumn& column) { return {{"name", column.name}, {"unit", column.unit}}; }
+
 Json table_json(const ResultTable& table) {
-  Json columns = Json::array(), rows = Json::array();
-  for (const FigureColumn& column : table.figure_columns)
-    columns.push_back({{"name", column.name}, {"unit", column.unit}});
-  for (const ResultRow& row : table.rows) rows.push_back(row_json(row));
-  return {{"id", table.id},     {"title", table.title}, {"text", table.text}, {"labels", table.label_columns},
-          {"figures", columns}, {"rows", rows}};
+  return {{"id", table.id},
+          {"title", table.title},
+          {"text", table.text},
+          {"labels", table.label_columns},
+          {"figures", list_of<Json>(table.figure_columns, column_json)},
+          {"rows", list_of<Json>(table.rows, row_json)}};
 }
 
 Json goal_json(const Goal& goal) {
   return {{"what", goal.what},
           {"paper", goal.paper},
           {"study", goal.study},
-          {"bound", number(goal.bound)},
+          {"bound", number_or_null(goal.bound)},
           {"at_most", goal.at_most},
           {"unit", goal.unit},
           {"measured", measured_json(goal.measured)},
           {"reached", goal.reached()},
           {"note", goal.note}};
+}
+
+Json figure_json(const Figure& figure) {
+  return {{"id", figure.id},
+          {"title", figure.plot.title},
+          {"file", figure.id + ".svg"},
+          {"caption", figure.caption}};
 }
 
 }  // namespace
@@ -54,14 +61,9 @@ std::string reproduction_json(const Reproduction& reproduction) {
   json["options"] = {{"seeds", reproduction.options.seeds},
                      {"seed", reproduction.options.seed},
                      {"quick", reproduction.options.quick}};
-  json["goals"] = json["tables"] = json["figures"] = Json::array();
-  for (const Goal& goal : reproduction.goals) json["goals"].push_back(goal_json(goal));
-  for (const ResultTable& table : reproduction.tables) json["tables"].push_back(table_json(table));
-  for (const Figure& figure : reproduction.figures)
-    json["figures"].push_back({{"id", figure.id},
-                               {"title", figure.plot.title},
-                               {"file", figure.id + ".svg"},
-                               {"caption", figure.caption}});
+  json["goals"] = list_of<Json>(reproduction.goals, goal_json);
+  json["tables"] = list_of<Json>(reproduction.tables, table_json);
+  json["figures"] = list_of<Json>(reproduction.figures, figure_json);
   return json.dump(1) + "\n";
 }
 

@@ -27,44 +27,39 @@ ResidualGenerator untrained_generator(const Robot& robot, const GeneratorRecipe&
   return generator;
 }
 
-std::vector<Log> healthy_trajectories(const Robot& robot, ControllerReading controller, int count,
-                                      double sigma, const HalfRanges& ranges, std::uint64_t seed,
-                                      SeedUse use) {
+std::vector<Log> healthy_trajectories(const Experiment& experiment, int count, double sigma, SeedUse use) {
   std::vector<Log> logs;
   for (int i = 0; i < count; ++i) {
-    const std::uint64_t own = seed_of(seed, use, i);
-    logs.push_back(trajectory(robot, controller, kSamples, {}, own));
-    add_noise(logs.back(), ranges, sigma, own);
+    const std::uint64_t own = seed_of(experiment.seed, use, i);
+    logs.push_back(trajectory(experiment.robot, experiment.controller, kSamples, own));
+    add_noise(logs.back(), experiment.ranges, sigma, own);
   }
   return logs;
 }
 
-std::vector<Log> healthy_runs(const Robot& robot, ControllerReading controller, int trajectories,
-                              double sigma, const HalfRanges& ranges, std::uint64_t seed, SeedUse use) {
-  constexpr double kRun_s = kTrajectoriesInARun * kSamples * kSamplePeriod;
+std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, double sigma, SeedUse use) {
+  const RunOfMoves run{.duration_s = kTrajectoriesInARun * kSamples * kSamplePeriod};
   std::vector<Log> logs;
   for (int i = 0; i * kTrajectoriesInARun < trajectories; ++i) {
-    const std::uint64_t own = seed_of(seed, use, i);
-    logs.push_back(run_of_moves(robot, controller, kRun_s, {}, 0.0, own));
-    add_noise(logs.back(), ranges, sigma, own);
+    const std::uint64_t own = seed_of(experiment.seed, use, i);
+    logs.push_back(run_of_moves(experiment.robot, experiment.controller, run, own));
+    add_noise(logs.back(), experiment.ranges, sigma, own);
   }
   return logs;
 }
 
-TrainedGenerator train_generator(const Robot& robot, ControllerReading controller,
-                                 const GeneratorRecipe& recipe, const HalfRanges& ranges,
-                                 std::uint64_t seed) {
-  TrainedGenerator trained{untrained_generator(robot, recipe), {}};
+TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe) {
+  TrainedGenerator trained{untrained_generator(experiment.robot, recipe), {}};
   const double phi = trained.generator.shape.torque_phi;
   const auto draw = recipe.runs_of_moves ? healthy_runs : healthy_trajectories;
-  std::vector<Log> logs = draw(robot, controller, recipe.trajectories + recipe.trajectories / 5, recipe.sigma,
-                               ranges, seed, SeedUse::generator_training);
+  std::vector<Log> logs = draw(experiment, recipe.trajectories + recipe.trajectories / 5, recipe.sigma,
+                               SeedUse::generator_training);
   const int training_count =
       recipe.runs_of_moves ? recipe.trajectories / kTrajectoriesInARun : recipe.trajectories;
   const Transitions check = transitions_of({logs.begin() + training_count, logs.end()}, phi);
   logs.resize(training_count);
   ResidualOptions fit = recipe.fit;
-  fit.seed = seed_of(seed, SeedUse::generator_training, ~0ull);
+  fit.seed = seed_of(experiment.seed, SeedUse::generator_training, ~0ull);
   trained.training = fit_residual_generator(trained.generator, transitions_of(logs, phi), {}, fit);
   measure_healthy(trained.generator, check);
   return trained;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,13 +26,10 @@ struct GeneratorRecipe {
 
 /// Healthy trajectories of 25 samples, with noise if `sigma` is not 0; use generator_training or
 /// generator_test.
-std::vector<Log> healthy_trajectories(const Robot& robot, ControllerReading controller, int count,
-                                      double sigma, const HalfRanges& ranges, std::uint64_t seed,
-                                      SeedUse use);
+std::vector<Log> healthy_trajectories(const Experiment& experiment, int count, double sigma, SeedUse use);
 
 /// Healthy runs of moves that hold as many patterns as `trajectories` trajectories do, a run for ten of them.
-std::vector<Log> healthy_runs(const Robot& robot, ControllerReading controller, int trajectories,
-                              double sigma, const HalfRanges& ranges, std::uint64_t seed, SeedUse use);
+std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, double sigma, SeedUse use);
 
 /// The generator of a recipe before its network is trained; that of kind physics is complete.
 ResidualGenerator untrained_generator(const Robot& robot, const GeneratorRecipe& recipe);
@@ -42,8 +38,7 @@ struct TrainedGenerator {
   ResidualGenerator generator;  ///< healthy residuals measured on a fifth as many trajectories again
   TrainingSummary training;
 };
-TrainedGenerator train_generator(const Robot& robot, ControllerReading controller,
-                                 const GeneratorRecipe& recipe, const HalfRanges& ranges, std::uint64_t seed);
+TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe);
 
 /// Mean squared error over all six outputs, in squares of half ranges (the paper's measure).
 double normalised_mse(const ResidualGenerator& generator, const Transitions& test, const HalfRanges& ranges);

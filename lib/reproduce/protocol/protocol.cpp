@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lib/core/random.hpp"
-#include "lib/residual/twin_patterns.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {
@@ -27,9 +26,9 @@ SimulationSpec spec_of(ControllerReading controller, double duration_s) {
   return spec;
 }
 
-void set_fault(SimulationSpec& spec, const FaultLabel& fault, double onset_s) {
-  if (fault.kind != FaultKind::none)
-    spec.faults = {{.kind = fault.kind, .joint = fault.joint, .onset_s = onset_s}};
+void set_fault(SimulationSpec& spec, const ActingFault& fault, double lead_s) {
+  if (fault.label.kind != FaultKind::none)
+    spec.faults = {{.kind = fault.label.kind, .joint = fault.label.joint, .onset_s = lead_s + fault.onset_s}};
 }
 
 std::vector<double> random_point(Random& random) {
@@ -87,7 +86,7 @@ Robot bench_robot_with_friction() {
 HalfRanges half_ranges(const Robot& robot, ControllerReading controller) {
   Log log;
   for (int i = 0; i < 100; ++i)
-    append(log, trajectory(robot, controller, 25, {}, seed_of(1, SeedUse::ranges, i)));
+    append(log, trajectory(robot, controller, 25, seed_of(1, SeedUse::ranges, i)));
   HalfRanges ranges{Eigen::Vector3d(2.0, 2.0, 0.2), Eigen::VectorXd(3), Eigen::VectorXd(3)};
   for (int j = 0; j < 3; ++j) {
     ranges.dq[j] = half_range(log.dq[j]);
@@ -96,8 +95,12 @@ HalfRanges half_ranges(const Robot& robot, ControllerReading controller) {
   return ranges;
 }
 
-Log trajectory(const Robot& robot, ControllerReading controller, int samples, const FaultLabel& fault,
-               std::uint64_t seed, double onset_s) {
+Experiment experiment_on(const Robot& robot, ControllerReading controller, std::uint64_t seed) {
+  return {robot, controller, half_ranges(robot, controller), seed};
+}
+
+Log trajectory(const Robot& robot, ControllerReading controller, int samples, std::uint64_t seed,
+               const ActingFault& fault) {
   // A step is a step only from somewhere: one sample of rest before it, which is cut off again.
   const int lead = controller == ControllerReading::pd ? 1 : 0;
   const double lead_s = lead * kSamplePeriod;
@@ -106,7 +109,7 @@ Log trajectory(const Robot& robot, ControllerReading controller, int samples, co
   const std::vector<double> from = random_point(random), to = random_point(random);
   spec.motion.points = {from, to, to};  // one move, then rest
   spec.motion.dwell_min_s = spec.motion.dwell_max_s = lead_s;
-  set_fault(spec, fault, lead_s + onset_s);
+  set_fault(spec, fault, lead_s);
   const Log log = simulate(robot, spec, seed).log;
   Log kept = slice(log, lead, log.rows());
   kept.first_row = 0;
@@ -114,11 +117,11 @@ Log trajectory(const Robot& robot, ControllerReading controller, int samples, co
   return kept;
 }
 
-Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
-                 double onset_s, std::uint64_t seed, double sample_period_s) {
-  SimulationSpec spec = spec_of(controller, duration_s);
-  spec.sample_period_s = sample_period_s;
-  set_fault(spec, fault, onset_s);
+Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMoves& run,
+                 std::uint64_t seed) {
+  SimulationSpec spec = spec_of(controller, run.duration_s);
+  spec.sample_period_s = run.sample_period_s;
+  set_fault(spec, run.fault, 0.0);
   return simulate(robot, spec, seed).log;
 }
 

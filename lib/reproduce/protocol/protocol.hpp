@@ -46,15 +46,36 @@ struct HalfRanges {
 /// 25 samples, the size of the paper's training set.
 HalfRanges half_ranges(const Robot& robot, ControllerReading controller);
 
+/// What all draws of one experiment share.
+struct Experiment {
+  Robot robot;  ///< the true one
+  ControllerReading controller = ControllerReading::held;
+  HalfRanges ranges;  ///< of that robot under that controller
+  std::uint64_t seed = 1;
+};
+Experiment experiment_on(const Robot& robot, ControllerReading controller, std::uint64_t seed);
+
+/// A fault that acts from `onset_s` on; none by default.
+struct ActingFault {
+  FaultLabel label{};
+  double onset_s = 0.0;
+};
+
 /// A random move of 1.2 to 1.8 s between two points of the ranges (q1, q2 within 2 rad, q3 -0.35 to 0.05 m),
-/// then rest: `samples` + 1 rows from its start, without noise. A fault acts from `onset_s` on.
-Log trajectory(const Robot& robot, ControllerReading controller, int samples, const FaultLabel& fault,
-               std::uint64_t seed, double onset_s = 0.0);
+/// then rest: `samples` + 1 rows from its start, without noise.
+Log trajectory(const Robot& robot, ControllerReading controller, int samples, std::uint64_t seed,
+               const ActingFault& fault = {});
+
+/// How long a run is, and how it is logged.
+struct RunOfMoves {
+  double duration_s = 0.0;
+  double sample_period_s = kSamplePeriod;
+  ActingFault fault{};
+};
 
 /// A run of such moves, each followed by a rest of up to 0.4 s, without noise. Ends early when a freed robot
 /// runs away. Readings whose torque changes every millisecond may be logged faster than the paper does.
-Log run_of_moves(const Robot& robot, ControllerReading controller, double duration_s, const FaultLabel& fault,
-                 double onset_s, std::uint64_t seed, double sample_period_s = kSamplePeriod);
+Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMoves& run, std::uint64_t seed);
 
 /// Adds white noise of `sigma` half ranges to q and dq: measurement noise as in the paper's second test sets.
 /// The controller does not see it.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/statistics.hpp"
+
 namespace faultline {
 namespace {
 
@@ -14,13 +16,6 @@ double share_of(const std::vector<RunOutcome>& outcomes, bool RunOutcome::*what,
 }
 
 }  // namespace
-
-double quantile_of(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
 
 void AlarmScore::add(const MonitoredRun& run, const Alarms& alarms) {
   if (run.log.rows() == 0) return;
@@ -61,7 +56,7 @@ double AlarmScore::delay_quantile(double share) const {
   std::vector<double> delays;
   for (const RunOutcome& outcome : outcomes)
     if (outcome.detected) delays.push_back(outcome.delay_s);
-  return quantile_of(std::move(delays), share);
+  return nearest_rank_quantile(std::move(delays), share);
 }
 
 }  // namespace faultline

@@ -41,7 +41,4 @@ struct AlarmScore {
   double delay_quantile(double share) const;  ///< s, of the detected runs; NaN for none
 };
 
-/// The smallest value that at least `share` of the values do not exceed; NaN for none.
-double quantile_of(std::vector<double> values, double share);
-
 }  // namespace faultline

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "lib/cases/decide.hpp"
+#include "lib/diagnosis/decision.hpp"
 
 namespace faultline {
 namespace {
@@ -45,13 +45,18 @@ std::vector<Value> thinned(const std::vector<Value>& values, int most) {
   return out;
 }
 
-DecideOptions decide_options() {
-  DecideOptions options;
+DecisionOptions decision_options() {
+  DecisionOptions options;
   options.thin_evidence = 0.0;  // the thresholds decide what is thin
   return options;
 }
 
-CaseOpinion opinion_of(const Eigen::VectorXd& outputs, const std::vector<FaultLabel>& classes) {
+/// By networks and cases alone.
+Decision decision_of(const Episode& episode, const CaseBase& cases, const DecisionOptions& options) {
+  return decide({{}, episode, votes_on(episode, cases, options.votes)}, options);
+}
+
+Opinion opinion_of(const Eigen::VectorXd& outputs, const std::vector<FaultLabel>& classes) {
   Index best = 0;
   const double largest = outputs.maxCoeff(&best);
   return {classes[best], std::clamp(largest, 0.0, 1.0)};
@@ -103,7 +108,7 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
                                       const std::vector<FaultLabel>& classes, const CaseBase& cases,
                                       std::span<const double> thresholds) {
   std::vector<Alarms> alarms(thresholds.size());
-  const DecideOptions options = decide_options();
+  const DecisionOptions options = decision_options();
   for (std::size_t t = 0; t < thresholds.size(); ++t) {
     const Suspicion* open = nullptr;  // the last one of the alarm that still stands
     for (const Suspicion& s : suspicions) {
@@ -113,7 +118,7 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
       }
       open = nullptr;
       if (s.largest() < thresholds[t]) continue;
-      const CaseDecision decision = decide(episode_of(s, classes, thresholds[t]), cases, options);
+      const Decision decision = decision_of(episode_of(s, classes, thresholds[t]), cases, options);
       if (decision.label.joint == 0) continue;
       alarms[t].push_back({s.time_s, decision.label});
       open = &s;
@@ -147,7 +152,7 @@ CaseBase cases_of_samples(const SampleDetector& detector, std::span<const Monito
 Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<FaultLabel>& classes,
                                const CaseBase& cases) {
   Eigen::MatrixXd decided = Eigen::MatrixXd::Zero(outputs.mlp.rows(), outputs.mlp.cols());
-  const DecideOptions options = decide_options();
+  const DecisionOptions options = decision_options();
   for (Index i = 0; i < decided.cols(); ++i) {
     if (!says_something(outputs, i)) {
       decided.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -155,7 +160,7 @@ Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<F
     }
     const Episode episode = sample_episode(outputs, i, classes);
     const bool agree = episode.mlp.label == episode.rbfn.label;
-    const FaultLabel label = agree ? episode.mlp.label : decide(episode, cases, options).label;
+    const FaultLabel label = agree ? episode.mlp.label : decision_of(episode, cases, options).label;
     decided(class_of(classes, label), i) = 1.0;
   }
   return decided;

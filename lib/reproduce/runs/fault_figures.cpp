@@ -15,34 +15,30 @@ constexpr ControllerReading kController = ControllerReading::held;
 constexpr double kShownAfter = 2.0;  // s of the fault: then the freed robot leaves all ranges
 constexpr int kJoint = 1;            // from 0: joint 2, as in the paper
 
-/// The networks of the paper, trained as it says.
-struct PaperNetworks {
-  HalfRanges ranges;
-  SampleDetector detector;
-};
-
 /// One run with all that the figures show of it, in half ranges; a column a transition.
 struct ShownRun {
   std::vector<double> time;
-  Eigen::MatrixXd position, velocity, foretold_position, foretold_velocity, residual;
+  Eigen::MatrixXd position, velocity, predicted_position, predicted_velocity, residual;
   SampleOutputs outputs;
 };
 
-ShownRun shown_run(const PaperNetworks& networks, const Robot& robot, double onset_s, std::uint64_t seed) {
-  const Log log = run_of_moves(robot, kController, onset_s + kShownAfter,
-                               {FaultKind::free_swinging, kJoint + 1}, onset_s, seed);
+ShownRun shown_run(const SampleDetector& detector, const Experiment& experiment, double onset_s,
+                   std::uint64_t seed) {
+  const ActingFault fault{{FaultKind::free_swinging, kJoint + 1}, onset_s};
+  const Log log = run_of_moves(experiment.robot, experiment.controller,
+                               {.duration_s = onset_s + kShownAfter, .fault = fault}, seed);
   const Transitions moves = transitions_of({log});
-  const Eigen::MatrixXd change = predicted_change(networks.detector.generator, moves);
-  const auto per_q = networks.ranges.q.cwiseInverse().asDiagonal();
-  const auto per_dq = networks.ranges.dq.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd change = predicted_change(detector.generator, moves);
+  const auto per_q = experiment.ranges.q.cwiseInverse().asDiagonal();
+  const auto per_dq = experiment.ranges.dq.cwiseInverse().asDiagonal();
   ShownRun run;
   run.time.assign(moves.time.begin(), moves.time.end());
   run.position = per_q * moves.next_q;
   run.velocity = per_dq * moves.next_dq;
-  run.foretold_position = per_q * (moves.q + change.topRows(robot.joints()));
-  run.foretold_velocity = per_dq * (moves.dq + change.bottomRows(robot.joints()));
-  run.residual = run.velocity - run.foretold_velocity;
-  run.outputs = outputs_of(networks.detector, log);
+  run.predicted_position = per_q * (moves.q + change.topRows(experiment.robot.joints()));
+  run.predicted_velocity = per_dq * (moves.dq + change.bottomRows(experiment.robot.joints()));
+  run.residual = run.velocity - run.predicted_velocity;
+  run.outputs = outputs_of(detector, log);
   return run;
 }
 
@@ -58,11 +54,11 @@ PlotPanel residual_panel(const ShownRun& run) {
   return panel;
 }
 
-PlotPanel motion_panel(const ShownRun& run, const Eigen::MatrixXd& measured, const Eigen::MatrixXd& foretold,
+PlotPanel motion_panel(const ShownRun& run, const Eigen::MatrixXd& measured, const Eigen::MatrixXd& predicted,
                        const char* label) {
   return {.y_label = label,
           .series = {{"measured", run.time, row(measured, kJoint)},
-                     {"foretold by the MLP", run.time, row(foretold, kJoint)}},
+                     {"foretold by the MLP", run.time, row(predicted, kJoint)}},
           .y_range = {{-2.5, 2.5}}};
 }
 
@@ -94,26 +90,24 @@ void add_figures(std::vector<Figure>& figures, const ShownRun& run, const Eigen:
   figures.push_back(figure(first, "Residual", network, onset_s, {residual_panel(run), answer}));
   figures.push_back(
       figure(first + 1, "Normalised position", network, onset_s,
-             {motion_panel(run, run.position, run.foretold_position, "position, half ranges"), answer}));
+             {motion_panel(run, run.position, run.predicted_position, "position, half ranges"), answer}));
   figures.push_back(
       figure(first + 2, "Normalised velocity", network, onset_s,
-             {motion_panel(run, run.velocity, run.foretold_velocity, "velocity, half ranges"), answer}));
+             {motion_panel(run, run.velocity, run.predicted_velocity, "velocity, half ranges"), answer}));
 }
 
 }  // namespace
 
 std::vector<Figure> fault_figures(const ReproduceOptions& options) {
-  const Robot robot = bench_robot();
-  PaperNetworks networks{half_ranges(robot, kController), {}};
+  const Experiment experiment = experiment_on(bench_robot(), kController, options.seed);
   GeneratorRecipe recipe;
   recipe.fit.trainer = ResidualTrainer::back_propagation;
-  networks.detector = train_paper_detector(
-      train_generator(robot, kController, recipe, networks.ranges, options.seed).generator, robot,
-      kController, options.seed);
+  const SampleDetector detector =
+      train_paper_detector(train_generator(experiment, recipe).generator, experiment);
   std::vector<Figure> figures;
-  const ShownRun first = shown_run(networks, robot, 4.0, seed_of(options.seed, SeedUse::figures, 0));
+  const ShownRun first = shown_run(detector, experiment, 4.0, seed_of(options.seed, SeedUse::figures, 0));
   add_figures(figures, first, first.outputs.mlp, "MLP", 4.0);
-  const ShownRun second = shown_run(networks, robot, 5.0, seed_of(options.seed, SeedUse::figures, 1));
+  const ShownRun second = shown_run(detector, experiment, 5.0, seed_of(options.seed, SeedUse::figures, 1));
   add_figures(figures, second, second.outputs.rbfn, "RBFN", 5.0);
   return figures;
 }

@@ -36,13 +36,22 @@ class Threshold {
   bool open_ = false;
 };
 
-/// One sum: its filter, which restarts when the sum falls to zero.
-void step(const Bank& bank, RunningHypothesis& running, int hypothesis, bool started,
+/// The sums of all hypotheses one sample on. A filter restarts when its sum falls to zero.
+void step(const Bank& bank, std::vector<RunningHypothesis>& running, bool started,
           const FollowedSample& before, const FollowedSample& at) {
-  if (started && running.log_likelihood_ratio > 0.0)
-    bank.advance(running, before, at);
-  else
-    running = bank.start(hypothesis, 1, before, at);
+  for (int h = 0; h < static_cast<int>(running.size()); ++h) {
+    if (started && running[h].log_likelihood_ratio > 0.0)
+      bank.advance(running[h], before, at);
+    else
+      running[h] = bank.start(h, 1, before, at);
+  }
+}
+
+int largest_of(const std::vector<RunningHypothesis>& running) {
+  int largest = 0;
+  for (int h = 0; h < static_cast<int>(running.size()); ++h)
+    if (running[h].log_likelihood_ratio > running[largest].log_likelihood_ratio) largest = h;
+  return largest;
 }
 
 }  // namespace
@@ -60,11 +69,8 @@ std::vector<Alarms> watch_free_joints(const MotionModel& model, const Log& log, 
     FollowedSample& at = samples[k % 2];
     follower.follow(log, k, at);
     if (at.dt <= 0.0) continue;
-    int largest = 0;
-    for (int h = 0; h < static_cast<int>(running.size()); ++h) {
-      step(bank, running[h], h, k > 1, before, at);
-      if (running[h].log_likelihood_ratio > running[largest].log_likelihood_ratio) largest = h;
-    }
+    step(bank, running, k > 1, before, at);
+    const int largest = largest_of(running);
     const double sum = std::max(running[largest].log_likelihood_ratio, 0.0);
     for (Threshold& threshold : thresholds) threshold.take(at.time, sum, largest);
   }

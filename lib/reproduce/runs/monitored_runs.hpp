@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -28,10 +27,10 @@ struct RunSet {
 };
 
 /// Without noise: the faulty runs, then the fault-free ones.
-std::vector<MonitoredRun> monitored_runs(const Robot& robot, ControllerReading controller, const RunSet& set,
-                                         std::uint64_t seed, SeedUse use);
-/// The same runs as measured with noise of `sigma` half ranges; `use` and `seed` as when they were made.
-std::vector<MonitoredRun> with_noise(std::vector<MonitoredRun> runs, const HalfRanges& ranges, double sigma,
-                                     std::uint64_t seed, SeedUse use);
+std::vector<MonitoredRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use);
+/// The same runs as measured with noise of `sigma` half ranges; `experiment` and `use` as when they were
+/// made.
+std::vector<MonitoredRun> with_noise(std::vector<MonitoredRun> runs, const Experiment& experiment,
+                                     double sigma, SeedUse use);
 
 }  // namespace faultline

@@ -31,7 +31,7 @@ class Sums {
   Eigen::VectorXd sum_;
 };
 
-CaseOpinion opinion_of(const NetworkSum& sum, const std::vector<FaultLabel>& classes, double threshold) {
+Opinion opinion_of(const NetworkSum& sum, const std::vector<FaultLabel>& classes, double threshold) {
   const double certainty = std::min(0.5 * sum.best / threshold, 1.0);
   if (sum.best >= threshold) return {classes[sum.output], certainty};
   return {{}, 1.0 - certainty};

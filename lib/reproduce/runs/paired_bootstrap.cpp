@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lib/core/random.hpp"
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
@@ -35,7 +36,7 @@ Difference paired_difference(std::span<const double> ours, std::span<const doubl
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < runs; ++i) sum += ours[i] - theirs[i];
-  return {sum / count, quantile_of(means, 0.025), quantile_of(means, 0.975)};
+  return {sum / count, nearest_rank_quantile(means, 0.025), nearest_rank_quantile(means, 0.975)};
 }
 
 std::vector<double> delays_of(const AlarmScore& score, double missed_s) {

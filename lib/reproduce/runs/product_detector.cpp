@@ -7,6 +7,7 @@
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/monitor/monitor.hpp"
 
 namespace faultline {
 namespace {
@@ -43,12 +44,12 @@ bool is_held(const Robot& robot) { return robot.log.torque_between_samples == To
 
 }  // namespace
 
-HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
-                         const HalfRanges& ranges, double sigma, std::uint64_t seed) {
+HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double sigma) {
+  const auto& [robot, controller, ranges, seed] = experiment;
   HealthyLogs healthy;
   for (std::uint64_t i = 0; i < kHealthyLogs; ++i) {
     healthy.logs.push_back(
-        run_of_moves(robot, controller, duration_s, {}, 0.0, seed_of(seed, SeedUse::learning_logs, i)));
+        run_of_moves(robot, controller, {duration_s}, seed_of(seed, SeedUse::learning_logs, i)));
     add_noise(healthy.logs.back(), ranges, sigma, seed_of(seed, SeedUse::learning_logs, kNoise + i));
   }
   healthy.robot = preset_robot(robot.axes);
@@ -96,16 +97,14 @@ MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healt
 ProductAlarms product_alarms(const Learned& learned, const Log& log) {
   const Model& model = learned.model;
   MemorySource source(log, "run");
-  const Heard heard = listen(source, model);
   ProductAlarms alarms;
-  for (std::size_t i = 0; i < heard.episodes.size(); ++i) {
-    const EpisodeEvidence& episode = heard.episodes[i];
-    const auto evidence = evidence_by_label(episode, model.bank, model.motion);
-    const Episode judged = episode_of(episode, heard.episode_residuals[i], model);
-    const FaultFinding finding = decide_episode(episode, heard.episode_residuals[i], model, learned.cases);
-    alarms.mlp.push_back({episode.alarm_s, named_by_size(judged.mlp.label, evidence)});
-    alarms.rbfn.push_back({episode.alarm_s, named_by_size(judged.rbfn.label, evidence)});
-    alarms.cases.push_back({episode.alarm_s, finding.label});
+  for (const MonitoredEpisode& observed : monitor(source, model).episodes) {
+    const double alarm_s = observed.evidence.alarm_s;
+    const auto evidence = evidence_by_label(observed.evidence, model.bank, model.motion);
+    const Episode episode = episode_of(observed, evidence, model);
+    alarms.mlp.push_back({alarm_s, named_by_size(episode.mlp.label, evidence)});
+    alarms.rbfn.push_back({alarm_s, named_by_size(episode.rbfn.label, evidence)});
+    alarms.cases.push_back({alarm_s, decide_episode(observed, model, learned.cases).label});
   }
   return alarms;
 }

@@ -14,8 +14,7 @@ struct HealthyLogs {
   std::vector<Log> logs;
   Robot robot;
 };
-HealthyLogs healthy_logs(const Robot& robot, ControllerReading controller, double duration_s,
-                         const HalfRanges& ranges, double sigma, std::uint64_t seed);
+HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double sigma);
 
 /// Learns on one thread. `quick`: from few simulated faults of three kinds, a coarse
 /// residual network and few iterations of the identification.

@@ -18,85 +18,81 @@ bool contains(const std::vector<double>& values, double value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// One controller and seed, whatever the noise.
-struct Experiment {
-  Robot robot;
-  ControllerReading controller;
-  HalfRanges ranges;
+/// What all noises of one controller and seed share.
+struct RunBench {
+  Experiment experiment;
   RunPlan plan;
-  std::uint64_t seed;
   ConditionRuns clean;
   ResidualGenerator paper_generator;
 };
 
-Experiment experiment(ControllerReading controller, const RunPlan& plan, std::uint64_t seed) {
-  Experiment e{bench_robot(), controller, {}, plan, seed, {}, {}};
-  e.ranges = half_ranges(e.robot, controller);
-  e.clean = {monitored_runs(e.robot, controller, plan.training, seed, SeedUse::run_training),
-             monitored_runs(e.robot, controller, plan.tuning, seed, SeedUse::run_tuning),
-             monitored_runs(e.robot, controller, plan.test, seed, SeedUse::run_test)};
+RunBench run_bench(ControllerReading controller, const RunPlan& plan, std::uint64_t seed) {
+  RunBench bench{experiment_on(bench_robot(), controller, seed), plan, {}, {}};
+  bench.clean = {monitored_runs(bench.experiment, plan.training, SeedUse::run_training),
+                 monitored_runs(bench.experiment, plan.tuning, SeedUse::run_tuning),
+                 monitored_runs(bench.experiment, plan.test, SeedUse::run_test)};
   GeneratorRecipe recipe;
   recipe.trajectories = plan.generator_trajectories;
   recipe.fit.max_iterations = plan.generator_iterations;
-  e.paper_generator = train_generator(e.robot, controller, recipe, e.ranges, seed).generator;
-  return e;
+  bench.paper_generator = train_generator(bench.experiment, recipe).generator;
+  return bench;
 }
 
-ConditionRuns measured(const Experiment& e, double sigma) {
-  return {with_noise(e.clean.training, e.ranges, sigma, e.seed, SeedUse::run_training),
-          with_noise(e.clean.tuning, e.ranges, sigma, e.seed, SeedUse::run_tuning),
-          with_noise(e.clean.test, e.ranges, sigma, e.seed, SeedUse::run_test)};
+ConditionRuns measured(const RunBench& bench, double sigma) {
+  return {with_noise(bench.clean.training, bench.experiment, sigma, SeedUse::run_training),
+          with_noise(bench.clean.tuning, bench.experiment, sigma, SeedUse::run_tuning),
+          with_noise(bench.clean.test, bench.experiment, sigma, SeedUse::run_test)};
 }
 
 /// Held: physics of the identified robot. Else what the torque did between two samples is unknown to physics,
 /// and a 12-49-6 network trained with the noise of use does better.
-ResidualGenerator best_generator(const Experiment& e, const Chain<double>& identified, double sigma) {
+ResidualGenerator best_generator(const RunBench& bench, const Chain<double>& identified, double sigma) {
   GeneratorRecipe recipe;
   recipe.sigma = sigma;
-  recipe.trajectories = e.plan.generator_trajectories;
-  if (e.controller == ControllerReading::held) {
+  recipe.trajectories = bench.plan.generator_trajectories;
+  if (bench.experiment.controller == ControllerReading::held) {
     recipe.fit.kind = ResidualKind::physics;
     recipe.assumed = identified;
   } else {
     recipe.next_torque = true;
-    recipe.fit.max_iterations = std::min(kNoisyIterations, e.plan.generator_iterations);
+    recipe.fit.max_iterations = std::min(kNoisyIterations, bench.plan.generator_iterations);
   }
-  return train_generator(e.robot, e.controller, recipe, e.ranges, e.seed).generator;
+  return train_generator(bench.experiment, recipe).generator;
 }
 
 void append(std::vector<DetectorResult>& all, std::vector<DetectorResult> more) {
   for (DetectorResult& result : more) all.push_back(std::move(result));
 }
 
-ConditionResult run_condition(const Experiment& e, double sigma) {
+ConditionResult run_condition(const RunBench& bench, double sigma) {
+  const Experiment& e = bench.experiment;
+  const RunPlan& plan = bench.plan;
   const bool held = e.controller == ControllerReading::held;
-  const ConditionRuns runs = measured(e, sigma);
-  const HealthyLogs healthy =
-      healthy_logs(e.robot, e.controller, e.plan.healthy_log_s, e.ranges, sigma, e.seed);
+  const ConditionRuns runs = measured(bench, sigma);
+  const HealthyLogs healthy = healthy_logs(e, plan.healthy_log_s, sigma);
   ConditionResult result{sigma, {}, {}};
-  watch_with_networks(train_paper_detector(e.paper_generator, e.robot, e.controller, e.seed), runs,
-                      "paper's recipe", false, result);
+  watch_with_networks(train_paper_detector(bench.paper_generator, e), runs, "paper's recipe", false, result);
 
-  const bool learns = contains(e.plan.learned_sigmas, sigma);
+  const bool learns = contains(plan.learned_sigmas, sigma);
   Learned learned;
-  if (learns) learned = learn_product(healthy, e.plan.quick, e.seed);
+  if (learns) learned = learn_product(healthy, plan.quick, e.seed);
   const Chain<double> identified = learns ? learned.model.robot.chain
-                                   : held ? identify_robot(healthy, e.plan.quick).robot.chain
+                                   : held ? identify_robot(healthy, plan.quick).robot.chain
                                           : e.robot.chain;
-  watch_with_networks(train_best_detector(best_generator(e, identified, sigma), runs.training,
-                                          e.plan.patterns_per_class, e.seed),
+  watch_with_networks(train_best_detector(best_generator(bench, identified, sigma), runs.training,
+                                          plan.patterns_per_class, e.seed),
                       runs, "best recipe", true, result);
 
-  const auto tuning = some_of(runs.tuning, e.plan.filter_tuning_faulty, e.plan.filter_tuning_h);
+  const auto tuning = some_of(runs.tuning, plan.filter_tuning_faulty, plan.filter_tuning_h);
   if (learns) {
-    const auto test = some_of(runs.test, e.plan.filter_faulty, e.plan.filter_fault_free_h);
+    const auto test = some_of(runs.test, plan.filter_faulty, plan.filter_fault_free_h);
     result.detectors.push_back(
         watch_with_filters(detector_name::kFilters, learned.model.motion, tuning, test));
     append(result.detectors, watch_with_product(learned, test));
   }
-  if (!contains(e.plan.filtered_sigmas, sigma)) return result;
+  if (!contains(plan.filtered_sigmas, sigma)) return result;
   const MotionModel known = motion_model_of(e.robot.chain, healthy, e.ranges, sigma);
-  const auto test = some_of(runs.test, e.plan.reference_faulty, e.plan.reference_h);
+  const auto test = some_of(runs.test, plan.reference_faulty, plan.reference_h);
   result.detectors.push_back(watch_with_filters(detector_name::kReference, known, tuning, test));
   return result;
 }
@@ -135,9 +131,9 @@ RunPlan run_plan(ControllerReading controller, bool quick) {
 
 std::vector<ConditionResult> run_conditions(ControllerReading controller, const RunPlan& plan,
                                             std::uint64_t seed) {
-  const Experiment e = experiment(controller, plan, seed);
+  const RunBench bench = run_bench(controller, plan, seed);
   std::vector<ConditionResult> results;
-  for (const double sigma : plan.sigmas) results.push_back(run_condition(e, sigma));
+  for (const double sigma : plan.sigmas) results.push_back(run_condition(bench, sigma));
   return results;
 }
 

@@ -21,15 +21,14 @@ LabelledResiduals residuals_of_log(const ResidualGenerator& generator, const Log
 
 }  // namespace
 
-SampleDetector train_paper_detector(const ResidualGenerator& generator, const Robot& robot,
-                                    ControllerReading controller, std::uint64_t seed) {
+SampleDetector train_paper_detector(const ResidualGenerator& generator, const Experiment& experiment) {
   std::vector<LabelledResiduals> runs;
   for (int output = 0; output < 4; ++output) {
     const FaultLabel fault = output < 3 ? FaultLabel{FaultKind::free_swinging, output + 1} : FaultLabel{};
     for (int i = 0; i < kTrajectories[output]; ++i) {
-      const std::uint64_t own = seed_of(seed, SeedUse::classifier_training, 1000 * output + i);
-      runs.push_back(
-          residuals_of_log(generator, trajectory(robot, controller, kSamples, fault, own), fault, 0.0));
+      const std::uint64_t own = seed_of(experiment.seed, SeedUse::classifier_training, 1000 * output + i);
+      const Log log = trajectory(experiment.robot, experiment.controller, kSamples, own, {fault});
+      runs.push_back(residuals_of_log(generator, log, fault, 0.0));
     }
   }
   SampleClassifierOptions options;
@@ -37,7 +36,7 @@ SampleDetector train_paper_detector(const ResidualGenerator& generator, const Ro
   options.output = OutputKind::linear;
   options.patterns_per_class = kAllPatterns;
   options.max_iterations = kIterations;
-  options.seed = seed;
+  options.seed = experiment.seed;
   return {generator, train_sample_classifier(runs, generator, options).classifier};
 }
 

@@ -19,8 +19,7 @@ struct SampleDetector {
 
 /// The paper's recipe: velocity residuals, 900 patterns without noise of the 90 trajectories of its table 1,
 /// the fault there from their start. A quarter as many trajectories again stop the MLP's training.
-SampleDetector train_paper_detector(const ResidualGenerator& generator, const Robot& robot,
-                                    ControllerReading controller, std::uint64_t seed);
+SampleDetector train_paper_detector(const ResidualGenerator& generator, const Experiment& experiment);
 /// The best recipe: torque-space and ratio features, trained on samples of runs with faults at any time and
 /// with the noise of use.
 SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const MonitoredRun> runs,

@@ -25,7 +25,7 @@ void expect_counts_of_the_paper(const ResultTable& table) {
   EXPECT_EQ(table.rows[2].labels[1], "41-75");
   EXPECT_EQ(table.rows[2].figures[0]->mean(), 35.0);
   EXPECT_EQ(table.rows[2].figures[1]->mean(), 350.0);
-  // A free joint 3 falls; a healthy robot is foretold well.
+  // A free joint 3 falls; a healthy robot is predicted well.
   EXPECT_GT(table.rows[2].figures[4]->mean(), 30.0 * table.rows[3].figures[4]->mean());
 }
 

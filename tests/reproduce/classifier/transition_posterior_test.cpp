@@ -9,29 +9,27 @@ namespace {
 class TransitionPosterior : public testing::TestWithParam<ControllerReading> {
  protected:
   FaultPatterns patterns(int count, double sigma, SeedUse use) const {
-    return fault_patterns(robot, GetParam(), {.count = count, .sigma = sigma, .torque_phi = 0.5}, ranges, 2,
-                          use);
+    return fault_patterns(experiment, {.count = count, .sigma = sigma, .torque_phi = 0.5}, use);
   }
   TransitionModel learned() const {
-    return learn_transition_model(SampleModel(robot, GetParam(), TorqueBetween::controlled),
+    return learn_transition_model(SampleModel(experiment.robot, GetParam(), TorqueBetween::controlled),
                                   patterns(90, 0.0, SeedUse::classifier_training));
   }
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, GetParam());
+  const Experiment experiment = experiment_on(bench_robot(), GetParam(), 2);
 };
 
-TEST(SampleModel, ForetellsEachClassUnderHeldAndPd) {
+TEST(SampleModel, PredictsEachClassUnderHeldAndPd) {
   const Robot robot = bench_robot();
   for (const ControllerReading controller : {ControllerReading::held, ControllerReading::pd}) {
-    const HalfRanges ranges = half_ranges(robot, controller);
+    const Experiment experiment = experiment_on(robot, controller, 2);
     const SampleModel model(robot, controller, TorqueBetween::controlled);
-    const FaultPatterns test =
-        fault_patterns(robot, controller, {.count = 9}, ranges, 2, SeedUse::classifier_test);
+    const FaultPatterns test = fault_patterns(experiment, {.count = 9}, SeedUse::classifier_test);
     for (int output = 0; output < kFaultClasses; ++output) {
       const Transitions& t = test.of_class[output];
       for (int i = 0; i < t.count(); ++i) {
         const JointState end = model.next({t.q.col(i), t.dq.col(i)}, t.tau.col(i), t.tau.col(i), output);
-        EXPECT_LT((end.dq - t.next_dq.col(i)).cwiseQuotient(ranges.dq).norm(), 0.01) << output << ' ' << i;
+        EXPECT_LT((end.dq - t.next_dq.col(i)).cwiseQuotient(experiment.ranges.dq).norm(), 0.01)
+            << output << ' ' << i;
       }
     }
   }
@@ -40,7 +38,7 @@ TEST(SampleModel, ForetellsEachClassUnderHeldAndPd) {
 TEST_P(TransitionPosterior, IsADistributionThatFavoursTheTruth) {
   const TransitionModel model = learned();
   const FaultPatterns test = patterns(18, 0.01, SeedUse::classifier_test);
-  const Eigen::MatrixXd posterior = transition_posterior(model, test.of_class[2], ranges, 0.01);
+  const Eigen::MatrixXd posterior = transition_posterior(model, test.of_class[2], experiment.ranges, 0.01);
   EXPECT_LT((posterior.colwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
   EXPECT_GT(posterior.row(2).mean(), 0.95);
 }
@@ -52,7 +50,7 @@ TEST_P(TransitionPosterior, ErrorGrowsWithTheNoiseAndStaysBelowThatOfThePrior) {
   double errors[3];
   for (int noise = 0; noise < 3; ++noise)
     errors[noise] = posterior_error(model, patterns(36, kNoiseReadings[noise], SeedUse::classifier_test),
-                                    ranges, kNoiseReadings[noise]);
+                                    experiment.ranges, kNoiseReadings[noise]);
   EXPECT_LT(errors[0], errors[2]);
   EXPECT_LT(errors[1], errors[2]);
   EXPECT_LT(errors[2], 0.5 * knows_nothing);

@@ -55,7 +55,7 @@ void expect_noise_floor(const ResultTable& mse) {
       100.0, 3.0);
 }
 
-/// A set-point that jumps between samples is not foretold.
+/// A set-point that jumps between samples is not predicted.
 void expect_runs_harder_for_pd_alone(const ResultTable& mse) {
   const std::string mlp = "MLP 9-49-6, Levenberg-Marquardt";
   EXPECT_GT(figure(mse, mlp, "pd", 3), 20.0 * figure(mse, mlp, "pd", 0));

@@ -7,23 +7,19 @@ namespace faultline {
 namespace {
 
 TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
   const auto use = SeedUse::generator_test;
-  const auto single = healthy_trajectories(robot, ControllerReading::held, 20, 0.0, ranges, 1, use);
-  const auto runs = healthy_runs(robot, ControllerReading::held, 20, 0.0, ranges, 1, use);
+  const auto single = healthy_trajectories(experiment, 20, 0.0, use);
+  const auto runs = healthy_runs(experiment, 20, 0.0, use);
   EXPECT_EQ(single.size(), 20u);
   EXPECT_EQ(runs.size(), 2u);
   EXPECT_EQ(transitions_of(runs).count(), transitions_of(single).count());
 }
 
 TEST(MotionGenerator, no_test_trajectory_is_trained_on) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const auto training =
-      healthy_trajectories(robot, ControllerReading::held, 120, 0.0, ranges, 1, SeedUse::generator_training);
-  const auto test =
-      healthy_trajectories(robot, ControllerReading::held, 200, 0.0, ranges, 1, SeedUse::generator_test);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
+  const auto training = healthy_trajectories(experiment, 120, 0.0, SeedUse::generator_training);
+  const auto test = healthy_trajectories(experiment, 200, 0.0, SeedUse::generator_test);
   for (const Log& mine : test)
     for (const Log& theirs : training) ASSERT_NE(mine.q[0], theirs.q[0]);
 }
@@ -38,14 +34,12 @@ TEST(MotionGenerator, the_error_is_in_half_ranges_of_each_output) {
 }
 
 TEST(MotionGenerator, physics_of_the_true_robot_is_exact_when_the_torque_is_held) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
   GeneratorRecipe recipe;
   recipe.fit.kind = ResidualKind::physics;
-  const ResidualGenerator physics = untrained_generator(robot, recipe);
-  const Transitions test = transitions_of(
-      healthy_runs(robot, ControllerReading::held, 20, 0.0, ranges, 1, SeedUse::generator_test));
-  EXPECT_LT(normalised_mse(physics, test, ranges), 1e-12);
+  const ResidualGenerator physics = untrained_generator(experiment.robot, recipe);
+  const Transitions test = transitions_of(healthy_runs(experiment, 20, 0.0, SeedUse::generator_test));
+  EXPECT_LT(normalised_mse(physics, test, experiment.ranges), 1e-12);
 }
 
 }  // namespace

@@ -11,13 +11,12 @@ namespace {
 constexpr double kSigma = 0.01;
 
 TEST(FilterWatch, finds_and_names_each_free_joint_and_keeps_quiet_before) {
-  const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const HealthyLogs healthy = healthy_logs(robot, ControllerReading::held, 20.0, ranges, kSigma, 3);
-  const MotionModel model = motion_model_of(robot.chain, healthy, ranges, kSigma);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const HealthyLogs healthy = healthy_logs(experiment, 20.0, kSigma);
+  const MotionModel model = motion_model_of(experiment.robot.chain, healthy, experiment.ranges, kSigma);
   const RunSet set{.faulty = 3, .fault_free_h = 0.0};
-  const auto runs = with_noise(monitored_runs(robot, ControllerReading::held, set, 3, SeedUse::run_tuning),
-                               ranges, kSigma, 3, SeedUse::run_tuning);
+  const auto runs = with_noise(monitored_runs(experiment, set, SeedUse::run_tuning), experiment, kSigma,
+                               SeedUse::run_tuning);
   for (const MonitoredRun& run : runs) {
     const auto alarms = watch_free_joints(model, run.log, {{14.0, 1e9}, 0.6});
     ASSERT_FALSE(alarms[0].empty()) << run.fault.joint;

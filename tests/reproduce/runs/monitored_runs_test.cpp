@@ -8,8 +8,10 @@ namespace {
 
 const RunSet kSet{.faulty = 6, .fault_free_h = 0.05, .hour_s = 100.0};
 
+Experiment held_experiment() { return experiment_on(bench_robot(), ControllerReading::held, 1); }
+
 TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
-  const auto runs = monitored_runs(bench_robot(), ControllerReading::held, kSet, 1, SeedUse::run_test);
+  const auto runs = monitored_runs(held_experiment(), kSet, SeedUse::run_test);
   double fault_free_s = 0.0;
   int faulty = 0;
   for (const MonitoredRun& run : runs) {
@@ -28,12 +30,11 @@ TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
 }
 
 TEST(MonitoredRuns, of_different_uses_differ_and_noise_leaves_the_motion_as_it_was) {
-  const Robot robot = bench_robot();
-  const auto runs = monitored_runs(robot, ControllerReading::held, kSet, 1, SeedUse::run_test);
-  const auto others = monitored_runs(robot, ControllerReading::held, kSet, 1, SeedUse::run_tuning);
+  const Experiment experiment = held_experiment();
+  const auto runs = monitored_runs(experiment, kSet, SeedUse::run_test);
+  const auto others = monitored_runs(experiment, kSet, SeedUse::run_tuning);
   EXPECT_NE(runs[0].onset_s, others[0].onset_s);
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  const auto noisy = with_noise(runs, ranges, 0.1, 1, SeedUse::run_test);
+  const auto noisy = with_noise(runs, experiment, 0.1, SeedUse::run_test);
   EXPECT_EQ(noisy[0].log.tau, runs[0].log.tau);
   EXPECT_NE(noisy[0].log.q[0][5], runs[0].log.q[0][5]);
 }

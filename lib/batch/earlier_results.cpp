@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/earlier_results.hpp"
+
+#include <filesystem>
+
+#include "lib/batch/log_result.hpp"
+#include "lib/core/hash.hpp"
+#include "lib/core/utf8.hpp"
+
+namespace faultline {
+namespace {
+
+bool is_file_with(const std::string& path, const std::string& sha256) {
+  std::error_code error;
+  return sha256.empty() || (std::filesystem::is_regular_file(path, error) && sha256_of_file(path) == sha256);
+}
+
+bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
+  const std::string stem = folder.file("logs/" + entry.row.result);
+  return is_file_with(stem + ".json", entry.json_sha) && is_file_with(stem + ".html", entry.html_sha);
+}
+
+}  // namespace
+
+EarlierResults::EarlierResults(const BatchFolder& folder, const std::string& settings)
+    : folder_(folder), settings_(settings), entries_(read_journal(folder.journal())) {
+  for (const auto& [key, entry] : entries_) logs_.insert(entry.row.log);
+}
+
+const JournalEntry* EarlierResults::find(const BatchLog& log) const {
+  if (!logs_.count(valid_utf8(log.name))) return nullptr;
+  const auto found = entries_.find(result_key(settings_, log, sha256_of_file(log.path)));
+  return found != entries_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
+}
+
+}  // namespace faultline

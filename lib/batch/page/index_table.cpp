@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "lib/batch/page/index_thumbnail.hpp"
+#include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
+#include "lib/fault/fault_words.hpp"
+
+namespace faultline {
+namespace {
+
+std::string fault_list(const BatchRow& row) {
+  std::string list;
+  for (const FaultEvent& fault : row.faults)
+    list += (list.empty() ? "" : "<br>") +
+            escaped_markup(fmt::format("{} at {}, {}", plain_words(fault.label),
+                                       time_text(fault.onset_s, row.sample_period_s),
+                                       percent_text(fault.confidence)));
+  if (list.empty() && row.verdict != "healthy") list = escaped_markup(printable(row.reason).substr(0, 400));
+  return list;
+}
+
+std::string kinds(const BatchRow& row) {
+  std::set<std::string> names;
+  for (const FaultEvent& fault : row.faults) names.insert(to_string(fault.label.kind));
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
+  return list;
+}
+
+std::string log_cell(const BatchRow& row, bool pages) {
+  const std::string name = escaped_markup(printable(row.log).substr(0, 400));
+  if (row.result.empty()) return name;
+  return fmt::format("<a href=\"logs/{}.{}\">{}</a>", row.result, pages ? "html" : "json", name);
+}
+
+std::string number_cell(double value, const std::string& shown) {
+  if (!std::isfinite(value)) return "<td class=\"n\" data-s=\"\">-</td>";
+  return fmt::format("<td class=\"n\" data-s=\"{}\">{}</td>", value, shown);
+}
+
+std::string table_row(const BatchRow& row, std::size_t number, bool pages) {
+  const double duration = row.end_s - row.start_s, level = residual_level(row);
+  const int issues = row.warnings + row.severe;
+  const double onset = row.faults.empty() ? std::nan("") : row.faults.front().onset_s;
+  return fmt::format(
+             "<tr data-v=\"{}\" data-k=\"{}\"><td class=\"n\" "
+             "data-s=\"{}\">{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td><td data-s=\"{}\">{}</td>",
+             row.verdict, kinds(row), number, number, log_cell(row, pages), row.verdict, row.verdict,
+             fault_list(row), std::isfinite(onset) ? fmt::format("{}", onset) : "", index_thumbnail(row)) +
+         number_cell(level, value_text(level)) + number_cell(duration, value_text(duration)) +
+         number_cell(issues, std::to_string(issues)) + "</tr>\n";
+}
+
+}  // namespace
+
+std::string index_table(const std::vector<BatchRow>& rows, bool pages) {
+  std::string text =
+      "<div class=\"wide\"><table id=\"logs\">\n<thead><tr><th class=\"c1\" scope=\"col\">no.</th><th "
+      "class=\"c2\" scope=\"col\">log</th><th class=\"c3\" scope=\"col\">verdict</th><th class=\"c4\" "
+      "scope=\"col\">faults</th><th class=\"c5\" scope=\"col\">timeline</th><th class=\"c6\" "
+      "scope=\"col\">residual</th><th class=\"c7\" scope=\"col\">length, s</th><th class=\"c8\" "
+      "scope=\"col\">issues</th></tr></thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) text += table_row(rows[i], i + 1, pages);
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/batch/batch_row.hpp"
+
+namespace faultline {
+
+/// The table of logs, a row each, which leads to logs/<result>.html with `pages`, else to the JSON.
+std::string index_table(const std::vector<BatchRow>& rows, bool pages);
+
+}  // namespace faultline

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/page/index_trends.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "lib/core/statistics.hpp"
+#include "lib/core/text.hpp"
+#include "lib/plot/line_plot.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kPoints = 300;  // of a curve, at most
+constexpr double kEpoch = 1e9;        // a start time above it is seconds since 1970
+constexpr int kJoints = 6;            // curves in one panel
+constexpr std::size_t kFolders = 6;   // likewise
+
+bool is_judged(const BatchRow& row) { return row.verdict == "healthy" || row.verdict == "faulty"; }
+
+std::vector<const BatchRow*> judged_in_order(const std::vector<BatchRow>& rows, bool& by_time) {
+  std::vector<const BatchRow*> judged;
+  for (const BatchRow& row : rows)
+    if (is_judged(row)) judged.push_back(&row);
+  by_time =
+      std::all_of(judged.begin(), judged.end(), [](const BatchRow* row) { return row->start_s >= kEpoch; });
+  if (by_time)
+    std::stable_sort(judged.begin(), judged.end(),
+                     [](const BatchRow* a, const BatchRow* b) { return a->start_s < b->start_s; });
+  return judged;
+}
+
+/// One number a log as a curve: the largest of the logs that share a point, or their sum.
+template <typename Value>
+PlotSeries curve(const std::string& name, const std::vector<const BatchRow*>& rows, bool sum, Value value) {
+  const std::size_t share = (rows.size() + kPoints - 1) / kPoints;
+  PlotSeries series{name, {}, {}, rows.size() <= 60, false};
+  for (std::size_t begin = 0; begin < rows.size(); begin += share) {
+    const std::size_t end = std::min(begin + share, rows.size());
+    double all = std::nan("");
+    for (std::size_t i = begin; i < end; ++i) {
+      const double one = value(*rows[i]);
+      if (std::isnan(one)) continue;
+      all = std::isnan(all) ? one : sum ? all + one : std::max(all, one);
+    }
+    series.x.push_back(static_cast<double>(begin + end + 1) / 2.0);
+    series.y.push_back(all);
+  }
+  return series;
+}
+
+double nth(const std::vector<double>& values, int i) {
+  return i < std::ssize(values) ? values[static_cast<std::size_t>(i)] : std::nan("");
+}
+
+/// Residual level by folder, on the same axis as the other panels; only for a few folders.
+PlotPanel folder_panel(const std::vector<const BatchRow*>& judged) {
+  PlotPanel panel{"residual by folder", {}, true};
+  std::set<std::string> folders;
+  for (const BatchRow* row : judged) folders.insert(folder_of(*row));
+  if (folders.size() < 2 || folders.size() > kFolders) return panel;
+  for (const std::string& folder : folders)
+    panel.series.push_back(curve(
+        printable(folder.empty() ? "(files)" : folder), judged, false,
+        [&](const BatchRow& row) { return folder_of(row) == folder ? residual_level(row) : std::nan(""); }));
+  return panel;
+}
+
+double parameter_in(const BatchRow& row, const std::string& name) {
+  const ParameterValue* parameter = find_value(row.parameters, name);
+  return parameter ? parameter->value : std::nan("");
+}
+
+/// Parameters of inertia and friction as changes from their median over all logs; those near zero have no
+/// such share and are left out.
+PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
+  PlotPanel panel{"parameter, % from median", {}};
+  std::map<std::string, std::vector<double>> found;
+  std::vector<std::string> names;
+  for (const BatchRow* row : judged)
+    for (const ParameterValue& p : row->parameters) {
+      if (found[p.name].empty()) names.push_back(p.name);
+      if (std::abs(p.value) > 3.0 * p.std) found[p.name].push_back(p.value);
+    }
+  for (const std::string& name : names) {
+    if (found[name].size() < 2 || panel.series.size() == static_cast<std::size_t>(kJoints)) continue;
+    const double usual = upper_median(found[name]);
+    panel.series.push_back(curve(printable(name), judged, false, [&](const BatchRow& row) {
+      return 100.0 * (parameter_in(row, name) / usual - 1.0);
+    }));
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::string index_trends(const std::vector<BatchRow>& rows) {
+  bool by_time = false;
+  const auto judged = judged_in_order(rows, by_time);
+  if (judged.size() < 2) return "";
+  int joints = 0;
+  for (const BatchRow* row : judged) joints = std::max(joints, static_cast<int>(row->residual_rms.size()));
+  PlotPanel residual{"residual (1 = healthy)", {}, true};
+  for (int j = 0; j < std::min(joints, kJoints); ++j)
+    residual.series.push_back(curve(fmt::format("joint {}", j + 1), judged, false,
+                                    [j](const BatchRow& row) { return nth(row.residual_rms, j); }));
+  PlotPanel faults{"faults", {}};
+  faults.series.push_back(
+      curve("faults", judged, true, [](const BatchRow& row) { return double(row.faults.size()); }));
+  LinePlot plot;
+  plot.title = "Residual level and faults from log to log";
+  plot.x_label = by_time ? "judged logs in the order of their start" : "judged logs in the order of names";
+  plot.panels = {residual, faults};
+  if (const PlotPanel folders = folder_panel(judged); !folders.series.empty()) plot.panels.push_back(folders);
+  if (PlotPanel parameters = parameter_panel(judged); !parameters.series.empty())
+    plot.panels.push_back(std::move(parameters));
+  plot.id = "trends";
+  return "<h2>Trends</h2>\n<figure>" + render_svg(plot) + "</figure>\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "lib/cases/votes.hpp"
+
+#include <algorithm>
+
+namespace faultline {
+namespace {
+
+bool fault_is_known(const Case& c) {
+  return !(c.outcome == CaseOutcome::rejected && c.label.kind == FaultKind::unknown);
+}
+
+void vote(std::vector<LabelShare>& votes, const FaultLabel& label, double weight) {
+  const auto known =
+      std::find_if(votes.begin(), votes.end(), [&](const auto& v) { return v.label == label; });
+  if (known != votes.end())
+    known->share += weight;
+  else
+    votes.push_back({label, weight});
+}
+
+void vote_of_cases(std::vector<LabelShare>& votes, const std::vector<Neighbour>& near,
+                   const VoteOptions& options) {
+  for (const Neighbour& n : near)
+    if (fault_is_known(*n.found))
+      vote(votes, n.found->label,
+           n.similarity * (n.found->outcome == CaseOutcome::unconfirmed ? options.unconfirmed_weight : 1.0));
+}
+
+/// Votes as shares of their sum, the largest first; among equals the one voted for first.
+void normalise(std::vector<LabelShare>& votes) {
+  double sum = 0.0;
+  for (const LabelShare& v : votes) sum += v.share;
+  if (sum > 0.0)
+    for (LabelShare& v : votes) v.share /= sum;
+  std::stable_sort(votes.begin(), votes.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+}
+
+}  // namespace
+
+Votes votes_on(const Episode& episode, const CaseBase& base, const VoteOptions& options) {
+  Votes votes;
+  const double near = options.near_similarity < 0.0 ? base.metric().near_similarity : options.near_similarity;
+  votes.precedents = retrieve(base, episode.features, options.neighbours, near);
+  vote(votes.shares, episode.mlp.label, options.opinion_weight * episode.mlp.confidence);
+  vote(votes.shares, episode.rbfn.label, options.opinion_weight * episode.rbfn.confidence);
+  vote_of_cases(votes.shares, votes.precedents, options);
+  normalise(votes.shares);
+  vote_of_cases(votes.of_cases, votes.precedents, options);
+  normalise(votes.of_cases);
+  return votes;
+}
+
+}  // namespace faultline

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace faultline {
+
+enum class Paint { bold, dim, red, yellow, green, bold_red, bold_green };
+
+/// `text` between terminal colour codes when `color`, else as it is.
+std::string painted(std::string_view text, Paint paint, bool color);
+
+}  // namespace faultline

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/decided_by.hpp"
+
+namespace faultline {
+
+const char* to_string(DecidedBy decided_by) {
+  switch (decided_by) {
+    case DecidedBy::agreement:
+      return "agreement";
+    case DecidedBy::cases:
+      return "cases";
+    case DecidedBy::evidence:
+      return "evidence";
+    case DecidedBy::criterion:
+      return "criterion";
+    case DecidedBy::abstained:
+      return "abstained";
+  }
+  return "abstained";
+}
+
+}  // namespace faultline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace faultline {
+
+/// Who settled what a fault is.
+enum class DecidedBy {
+  agreement,  ///< both networks
+  cases,      ///< similar cases and the networks' opinions, by vote
+  evidence,   ///< the likelihood of the physical hypotheses
+  criterion,  ///< the fault criterion over single samples
+  abstained,  ///< nobody: too thin or too even to name a fault
+};
+const char* to_string(DecidedBy decided_by);
+
+}  // namespace faultline

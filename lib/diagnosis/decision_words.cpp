@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/decision_words.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/fault/label_text.hpp"
+
+namespace faultline {
+namespace {
+
+std::string words(const FaultLabel& label) { return label_text(label, " at joint "); }
+
+std::string disagreement(const Episode& episode) {
+  return fmt::format("the networks disagree (MLP {}, RBFN {})", words(episode.mlp.label),
+                     words(episode.rbfn.label));
+}
+
+}  // namespace
+
+std::string reason_in_words(const Decision& decision, const DecisionBasis& basis,
+                            const DecisionOptions& options) {
+  const Episode& episode = basis.episode;
+  switch (decision.reason) {
+    case DecisionReason::thin_evidence:
+      return fmt::format("the evidence is thin (log likelihood ratio {:.1f}, {:.1f} asked)", episode.evidence,
+                         options.thin_evidence);
+    case DecisionReason::hardly_believed:
+      return fmt::format("both networks say {}, but hardly believe it (confidence {:.2f})",
+                         words(episode.mlp.label), 0.5 * (episode.mlp.confidence + episode.rbfn.confidence));
+    case DecisionReason::networks_agree:
+      return fmt::format("both networks say {}", words(decision.voted));
+    case DecisionReason::nothing_similar:
+      return disagreement(episode) + " and no recorded case resembles this episode";
+    case DecisionReason::votes_even:
+      return disagreement(episode) + " and the similar cases do not settle it";
+    case DecisionReason::votes_settle:
+      return fmt::format("{}; {} similar cases and the opinions give {} {:.0f} % of the votes",
+                         disagreement(episode), basis.votes.precedents.size(), words(decision.voted),
+                         100.0 * decision.confidence);
+    case DecisionReason::likelihood_names:
+      return "neither networks nor cases settle it; this fault explains the log best";
+  }
+  return "";
+}
+
+std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes,
+                                           const DecisionOptions& options) {
+  std::vector<std::string> warnings;
+  if (decision.reason == DecisionReason::networks_agree) {
+    if (votes.of_cases.empty())
+      warnings.push_back("no recorded case resembles this episode");
+    else if (votes.of_cases[0].label != decision.voted && votes.of_cases[0].share > options.clear_share)
+      warnings.push_back(fmt::format("most similar cases were {}", words(votes.of_cases[0].label)));
+  }
+  if (decision.reason == DecisionReason::thin_evidence) return warnings;
+  for (const Neighbour& n : votes.precedents)
+    if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.voted)
+      warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also called {} and that was wrong",
+                                     n.found->id, n.similarity, words(decision.voted)));
+  return warnings;
+}
+
+}  // namespace faultline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/fault_event.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "lib/core/json_values.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings) {
+  std::vector<FaultEvent> events;
+  for (const FaultFinding& f : findings)
+    events.push_back({f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence});
+  return events;
+}
+
+Json to_json(const FaultEvent& event) {
+  return {{"kind", to_string(event.label.kind)},      {"joint", count_or_null(event.label.joint)},
+          {"onset_s", number_or_null(event.onset_s)}, {"alarm_s", number_or_null(event.alarm_s)},
+          {"end_s", number_or_null(event.end_s)},     {"confidence", number_or_null(event.confidence)}};
+}
+
+FaultEvent fault_event_from_json(const Json& json) {
+  return {{fault_kind_from(json.at("kind").get<std::string>()), count_or_zero(json.at("joint"))},
+          number_or_nan(json.at("onset_s")),
+          number_or_nan(json.at("alarm_s")),
+          number_or_nan(json.at("end_s")),
+          number_or_nan(json.at("confidence"))};
+}
+
+}  // namespace faultline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/diagnosis/merge_faults.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
+constexpr std::int64_t kFewestRows = 20;
+constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
+
+/// Why the log cannot be judged with this model; empty when it can.
+std::string why_inconclusive(const LogFacts& log, double model_period_s) {
+  const double ratio = log.sample_period_s / model_period_s;
+  if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
+    return fmt::format(
+        "the log has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; learn "
+        "a model from healthy logs of this rate",
+        log.sample_period_s, model_period_s);
+  if (log.rows_used < kFewestRows)
+    return fmt::format("the log has {} usable rows; at least {} are needed to judge", log.rows_used,
+                       kFewestRows);
+  if (static_cast<double>(log.judgeable_rows) < kFewestJudgeable * static_cast<double>(log.rows_used))
+    return fmt::format("only {} of {} rows have position and torque of every joint", log.judgeable_rows,
+                       log.rows_used);
+  return "";
+}
+
+}  // namespace
+
+void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, double model_period_s) {
+  diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
+  if (!diagnosis.verdict_reason.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    return;
+  }
+  diagnosis.faults = merge_continued(std::move(faults));
+  number_by_onset(diagnosis.faults);
+  const std::size_t count = diagnosis.faults.size();
+  diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
+  diagnosis.verdict_reason = count > 0 ? fmt::format("{} fault{} found", count, count == 1 ? "" : "s")
+                                       : "the identified robot explains the whole log";
+}
+
+}  // namespace faultline

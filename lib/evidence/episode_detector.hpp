@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lib/evidence/episode_evidence.hpp"
+#include "lib/evidence/evidence_options.hpp"
+#include "lib/evidence/motion_model.hpp"
+#include "lib/log/log.hpp"
+
+namespace faultline {
+
+/// Finds the stretches of a log that the healthy robot does not explain, with what each hypothesis of the
+/// bank makes of them. The state crosses segment borders; where they fall changes nothing.
+class EpisodeDetector {
+ public:
+  EpisodeDetector(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
+                  const EvidenceOptions& options);
+  ~EpisodeDetector();
+
+  /// Takes the next rows of the log.
+  void take(const Log& segment);
+  /// After the last row: names what is open.
+  void finish();
+
+  /// Those that could be named so far, by alarm. The `end_s` of the last one moves on until the log looks
+  /// healthy again.
+  const std::vector<EpisodeEvidence>& episodes() const;
+  /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was
+  /// alarmed.
+  int rejected_alarms() const;
+  double largest_trigger() const;
+  double largest_ratio() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "lib/golden/trace.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/residual/residual_generator.hpp"
+
+namespace faultline {
+
+/// A log that hands on another one as it is and keeps the trace of what passes: at most `max_points` points,
+/// every prediction of a short log, every second, fourth ... of a longer one. Only what is kept is predicted.
+class TraceTap : public LogSource {
+ public:
+  TraceTap(LogSource& log, const ResidualGenerator& generator, int max_points);
+
+  bool next(Log& segment) override;
+  void rewind() override;
+  const LogIdentity& identity() const override { return log_.identity(); }
+  const Issues& issues() const override { return log_.issues(); }
+  double share_read() const override { return log_.share_read(); }
+  const Trace& trace() const { return trace_; }
+
+ private:
+  void take(const Log& segment);
+  void keep(const Transitions& transitions);
+  void thin();
+
+  LogSource& log_;
+  const ResidualGenerator& generator_;
+  int max_points_;
+  TransitionState state_;
+  std::int64_t seen_ = 0;  ///< transitions
+  std::int64_t stride_ = 1;
+  Trace trace_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/shooting_covariance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faultline {
+namespace {
+
+constexpr double kBlock_s = 1.0;
+
+}  // namespace
+
+bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const double* block = evaluation.values();
+  const int n = evaluation.free();
+  const std::vector<std::pair<const double*, const double*>> wanted = {{block, block}};
+  if (!covariance.Compute(wanted, &costs)) return false;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
+  covariance.GetCovarianceBlock(block, block, c.data());
+  out = 0.5 * (c + c.transpose());
+  return out.allFinite();
+}
+
+Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
+                         const Eigen::MatrixXd& white) {
+  const Eigen::Index m = white.rows();
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
+  double blocks = 0.0;
+  for (std::size_t i = 0; i < excerpts.size(); ++i) {
+    // At the optimum an excerpt's gradient with respect to its own start is zero: what is left is of the
+    // parameters alone.
+    g += evaluation.reduced[i].by_parameter.transpose() * evaluation.reduced[i].residual;
+    const bool ends =
+        i + 1 == excerpts.size() || excerpts[i + 1].log != excerpts[i].log ||
+        std::floor(excerpts[i + 1].time[0] / kBlock_s) != std::floor(excerpts[i].time[0] / kBlock_s);
+    if (!ends) continue;
+    meat += g * g.transpose();
+    g.setZero();
+    blocks += 1.0;
+  }
+  const double correction = blocks / std::max(1.0, blocks - static_cast<double>(m));
+  return correction * white * meat * white;
+}
+
+Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
+  Eigen::VectorXd factor(white.rows());
+  for (Eigen::Index k = 0; k < white.rows(); ++k)
+    factor[k] = white(k, k) > 0.0 ? std::sqrt(std::max(1.0, robust(k, k) / white(k, k))) : 1.0;
+  widened = factor.maxCoeff();
+  return factor.asDiagonal() * white * factor.asDiagonal();
+}
+
+}  // namespace faultline

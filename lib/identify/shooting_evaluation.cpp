@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/shooting_evaluation.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/parallel.hpp"
+#include "lib/identify/stable_step.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kDiverged = 1e6;  ///< residual that stands for a motion that diverged
+
+}  // namespace
+
+ShootingEvaluation::ShootingEvaluation(const ShootingProblem& problem, int threads)
+    : space_(problem.space),
+      excerpts_(problem.excerpts),
+      free_(problem.free),
+      threads_(threads),
+      parameters_(problem.start),
+      noise_(problem.first_noise()) {
+  const Eigen::Index n2 = 2 * space_.joints(), count = static_cast<Eigen::Index>(excerpts_.size());
+  variables_.resize(n2 * count + static_cast<Eigen::Index>(free_.size()));
+  for (Eigen::Index i = 0; i < count; ++i) variables_.segment(n2 * i, n2) = excerpts_[i].start;
+  for (std::size_t k = 0; k < free_.size(); ++k) values()[k] = parameters_[free_[k]];
+  robust_.resize(excerpts_.size());
+  for (std::size_t i = 0; i < excerpts_.size(); ++i) robust_[i] = excerpts_[i].weight;
+  reduced.resize(excerpts_.size());
+  const Chain<double> chain = chain_from(space_, parameters_);
+  longest_step_s_ =
+      std::min(0.01, std::max(0.0006, stable_step(chain, excerpts_[0].start.head(space_.joints()))));
+}
+
+double ShootingEvaluation::narrowest_width(int joint) const {
+  const Chain<double> chain = chain_from(space_, parameters_);
+  return std::max(1e-4, 0.5 * chain.friction[joint].width * longest_step_s_ /
+                            stable_step(chain, excerpts_[0].start.head(space_.joints())));
+}
+
+Eigen::VectorXd ShootingEvaluation::parameters() const {
+  Eigen::VectorXd p = parameters_;
+  for (std::size_t k = 0; k < free_.size(); ++k) p[free_[k]] = variables_.tail(free_.size())[k];
+  return p;
+}
+
+void ShootingEvaluation::PrepareForEvaluation(bool jacobians, bool) {
+  const SegmentModel model(space_, parameters(), free_, longest_step_s_);
+  parallel_for(static_cast<int>(excerpts_.size()), threads_, [&](int i) { evaluate(model, i, jacobians); });
+}
+
+std::vector<Eigen::MatrixXd> ShootingEvaluation::residuals() const {
+  std::vector<Eigen::MatrixXd> out(excerpts_.size());
+  const SegmentModel model(space_, parameters(), free_, longest_step_s_);
+  parallel_for(static_cast<int>(excerpts_.size()), threads_, [&](int i) {
+    SegmentMotion motion;
+    model.run(excerpts_[i], start_of(i), false, motion);
+    out[i] = motion.state - excerpts_[i].measured;
+    for (Eigen::Index k = 0; k < out[i].size(); ++k)
+      if (excerpts_[i].weight(k) == 0.0) out[i](k) = std::numeric_limits<double>::quiet_NaN();
+  });
+  return out;
+}
+
+void ShootingEvaluation::reweight(const std::vector<Eigen::MatrixXd>& residuals,
+                                  const Eigen::VectorXd& noise) {
+  noise_ = noise;
+  for (std::size_t i = 0; i < excerpts_.size(); ++i)
+    for (Eigen::Index k = 0; k < residuals[i].cols(); ++k)
+      for (Eigen::Index c = 0; c < residuals[i].rows(); ++c) {
+        const double u = std::abs(residuals[i](c, k)) / (kShootingOutlierStd * noise[c]);
+        robust_[i](c, k) = excerpts_[i].weight(c, k) > 0.0 ? (u > 1.0 ? 1.0 / (u * u) : 1.0) : 0.0;
+      }
+}
+
+Eigen::VectorXd ShootingEvaluation::start_of(int i) const {
+  return variables_.segment(2 * space_.joints() * i, 2 * space_.joints());
+}
+
+void ShootingEvaluation::evaluate(const SegmentModel& model, int i, bool jacobians) {
+  const Excerpt& e = excerpts_[i];
+  SegmentMotion motion;
+  model.run(e, start_of(i), jacobians, motion);
+  const int n2 = 2 * space_.joints(), width = n2 + static_cast<int>(free_.size());
+  Eigen::MatrixXd stacked(n2 * e.rows(), jacobians ? width + 1 : 1);
+  Eigen::Index used = 0;
+  for (int k = 0; k < e.rows(); ++k)
+    for (int c = 0; c < n2; ++c) {
+      const double weight = std::sqrt(robust_[i](c, k)) / noise_[c];
+      if (weight == 0.0) continue;
+      double r = weight * (motion.state(c, k) - e.measured(c, k));
+      if (!(std::abs(r) < kDiverged)) r = kDiverged;
+      stacked(used, stacked.cols() - 1) = r;
+      if (jacobians) stacked.row(used).head(width) = weight * motion.sensitivity.row(n2 * k + c);
+      ++used;
+    }
+  store(reduced[i], stacked.topRows(used), jacobians);
+}
+
+void ShootingEvaluation::store(ReducedExcerpt& out, const Eigen::Ref<const Eigen::MatrixXd>& stacked,
+                               bool jacobians) const {
+  const int n2 = 2 * space_.joints();
+  out.residual.setZero(rows());
+  if (!jacobians) {
+    out.residual[0] = stacked.norm();
+    return;
+  }
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(rows(), rows());
+  if (stacked.allFinite()) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
+    const Eigen::Index height = std::min<Eigen::Index>(rows(), stacked.rows());
+    factor.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
+  }
+  out.by_state = factor.leftCols(n2);
+  out.by_parameter = factor.middleCols(n2, factor.cols() - n2 - 1);
+  out.residual = factor.rightCols<1>();
+}
+
+}  // namespace faultline

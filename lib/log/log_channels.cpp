@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/log_channels.hpp"
+
+namespace faultline {
+namespace {
+
+template <typename AnyLog>
+auto& signals_in(AnyLog& log, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::dq:
+      return log.dq;
+    case Quantity::tau:
+      return log.tau;
+    case Quantity::q_ref:
+      return log.q_ref;
+    case Quantity::dq_ref:
+      return log.dq_ref;
+    default:
+      return log.q;
+  }
+}
+
+}  // namespace
+
+JointSignals& signals_of(Log& log, Quantity quantity) { return signals_in(log, quantity); }
+const JointSignals& signals_of(const Log& log, Quantity quantity) { return signals_in(log, quantity); }
+
+}  // namespace faultline

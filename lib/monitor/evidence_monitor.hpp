@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "lib/diagnosis/monitored_episode.hpp"
+#include "lib/evidence/episode_detector.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// The latest residuals, forgotten by row so that segment borders do not matter.
+class RecentResiduals {
+ public:
+  void add(Residuals residuals);
+  /// Of the predictions with from_s <= time <= to_s that are still kept, a joint each.
+  std::vector<JointResidual> between(double from_s, double to_s) const;
+
+ private:
+  std::deque<Residuals> kept_;
+};
+
+/// Leads the segments of a log through the bank of hypotheses and gives each episode the residuals of its
+/// time.
+class EvidenceMonitor {
+ public:
+  explicit EvidenceMonitor(const Model& model);
+
+  void take(const Log& segment, Residuals residuals);
+  /// After the last segment.
+  void finish();
+
+  std::vector<MonitoredEpisode> episodes() const;
+  int rejected_alarms() const { return detector_.rejected_alarms(); }
+  double largest_ratio() const { return detector_.largest_ratio(); }
+
+ private:
+  void summarise_new();
+
+  EpisodeDetector detector_;
+  RecentResiduals recent_;
+  std::vector<std::vector<JointResidual>> residuals_;  ///< an entry an episode
+};
+
+}  // namespace faultline

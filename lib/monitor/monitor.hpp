@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/diagnosis/diagnose_options.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/model/model.hpp"
+#include "lib/monitor/monitored_log.hpp"
+
+namespace faultline {
+
+/// The loop of the whole program: every segment goes through the residuals of the regenerated fault-free
+/// motion and on to the bank of hypotheses, or to the networks over single samples. Memory does not grow with
+/// the log, and where segments end changes nothing. Throws Error(input) when the log has other joints than
+/// the model's robot, or no torque.
+MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options = {});
+
+}  // namespace faultline

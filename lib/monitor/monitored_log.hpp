@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnosis/monitored_episode.hpp"
+#include "lib/diagnosis/sample_alarm.hpp"
+
+namespace faultline {
+
+/// What one pass over a log gives before anything is decided.
+struct MonitoredLog {
+  LogFacts log;
+  std::vector<JointResidual> residuals;    ///< of the MLP, over the whole log
+  std::vector<MonitoredEpisode> episodes;  ///< found by the bank of hypotheses
+  std::vector<SampleAlarm> sample_alarms;  ///< found by the paper's fault criterion
+  double largest_ratio = 0.0;              ///< log likelihood ratio that raised no alarm
+};
+
+}  // namespace faultline

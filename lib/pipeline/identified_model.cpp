@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "lib/pipeline/identified_model.hpp"
+
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+double usual_period_s(const Identification& identification) {
+  std::vector<double> periods;
+  for (const IdentifiedLog& log : identification.logs) periods.push_back(log.sample_period_s);
+  return periods.empty() ? 0.0 : upper_median(periods);
+}
+
+/// What a model keeps of the identification for those who ask how good it is.
+Identification without_state(Identification identification) {
+  identification.robot = {};
+  identification.space = {};
+  identification.estimate = {};
+  identification.covariance = {};
+  identification.logs.clear();  // the model's sources name them
+  return identification;
+}
+
+}  // namespace
+
+Model identified_model(const Identification& identification) {
+  Model model;
+  model.name = identification.robot.name;
+  model.robot = identification.robot;
+  model.identification = without_state(identification);
+  model.sample_period_s = usual_period_s(identification);
+  model.has_velocity = !identification.dq_noise.empty();
+  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
+  return model;
+}
+
+IdentifiedMotion identified_motion(const Identification& identification) {
+  IdentifiedMotion motion;
+  motion.chain = identification.robot.chain;
+  motion.torque_phi = identification.robot.torque_phi.value_or(0.0);
+  motion.torque_is_held = identification.robot.log.torque_between_samples == TorqueTiming::held;
+  motion.q_std = identification.q_noise;
+  motion.dq_std = identification.dq_noise;
+  if (motion.dq_std.empty()) motion.dq_std.assign(motion.q_std.size(), 1.0);
+  return motion;
+}
+
+}  // namespace faultline

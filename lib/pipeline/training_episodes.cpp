@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "lib/pipeline/training_episodes.hpp"
+
+#include <array>
+
+#include "lib/diagnosis/decide_episode.hpp"
+
+namespace faultline {
+namespace {
+
+/// Two classifiers: number h has not seen the episodes i with i % 2 == h.
+std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpisode>& episodes,
+                                                   const EpisodeClassifierOptions& options) {
+  std::array<EpisodeClassifier, 2> half;
+  for (std::size_t h = 0; h < half.size(); ++h) {
+    std::vector<LabelledEpisode> others;
+    for (std::size_t i = 0; i < episodes.size(); ++i)
+      if (i % 2 != h) others.push_back(episodes[i]);
+    half[h] = train_episode_classifier(others, options);
+  }
+  return half;
+}
+
+}  // namespace
+
+TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model) {
+  TrainingEpisodes out;
+  for (const MonitoredRun& run : runs) {
+    const MonitoredEpisode* of_fault = episode_of_fault(run);
+    if (!of_fault) continue;
+    const Episode episode =
+        episode_of(*of_fault, evidence_by_label(of_fault->evidence, model.bank, model.motion), model);
+    out.episodes.push_back({episode.features, run.label});
+    out.evidence.push_back(episode.evidence);
+    out.origins.push_back(run.origin);
+  }
+  return out;
+}
+
+CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
+                        const EpisodeClassifierOptions& options) {
+  CaseBase cases(episode_feature_names(model.bank, model.robot.joints()));
+  const std::array<EpisodeClassifier, 2> half = trained_on_halves(training.episodes, options);
+  for (std::size_t i = 0; i < training.episodes.size(); ++i) {
+    Case c;
+    const Opinions opinions = classify_episode(half[i % 2], training.episodes[i].features);
+    c.episode = {training.episodes[i].features, opinions.mlp, opinions.rbfn, training.evidence[i]};
+    c.decision = c.label = training.episodes[i].label;
+    c.outcome = CaseOutcome::confirmed;
+    c.origin = training.origins[i];
+    cases.retain(std::move(c));
+  }
+  cases.learn();
+  return cases;
+}
+
+}  // namespace faultline

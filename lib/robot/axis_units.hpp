@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/robot/chain.hpp"
+
+/// Units of what a joint of that kind has.
+namespace faultline {
+
+constexpr const char* position_unit(AxisKind kind) { return kind == AxisKind::revolute ? "rad" : "m"; }
+constexpr const char* velocity_unit(AxisKind kind) { return kind == AxisKind::revolute ? "rad/s" : "m/s"; }
+constexpr const char* torque_unit(AxisKind kind) { return kind == AxisKind::revolute ? "N m" : "N"; }
+constexpr const char* viscous_unit(AxisKind kind) {
+  return kind == AxisKind::revolute ? "N m s/rad" : "N s/m";
+}
+
+}  // namespace faultline

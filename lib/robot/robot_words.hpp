@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/robot/robot.hpp"
+
+/// The words of a robot file, read and written.
+namespace faultline {
+
+const char* to_string(AxisKind kind);
+const char* to_string(LinkShape shape);
+const char* to_string(TorqueMeaning meaning);
+const char* to_string(TorqueTiming timing);
+
+}  // namespace faultline

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "lib/batch/run_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "formats/open_log.hpp"
+#include "lib/batch/earlier_results.hpp"
+#include "lib/batch/file_stamp.hpp"
+#include "lib/batch/log_result.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/hash.hpp"
+#include "lib/golden/golden_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kGolden = FAULTLINE_SOURCE_DIR "/sample_logs/golden";
+
+/// Two logs of the golden folder, its model, and a count of the logs that were opened.
+class RunBatch : public testing::Test {
+ protected:
+  RunBatch() : subject_(load_golden_model(kGolden, load_golden(kGolden))) {
+    for (const char* name : {"healthy_trapezoidal.csv", "locked_1.csv"}) {
+      fs::copy_file(kGolden + "/logs/" + name, folder_.file(name));
+      logs_.push_back({folder_.file(name), std::string("runs/") + name});
+    }
+  }
+
+  BatchResult run(const std::string& out, BatchOptions options = {}) {
+    options.threads = 1;
+    const OpenLog open = [&](const std::string& path) {
+      ++opened_;
+      auto source = open_log(path);
+      if (path == grows_) std::ofstream(path, std::ios::app) << "\n";
+      if (path == touched_) fs::last_write_time(path, fs::last_write_time(path) + std::chrono::hours(1));
+      return source;
+    };
+    return run_batch(logs_, open, subject_.model, subject_.cases, folder_.file(out), options);
+  }
+
+  std::string index(const std::string& out) const { return read_file(folder_.file(out) + "/index.ndjson"); }
+
+  TemporaryFolder folder_;
+  ModelAndCases subject_;
+  std::vector<BatchLog> logs_;
+  std::string grows_, touched_;
+  int opened_ = 0;
+};
+
+TEST_F(RunBatch, ARowHoldsTheHashOfItsLog) {
+  EXPECT_EQ(run("out").diagnosed, 2);
+  for (const BatchLog& log : logs_)
+    EXPECT_NE(index("out").find("\"sha256\":\"" + sha256_of_file(log.path)), std::string::npos);
+}
+
+TEST_F(RunBatch, WhatIsDoneIsNotOpenedAgain) {
+  run("out");
+  EXPECT_EQ(opened_, 2);
+  EXPECT_EQ(run("out").diagnosed, 0);
+  EXPECT_EQ(opened_, 2);
+  std::ofstream(logs_[0].path, std::ios::app) << "\n";
+  EXPECT_EQ(run("out").diagnosed, 1);
+  EXPECT_EQ(opened_, 3);
+}
+
+TEST_F(RunBatch, ALogThatGrowsWhileItIsReadIsUnusableAndDoneAgain) {
+  grows_ = logs_[1].path;
+  EXPECT_EQ(run("out").summary.all.unusable, 1);
+  EXPECT_NE(index("out").find("changed while it was read"), std::string::npos);
+  grows_.clear();
+  EXPECT_EQ(run("out").diagnosed, 1);
+  run("fresh");
+  EXPECT_EQ(index("out"), index("fresh"));
+}
+
+TEST_F(RunBatch, ALogThatIsOnlyTouchedWhileItIsReadIsUsed) {
+  touched_ = logs_[1].path;
+  EXPECT_EQ(run("out").summary.all.unusable, 0);
+}
+
+TEST_F(RunBatch, AnUnusableLogIsKeptUntilItIsAnotherOne) {
+  write_file(logs_[0].path, "one,two\nthree,four\n");
+  EXPECT_EQ(run("out").summary.all.unusable, 1);
+  EXPECT_EQ(run("out").diagnosed, 0);
+  write_file(logs_[0].path, read_file(logs_[1].path));
+  const BatchResult again = run("out");
+  EXPECT_EQ(again.diagnosed, 1);
+  EXPECT_EQ(again.summary.all.unusable, 0);
+}
+
+TEST_F(RunBatch, ADefectOfTheProgramIsARowThatTheNextRunDoesAgain) {
+  const OpenLog broken = [](const std::string&) -> std::unique_ptr<LogSource> {
+    throw std::logic_error("out of range");
+  };
+  for (int i = 0; i < 2; ++i) {
+    const BatchResult result = run_batch(logs_, broken, subject_.model, subject_.cases, folder_.file("out"));
+    EXPECT_EQ(result.diagnosed, 2);
+    EXPECT_EQ(result.summary.status, 4);
+  }
+  EXPECT_NE(index("out").find(sha256_of_file(logs_[0].path)), std::string::npos);
+}
+
+TEST(UnusableResult, HasAKeyOnlyWhenTheFileIsTheOneThatWasRead) {
+  const TemporaryFolder folder;
+  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv"};
+  const Error reason(ErrorCode::input, log.path, "is no log");
+  const FileStamp before = stamp_of(log.path);
+  EXPECT_EQ(unusable_result(log, before, reason, "s").key, result_key("s", log, sha256_hex("x")));
+  folder.write("a.csv", "xy");
+  const JournalEntry changed = unusable_result(log, before, reason, "s");
+  EXPECT_EQ(changed.key, "");
+  EXPECT_EQ(changed.row.sha256, sha256_hex("xy"));
+  fs::remove(log.path);
+  const JournalEntry gone = unusable_result(log, stamp_of(log.path), reason, "s");
+  EXPECT_EQ(gone.key, "");
+  EXPECT_EQ(gone.row.sha256, "");
+  EXPECT_EQ(gone.row.reason, "is no log");
+}
+
+TEST(EarlierResults, CountOnlyWhileTheirFilesAreAsWritten) {
+  const TemporaryFolder folder;
+  const BatchFolder out(folder.file("out"), false);
+  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv"};
+  JournalEntry entry;
+  entry.key = result_key("s", log, sha256_hex("x"));
+  entry.row.log = log.name;
+  entry.row.result = "a";
+  entry.json_sha = sha256_hex("{}");
+  write_file(out.file("logs/a.json"), "{}");
+  JournalWriter(out.journal()).add(entry);
+  EXPECT_NE(EarlierResults(out, "s").find(log), nullptr);
+  EXPECT_EQ(EarlierResults(out, "t").find(log), nullptr);
+  EXPECT_EQ(EarlierResults(out, "s").find({log.path, "runs/b.csv"}), nullptr);
+  EXPECT_EQ(EarlierResults(out, "s").find({"/not/there", "runs/b.csv"}), nullptr) << "was read in vain";
+  write_file(out.file("logs/a.json"), "{ }");
+  EXPECT_EQ(EarlierResults(out, "s").find(log), nullptr);
+}
+
+TEST(ResultName, IsReadableAndDiffersByNameAndContent) {
+  const std::string name = result_name("runs/day 1/ä.csv", "aa");
+  EXPECT_TRUE(name.starts_with("runs_day_1___.csv-")) << name;
+  EXPECT_NE(name, result_name("runs/day_1/ä.csv", "aa"));
+  EXPECT_NE(name, result_name("runs/day 1/ä.csv", "bb"));
+  EXPECT_LT(result_name(std::string(500, 'x'), "aa").size(), 120u);
+  EXPECT_FALSE(result_name("../a.csv", "aa").starts_with("."));
+}
+
+}  // namespace
+}  // namespace faultline

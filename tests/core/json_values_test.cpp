@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "lib/core/json_values.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace faultline {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(JsonValues, WhatIsNotFiniteIsNull) {
+  EXPECT_EQ(number_or_null(0.1).dump(), "0.1");
+  EXPECT_TRUE(number_or_null(std::nan("")).is_null());
+  EXPECT_TRUE(number_or_null(-kInfinity).is_null());
+  EXPECT_EQ(numbers_or_null({1.0, kInfinity, -2.5}).dump(), "[1.0,null,-2.5]");
+  EXPECT_EQ(numbers_or_null({}).dump(), "[]");
+}
+
+TEST(JsonValues, AnEmptyTextAndACountOfZeroAreNull) {
+  EXPECT_EQ(text_or_null("a").dump(), "\"a\"");
+  EXPECT_TRUE(text_or_null("").is_null());
+  EXPECT_EQ(count_or_null(2).dump(), "2");
+  EXPECT_TRUE(count_or_null(0).is_null());
+}
+
+TEST(JsonValues, ComeBackFromBothKindsOfJson) {
+  EXPECT_EQ(number_or_nan(number_or_null(0.1)), 0.1);
+  EXPECT_TRUE(std::isnan(number_or_nan(nlohmann::json(nullptr))));
+  const nlohmann::json sorted = numbers_or_null({1.0, kInfinity});
+  EXPECT_EQ(numbers_or_nan(sorted)[0], 1.0);
+  EXPECT_TRUE(std::isnan(numbers_or_nan(numbers_or_null({1.0, kInfinity}))[1]));
+  EXPECT_EQ(text_or_empty(text_or_null("")), "");
+  EXPECT_EQ(text_or_empty(text_or_null("a")), "a");
+  EXPECT_EQ(count_or_zero(count_or_null(0)), 0);
+  EXPECT_EQ(count_or_zero(count_or_null(3)), 3);
+}
+
+TEST(JsonValues, AnotherKindOfValueIsRefused) {
+  EXPECT_THROW(number_or_nan(nlohmann::json("1")), nlohmann::json::exception);
+  EXPECT_THROW(text_or_empty(nlohmann::ordered_json(1)), nlohmann::json::exception);
+}
+
+TEST(JsonValues, AListRendersItsItemsInOrder) {
+  const auto doubled = [](int i) { return nlohmann::json(2 * i); };
+  EXPECT_EQ(list_of<nlohmann::json>(std::vector<int>{3, 1}, doubled).dump(), "[6,2]");
+  EXPECT_EQ(list_of<nlohmann::ordered_json>(std::vector<int>{}, doubled).dump(), "[]");
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/decide_episode.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/diagnosis/hand_made_episode.hpp"
+
+namespace faultline {
+namespace {
+
+TEST(EpisodeOf, HasOneNumberAFeatureAndTheBestRatio) {
+  const Model model = hand_made_rrp();
+  const Episode episode = seen(episode_of_fault(model, kLocked2, 77.0), model);
+  EXPECT_EQ(episode.features.size(), features_of(model).size());
+  EXPECT_EQ(episode.evidence, 77.0);
+  EXPECT_EQ(episode.mlp, Opinion{}) << "a model without judges has no opinion";
+}
+
+TEST(EpisodeOf, CarriesTheOpinionsOfBothJudges) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kStuck2, 0.6});
+  const Episode episode = seen(episode_of_fault(model, kLocked2), model);
+  EXPECT_EQ(episode.mlp.label, kLocked2);
+  EXPECT_NEAR(episode.mlp.confidence, 0.9, 1e-12);
+  EXPECT_EQ(episode.rbfn.label, kStuck2);
+  EXPECT_NEAR(episode.rbfn.confidence, 0.6, 1e-12);
+}
+
+TEST(EpisodeOf, ResidualsAreTheLastFeatures) {
+  const Model model = hand_made_rrp();
+  const auto features =
+      seen(episode_of_fault(model, kLocked2), model, residuals_of({1.0, kNaN, 20.0})).features;
+  const std::size_t n = features.size();
+  EXPECT_EQ(features[n - 3], 0.0);
+  EXPECT_EQ(features[n - 2], 0.0) << "not a number counts as healthy";
+  EXPECT_NEAR(features[n - 1], std::log(20.0), 1e-12);
+}
+
+TEST(DecideEpisode, NetworksThatAgreeNameTheFault) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kLocked2, 0.7});
+  const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kLocked2, 3));
+  EXPECT_EQ(finding.label, kLocked2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::agreement);
+  EXPECT_NEAR(finding.confidence, 0.8, 1e-12);
+  EXPECT_EQ(item(finding, "decision")->text, "both networks say locked at joint 2");
+  EXPECT_EQ(item(finding, "warning"), nullptr);
+  EXPECT_EQ(finding.precedents.size(), 3u);
+  EXPECT_TRUE(finding.could_also_be.empty());
+}
+
+TEST(DecideEpisode, TimesAndTraceComeFromTheEvidence) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kLocked2, 0.7});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  episode.trace.time = {2.0, 2.1};
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.onset_s, 2.0);
+  EXPECT_EQ(finding.alarm_s, 2.1);
+  EXPECT_EQ(finding.end_s, 4.0);
+  EXPECT_EQ(finding.trace.time, episode.trace.time);
+}
+
+TEST(DecideEpisode, DisagreementIsSettledBySimilarCases) {
+  const Model model = hand_made_rrp({kLocked2, 0.6}, {kStuck2, 0.9});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 99.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kLocked2, 5));
+  EXPECT_EQ(finding.label, kLocked2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::cases);
+  EXPECT_NEAR(finding.confidence, 5.6 / 6.5, 1e-12) << "five cases and the MLP against the RBFN";
+  ASSERT_EQ(finding.precedents.size(), 5u);
+  EXPECT_EQ(finding.precedents[0].what_was_done, "changed the brake");
+  EXPECT_NE(alternative(finding, kStuck2), nullptr);
+}
+
+TEST(DecideEpisode, CasesCanSettleOnWhatTheLikelihoodDoesNotPrefer) {
+  const Model model = hand_made_rrp({kLocked2, 0.6}, {kStuck2, 0.6});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 50.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kStuck2, 5));
+  EXPECT_EQ(finding.label, kStuck2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::cases);
+  EXPECT_NE(alternative(finding, kLocked2), nullptr) << "what explains the log best is always listed";
+}
+
+TEST(DecideEpisode, TheLikelihoodNamesWhatANetworkSeconds) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kLocked2, 0.5});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 95.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kLocked2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
+  EXPECT_NE(alternative(finding, kStuck2), nullptr);
+  EXPECT_NE(alternative(finding, kBias3), nullptr);
+}
+
+TEST(DecideEpisode, TheLikelihoodNamesWhatNothingElseComesNear) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kDrift1, 0.5});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 89.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kLocked2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
+}
+
+TEST(DecideEpisode, TwoLabelsWithinTenNatsStayUnknownWithoutASecond) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kDrift1, 0.5});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kStuck2, 91.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kUnknown);
+  EXPECT_EQ(finding.decided_by, DecidedBy::cases);
+  EXPECT_NE(alternative(finding, kLocked2), nullptr);
+  EXPECT_NE(alternative(finding, kStuck2), nullptr);
+}
+
+TEST(DecideEpisode, AnUnknownDisturbanceThatExplainsTwiceAsMuchStaysUnknown) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kBias3, 0.5});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2, 49.0);
+  explain(episode, model, {FaultKind::unknown, 2}, 100.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kUnknown);
+  explain(episode, model, kLocked2, 51.0);
+  EXPECT_EQ(decide_episode({episode, {}}, model, empty_base(model)).label, kLocked2);
+}
+
+TEST(DecideEpisode, TheLikelihoodDoesNotOverruleNetworksThatAgree) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kBias3, 0.9});
+  const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kBias3, 3));
+  EXPECT_EQ(finding.label, kBias3);
+  EXPECT_EQ(finding.decided_by, DecidedBy::agreement);
+  EXPECT_NE(alternative(finding, kLocked2), nullptr);
+}
+
+TEST(DecideEpisode, ThinEvidenceIsNotNamed) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kLocked2, 0.9});
+  EpisodeEvidence episode = episode_of_fault(model, kBias3, 4.0);
+  explain(episode, model, kDrift1, 3.9);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kUnknown);
+  EXPECT_EQ(finding.decided_by, DecidedBy::abstained);
+  EXPECT_EQ(finding.confidence, 0.0);
+}
+
+TEST(DecideEpisode, ALossOfNearlyAllTorqueIsAFreeJoint) {
+  const Model model = hand_made_rrp({kLoss1, 0.9}, {kLoss1, 0.9});
+  const auto named = [&](double share) {
+    return decide_episode({episode_of_fault(model, kLoss1, 100.0, share), {}}, model, empty_base(model))
+        .label;
+  };
+  EXPECT_EQ(named(0.95), kFree1);
+  EXPECT_EQ(named(0.9301), kFree1);
+  EXPECT_EQ(named(0.92), kLoss1);
+}
+
+TEST(DecideEpisode, ALossOfNearlyAllTorqueIsAFreeJointByLikelihoodToo) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kDrift1, 0.9});
+  EpisodeEvidence episode = episode_of_fault(model, kLoss1, 100.0, 0.96);
+  explain(episode, model, kFree1, 98.0);
+  const FaultFinding finding = decide_episode({episode, {}}, model, empty_base(model));
+  EXPECT_EQ(finding.label, kFree1) << "the two names of one fault do not compete";
+  EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
+}
+
+TEST(DecideEpisode, TheNextCheckIsForTheNameGiven) {
+  const Model model = hand_made_rrp({kLoss1, 0.9}, {kLoss1, 0.9});
+  const auto check = [&](double share) {
+    return decide_episode({episode_of_fault(model, kLoss1, 100.0, share), {}}, model, empty_base(model))
+        .next_check;
+  };
+  EXPECT_FALSE(check(0.5).empty());
+  EXPECT_NE(check(0.95), check(0.5));
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "lib/classify/episode_features.hpp"
+#include "lib/diagnosis/decide_episode.hpp"
+#include "tests/support/hand_made_model.hpp"
+
+namespace faultline {
+
+inline constexpr FaultLabel kLocked2{FaultKind::locked, 2}, kStuck2{FaultKind::stuck_encoder, 2},
+    kBias3{FaultKind::sensor_bias, 3}, kDrift1{FaultKind::sensor_drift, 1}, kPush1{FaultKind::collision, 1},
+    kLoss1{FaultKind::torque_loss, 1}, kFree1{FaultKind::free_swinging, 1}, kUnknown{FaultKind::unknown, 0};
+
+/// Two networks that give the same opinion whatever they are shown.
+inline EpisodeClassifier judges_that_say(const Opinion& mlp, const Opinion& rbfn, int features) {
+  EpisodeClassifier judges;
+  judges.labels = {mlp.label};
+  if (rbfn.label != mlp.label) judges.labels.push_back(rbfn.label);
+  judges.labels.push_back({FaultKind::none, 0});
+  const auto count = static_cast<Eigen::Index>(judges.labels.size());
+  const auto shares = [&](Eigen::Index who, double confidence) {
+    Eigen::VectorXd p = Eigen::VectorXd::Constant(count, (1.0 - confidence) / static_cast<double>(count - 1));
+    p[who] = confidence;
+    return p;
+  };
+  judges.scaler = {Eigen::VectorXd::Zero(features), Eigen::VectorXd::Ones(features)};
+  judges.mlp.output = OutputKind::softmax;
+  judges.mlp.layers = {{Eigen::MatrixXd::Zero(count, features), shares(0, mlp.confidence).array().log()}};
+  judges.rbfn.centres = Eigen::MatrixXd::Zero(features, 1);
+  judges.rbfn.inverse_radii = Eigen::MatrixXd::Ones(features, 1);
+  judges.rbfn.weights = Eigen::MatrixXd::Zero(count, 1);
+  judges.rbfn.bias = shares(rbfn.label == mlp.label ? 0 : 1, rbfn.confidence);
+  return judges;
+}
+
+/// An RRP robot with its bank, no judges yet.
+inline Model hand_made_rrp() {
+  Model model;
+  model.robot = known_rrp();
+  model.motion = hand_made_model(model.robot);
+  model.bank = hypotheses_of(3, TorqueMeaning::commanded);
+  return model;
+}
+
+inline std::vector<std::string> features_of(const Model& model) {
+  return episode_feature_names(model.bank, model.robot.joints());
+}
+
+/// The same with judges of a fixed opinion.
+inline Model hand_made_rrp(const Opinion& mlp, const Opinion& rbfn) {
+  Model model = hand_made_rrp();
+  model.episode_classifier = judges_that_say(mlp, rbfn, static_cast<int>(features_of(model).size()));
+  return model;
+}
+
+/// Sets the first hypothesis of `label` and returns it, to be refined.
+inline HypothesisEvidence& explain(EpisodeEvidence& episode, const Model& model, const FaultLabel& label,
+                                   double ratio, double size = 0.0, double second_size = 0.0) {
+  std::size_t h = 0;
+  while (model.bank[h].label != label) ++h;
+  episode.hypotheses[h].log_likelihood_ratio = ratio;
+  episode.hypotheses[h].size = {size, second_size};
+  if (ratio > episode.hypotheses[episode.best].log_likelihood_ratio) episode.best = static_cast<int>(h);
+  return episode.hypotheses[h];
+}
+
+/// An episode that `label` explains by `ratio` nats and nothing else explains at all.
+inline EpisodeEvidence episode_of_fault(const Model& model, const FaultLabel& label, double ratio = 100.0,
+                                        double size = 0.0, double second_size = 0.0) {
+  EpisodeEvidence episode;
+  episode.onset_s = 2.0;
+  episode.alarm_s = 2.1;
+  episode.judged_s = 2.7;
+  episode.end_s = 4.0;
+  episode.samples = 70;
+  episode.best = 0;
+  episode.hypotheses.resize(model.bank.size());
+  for (HypothesisEvidence& evidence : episode.hypotheses) evidence.log_likelihood_ratio = -200.0;
+  explain(episode, model, label, ratio, size, second_size);
+  return episode;
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Residuals of a joint each by their velocity_rms.
+inline std::vector<JointResidual> residuals_of(const std::vector<double>& velocity_rms) {
+  std::vector<JointResidual> residuals(velocity_rms.size());
+  for (std::size_t j = 0; j < velocity_rms.size(); ++j) {
+    residuals[j].joint = static_cast<int>(j) + 1;
+    residuals[j].velocity_rms = velocity_rms[j];
+  }
+  return residuals;
+}
+
+/// The episode as the case base compares it.
+inline Episode seen(const EpisodeEvidence& episode, const Model& model,
+                    const std::vector<JointResidual>& residuals = {}) {
+  return episode_of({episode, residuals}, evidence_by_label(episode, model.bank, model.motion), model);
+}
+
+/// An empty case base that compares what the model's judges are shown.
+inline CaseBase empty_base(const Model& model) { return CaseBase(features_of(model)); }
+
+/// `count` confirmed cases that look exactly like `episode`.
+inline CaseBase base_of(const Model& model, const EpisodeEvidence& episode, const FaultLabel& label,
+                        int count) {
+  CaseBase base = empty_base(model);
+  Case c;
+  c.episode = seen(episode, model);
+  c.decision = c.label = label;
+  c.outcome = CaseOutcome::confirmed;
+  c.what_was_done = "changed the brake";
+  for (int i = 0; i < count; ++i) base.retain(c);
+  return base;
+}
+
+inline const Alternative* alternative(const FaultFinding& finding, const FaultLabel& label) {
+  for (const Alternative& a : finding.could_also_be)
+    if (a.label == label) return &a;
+  return nullptr;
+}
+
+inline const EvidenceItem* item(const FaultFinding& finding, const std::string& name) {
+  for (const EvidenceItem& e : finding.evidence)
+    if (e.name == name) return &e;
+  return nullptr;
+}
+
+}  // namespace faultline

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/diagnosis/merge_faults.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kPeriod_s = 0.01;
+
+Diagnosis of_log(std::int64_t rows, std::int64_t judgeable_rows, double period_s = kPeriod_s) {
+  Diagnosis diagnosis;
+  diagnosis.log.rows_used = rows;
+  diagnosis.log.judgeable_rows = judgeable_rows;
+  diagnosis.log.sample_period_s = period_s;
+  return diagnosis;
+}
+
+FaultFinding fault(FaultKind kind, int joint, double onset_s, double end_s = 9.0) {
+  FaultFinding finding;
+  finding.label = {kind, joint};
+  finding.onset_s = onset_s;
+  finding.end_s = end_s;
+  return finding;
+}
+
+TEST(Verdict, FaultsAreNumberedByOnsetWithUnknownTimesLast) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  const double nowhen = std::numeric_limits<double>::quiet_NaN();
+  settle_verdict(diagnosis,
+                 {fault(FaultKind::locked, 1, nowhen), fault(FaultKind::locked, 2, 2.0),
+                  fault(FaultKind::locked, 3, 1.0)},
+                 kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
+  EXPECT_EQ(diagnosis.verdict_reason, "3 faults found");
+  ASSERT_EQ(diagnosis.faults.size(), 3u);
+  EXPECT_EQ(diagnosis.faults[0].onset_s, 1.0);
+  EXPECT_EQ(diagnosis.faults[1].onset_s, 2.0);
+  EXPECT_EQ(diagnosis.faults[2].id, 3);
+}
+
+TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+  EXPECT_TRUE(diagnosis.faults.empty());
+}
+
+TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
+  const std::vector<FaultFinding> faults = {fault(FaultKind::locked, 1, 1.0)};
+  for (Diagnosis diagnosis : {of_log(1000, 1000, 1.4 * kPeriod_s), of_log(1000, 1000, kPeriod_s / 1.4),
+                              of_log(19, 19), of_log(1000, 199)}) {
+    settle_verdict(diagnosis, faults, kPeriod_s);
+    EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+    EXPECT_NE(diagnosis.verdict_reason, "");
+    EXPECT_TRUE(diagnosis.faults.empty());
+  }
+}
+
+TEST(MergeFaults, AFaultThatStaysIsOneFinding) {
+  const auto merged =
+      merge_continued({fault(FaultKind::locked, 2, 1.0, 2.0), fault(FaultKind::sensor_bias, 2, 3.0, 4.0),
+                       fault(FaultKind::locked, 1, 3.5, 5.0)});
+  ASSERT_EQ(merged.size(), 2u);
+  EXPECT_EQ(merged[0].label.kind, FaultKind::locked);
+  EXPECT_EQ(merged[0].end_s, 4.0);
+  EXPECT_EQ(merged[1].label.joint, 1);
+}
+
+TEST(MergeFaults, CollisionsPassAndStayApart) {
+  const auto merged =
+      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::collision, 2, 3.0, 3.1)});
+  EXPECT_EQ(merged.size(), 2u);
+}
+
+}  // namespace
+}  // namespace faultline

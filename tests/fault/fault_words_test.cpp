@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "lib/fault/fault_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace faultline {
+namespace {
+
+TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
+  std::set<std::string> names, checks;
+  for (int kind = 0; kind < kFaultKinds; ++kind) {
+    const FaultLabel label{static_cast<FaultKind>(kind), 3};
+    names.insert(plain_name(label.kind));
+    checks.insert(next_check_for(label));
+    EXPECT_EQ(plain_words(label).rfind("joint 3 ", 0), 0u) << plain_words(label);
+    EXPECT_EQ(next_check_for(label).find('{'), std::string::npos);
+  }
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kFaultKinds));
+  EXPECT_EQ(checks.size(), static_cast<std::size_t>(kFaultKinds));
+}
+
+TEST(FaultWords, LikenessGoesBothWaysAndKnowsJoints) {
+  const FaultLabel locked{FaultKind::locked, 3}, stuck{FaultKind::stuck_encoder, 3},
+      other{FaultKind::stuck_encoder, 1};
+  EXPECT_NE(why_alike(locked, stuck), "");
+  EXPECT_EQ(why_alike(locked, stuck), why_alike(stuck, locked));
+  EXPECT_EQ(why_alike(locked, other), "");
+  EXPECT_NE(why_alike({FaultKind::payload_change, 0}, {FaultKind::torque_loss, 3}), "");
+}
+
+}  // namespace
+}  // namespace faultline

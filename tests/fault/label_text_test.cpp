@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "lib/fault/label_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace faultline {
+namespace {
+
+TEST(LabelText, NamesTheJointOnlyWhenThereIsOne) {
+  EXPECT_EQ(label_text({FaultKind::torque_loss, 2}), "torque_loss 2");
+  EXPECT_EQ(label_text({FaultKind::torque_loss, 2}, " at joint "), "torque_loss at joint 2");
+  EXPECT_EQ(label_text({FaultKind::unknown, 0}, " at joint "), "unknown");
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+/// The error a text gives, as "where: message".
+std::string error_of(const std::string& text) {
+  try {
+    robot_from_toml(text, "r.toml");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string error = error_of(text);
+  for (const std::string& part : parts)
+    EXPECT_NE(error.find(part), std::string::npos) << part << " in: " << error;
+}
+
+TEST(RobotFileErrors, MissingAxesAreNamed) {
+  expect_error("name = \"x\"", {"r.toml", "axes = \"RRP\"", "[[joint]]"});
+}
+
+TEST(RobotFileErrors, UnknownAxesListThePresets) {
+  expect_error("\naxes = \"RXP\"", {"r.toml, line 2, key axes", "\"RXP\"", "RRPR", "[[joint]]"});
+}
+
+TEST(RobotFileErrors, UnknownKeySuggestsTheNearest) {
+  expect_error("axes = \"RRP\"\n\ngravty = [0,0,1]",
+               {"r.toml, line 3, key gravty", "did you mean \"gravity\""});
+  expect_error("axes = \"RRP\"\n[log]\ntorqe = \"held\"",
+               {"line 3, key log.torqe", "did you mean \"torque\""});
+}
+
+TEST(RobotFileErrors, WrongTypesSayWhatWasExpected) {
+  expect_error("axes = 3", {"line 1, key axes", "expected a text in quotes, found 3"});
+  expect_error("axes = \"RRP\"\ngravity = [0, 0]", {"key gravity", "3 numbers", "found 2"});
+  expect_error("axes = \"RRP\"\ngravity = 9.81", {"key gravity", "found 9.81"});
+  expect_error("axes = \"RRP\"\n[known]\nl1 = \"long\"", {"line 3, key known.l1", "finite number", "long"});
+  expect_error("axes = \"RRP\"\n[known]\nl1 = nan", {"known.l1", "finite number"});
+}
+
+TEST(RobotFileErrors, WrongValuesSayWhatWasExpected) {
+  expect_error("axes = \"RRP\"\n[known]\nm9 = 1", {"known.m9", "joint from 1 to 3"});
+  expect_error("axes = \"RRP\"\n[known]\nm1 = -1", {"known.m1", "not negative"});
+  expect_error("axes = \"RRP\"\n[log]\ntorque = \"comanded\"", {"log.torque", "did you mean \"commanded\""});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq4 = \"x\"", {"log.columns.q4", "q1..q3"});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {sign = 2}", {"log.columns.q1.sign", "1 or -1"});
+  expect_error("axes = \"RRP\"\n[[link]]\nmass = 1", {"key link", "each of the 3 joints", "found 1"});
+  expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
+}
+
+TEST(RobotFileErrors, BrokenTomlNamesThePlace) {
+  expect_error("axes = \"RRP\"\n[known\n", {"r.toml, line 2", "not valid TOML"});
+}
+
+TEST(RobotFileErrors, MissingFileIsAnInputError) {
+  try {
+    load_robot_file("/nonexistent/robot.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::input);
+  }
+}
+
+}  // namespace
+}  // namespace faultline
