@@ -8,10 +8,12 @@
 namespace faultline {
 namespace {
 
-/// A code that changes under the stuck hypothesis counts against it this much (natural logarithm).
+/// A code that changes under the stuck hypothesis counts against it this much (nats): more than the threshold
+/// of an alarm, so that one change ends the suspicion.
 constexpr double kCodeChanged = -25.0;
-/// What it costs to call a row misread: about one row in a million is.
+/// What it costs to call a row misread (nats): about one row in a million is.
 constexpr double kMisread = 14.0;
+/// Codes that never repeated in the healthy logs may do so once in this many samples.
 constexpr double kSmallestShare = 1e-4;
 
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
@@ -32,8 +34,8 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
-  predict_onset(running.state, model_, dynamics_,
-                step_to(at, before.torque.data(), before.torque_missing.data()), hypotheses_[hypothesis]);
+  predict_onset(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
+                hypotheses_[hypothesis]);
   if (is_misread(hypotheses_[hypothesis]))
     pass_over(running, at);
   else
@@ -53,7 +55,7 @@ void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const
 }
 
 void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
-  predict(running.state, model_, dynamics_, step_to(at, before.torque.data(), before.torque_missing.data()),
+  predict(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
           &hypotheses_[running.hypothesis], before.time - running.onset_s);
   judge(running, at);
 }

@@ -15,7 +15,8 @@ struct JointLoad {
 
 /// What a fault at the joint makes of its load; `sign` is the smoothed sign of the velocity `dq`. Payloads
 /// and locks change the inertia instead (FaultDynamics), sensors nothing of the motion.
-inline void load_joint(FaultKind kind, const double* sizes, double dq, double sign, JointLoad& load) {
+inline void load_joint(FaultKind kind, std::span<const double> sizes, double dq, double sign,
+                       JointLoad& load) {
   switch (kind) {
     case FaultKind::none:
     case FaultKind::locked:
@@ -59,7 +60,8 @@ inline SensorError sensor_error(const Hypothesis& hypothesis, int size_index, do
     case FaultKind::sensor_bias:
       return {size_index, 1.0, 0.0};
     case FaultKind::sensor_drift:
-      return {size_index, std::max(age_s, kLeastAge_s), hypothesis.variant ? 1.0 : 0.0};
+      return {size_index, std::max(age_s, kLeastAge_s),
+              hypothesis.form == HypothesisForm::drifting_velocity ? 1.0 : 0.0};
     case FaultKind::none:
     case FaultKind::free_swinging:
     case FaultKind::locked:

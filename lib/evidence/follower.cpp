@@ -9,10 +9,12 @@ namespace faultline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLogTwoPi = 1.8378770664093453;
-constexpr double kRangeMargin = 0.03;  // of the range
-constexpr double kStandstill = 0.1;    // of the usual velocity
-constexpr double kGapPeriods = 5.5;    // a longer gap starts the filter anew
+constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
+constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
+constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
+constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
+constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
+constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 }  // namespace
 
@@ -37,9 +39,8 @@ JointObservation observe_joint(GaussianState& state, const MotionModel& model, c
   return out;
 }
 
-Step step_to(const FollowedSample& at, const double* torque_before, const bool* missing_before) {
-  return {at.dt,          torque_before,           at.torque.data(), at.pressed.data(),
-          missing_before, at.torque_missing.data()};
+Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before) {
+  return {at.dt, torque_before, at.torque, at.pressed, missing_before, at.torque_missing};
 }
 
 Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {
@@ -104,15 +105,14 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   const int n = model_.joints();
   read_row(segment, row, out);
   const double dt = out.time - last_time_;
-  const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, 1e-9);
+  const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, kLeastGap_s);
   if (!started_ || gap) {
     start(out);
   } else {
-    usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + 0.02 * (dt - usual_dt_) : dt;
+    usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + kPeriodForgetting * (dt - usual_dt_) : dt;
     out.dt = dt;
     for (int j = 0; j < n; ++j) out.pressed[j] = is_pressed(out, j);
-    predict(state_, model_, dynamics_, step_to(out, last_torque_.data(), last_torque_missing_.data()),
-            nullptr, 0.0);
+    predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
     out.total_log_likelihood = 0.0;
     for (int j = 0; j < n; ++j) {
       const JointObservation seen = observe_joint(state_, model_, out, j);

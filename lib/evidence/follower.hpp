@@ -16,12 +16,12 @@ struct FollowedSample {
   double dt = 0.0;    ///< s since the sample before; 0 where the filter started anew
   JointArray q;       ///< NaN where nothing was measured
   JointArray dq;
-  JointArray torque;                            ///< held over from the sample before where it is missing
-  std::array<bool, kMaxJoints> torque_missing;  ///< nobody knows what the drive did around this sample
-  std::array<bool, kMaxJoints> repeats;  ///< position and velocity equal the sample before, bit for bit
+  JointArray torque;          ///< held over from the sample before where it is missing
+  JointFlags torque_missing;  ///< nobody knows what the drive did around this sample
+  JointFlags repeats;         ///< position and velocity equal the sample before, bit for bit
   /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
   /// may hold them, so their readings count for no hypothesis.
-  std::array<bool, kMaxJoints> pressed;
+  JointFlags pressed;
   JointArray log_likelihood;  ///< of each joint's channels given the healthy past, chi-square capped
   JointArray chi_square;      ///< of each joint's channels, capped
   std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
@@ -30,7 +30,7 @@ struct FollowedSample {
 };
 
 /// The step that ends at a sample.
-Step step_to(const FollowedSample& at, const double* torque_before, const bool* missing_before);
+Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before);
 
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
@@ -69,7 +69,7 @@ class Follower {
   bool started_ = false;
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
-  std::array<bool, kMaxJoints> last_torque_missing_{};
+  JointFlags last_torque_missing_{};
   JointArray last_q_{}, last_dq_{}, last_torque_{};
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };

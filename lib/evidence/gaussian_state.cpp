@@ -26,7 +26,7 @@ GaussianState extended(const GaussianState& state, int size) {
 ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
                      double noise_variance) {
   const int n = state.size;
-  std::array<double, kMaxStates> ph;  // covariance times the observation row
+  StateVector ph;  // covariance times the observation row
   for (int i = 0; i < n; ++i) ph[i] = state.p(i, index);
   double predicted = state.mean[index];
   if (other >= 0) {
@@ -46,7 +46,7 @@ ScalarUpdate observe(GaussianState& state, int index, int other, double factor, 
   return update;
 }
 
-void propagate_covariance(GaussianState& state, const double* transition) {
+void propagate_covariance(GaussianState& state, std::span<const double> transition) {
   const int n = state.size;
   std::array<double, kMaxStates * kMaxStates> half;  // A covariance
   for (int i = 0; i < n; ++i) {

@@ -11,8 +11,12 @@ namespace {
 constexpr std::array<double, 3> kPulses_s = {0.04, 0.1, 0.25};  // a knock, a bump, a push aside
 constexpr std::array<double, 1> kLasting = {0.0};
 
-/// A lock may be rigid, a drift may be read as velocity too.
-bool has_variant(FaultKind kind) { return kind == FaultKind::locked || kind == FaultKind::sensor_drift; }
+/// The form beside the usual one that a kind may take at a joint.
+HypothesisForm other_form(FaultKind kind) {
+  if (kind == FaultKind::locked) return HypothesisForm::rigid_lock;
+  if (kind == FaultKind::sensor_drift) return HypothesisForm::drifting_velocity;
+  return HypothesisForm::usual;
+}
 
 void add_at_joints(std::vector<Hypothesis>& bank, const Hypothesis& like, int joints) {
   const bool at_tip = describe(like.label.kind).place == FaultPlace::tip;
@@ -23,12 +27,14 @@ void add_at_joints(std::vector<Hypothesis>& bank, const Hypothesis& like, int jo
 }
 
 void add_kind(std::vector<Hypothesis>& bank, const FaultDescription& fault, int joints) {
-  const std::span<const double> durations_s = fault.passes ? std::span<const double>(kPulses_s) : kLasting;
-  for (const double duration_s : durations_s) {
-    add_at_joints(bank, {{fault.kind, 0}, duration_s, false, fault.size_count}, joints);
-    if (has_variant(fault.kind))
-      add_at_joints(bank, {{fault.kind, 0}, duration_s, true, fault.size_count}, joints);
-    if (fault.passes && joints > 1) bank.push_back({{fault.kind, 0}, duration_s, false, joints});
+  const HypothesisForm other = other_form(fault.kind);
+  for (const double duration_s : fault.passes ? std::span<const double>(kPulses_s) : kLasting) {
+    Hypothesis like{{fault.kind, 0}, duration_s, HypothesisForm::usual, fault.size_count};
+    add_at_joints(bank, like, joints);
+    like.form = other;
+    if (other != HypothesisForm::usual) add_at_joints(bank, like, joints);
+    if (fault.passes && joints > 1)
+      bank.push_back({{fault.kind, 0}, duration_s, HypothesisForm::push_on_all_joints, joints});
   }
 }
 
@@ -44,7 +50,7 @@ std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
         add_kind(bank, fault, joints);
     }
   }
-  bank.push_back({{FaultKind::none, 0}, 0.0, false, 0});
+  bank.push_back({{FaultKind::none, 0}, 0.0, HypothesisForm::misread_row, 0});
   return bank;
 }
 

@@ -19,25 +19,30 @@ struct SizePriors {
   double payload = 0.0;                  ///< kg, standard deviation about 0
 };
 
+/// What is particular about a hypothesis beside its kind and joint.
+enum class HypothesisForm {
+  usual,
+  rigid_lock,          ///< stopping jolts the other joints
+  drifting_velocity,   ///< the velocity is read from the same drifting encoder
+  push_on_all_joints,  ///< as a contact at the tip or on an outer link: joint 0, one size a joint
+  misread_row,         ///< no fault: one row read wrong, which a wild value must be held against
+};
+
 /// What may have happened at some moment: a fault of a kind at a joint, its size unknown.
 struct Hypothesis {
-  FaultLabel label;         ///< joint from 1
+  FaultLabel label;         ///< joint from 1; 0 for a push on all joints and a misread row
   double duration_s = 0.0;  ///< of a collision's pulse, at most; 0 for faults that stay
-  /// Of a drift: the velocity is read from the same drifting encoder. Of a lock: it is rigid, so that
-  /// stopping jolts the other joints.
-  bool variant = false;
+  HypothesisForm form = HypothesisForm::usual;
   int sizes = 0;  ///< numbers in the state that say how large it is
 
   int joint_index() const { return label.joint - 1; }
 };
 
-/// That nothing happened but one row read wrong: no fault, but what a wild value must be held against.
-inline bool is_misread(const Hypothesis& hypothesis) { return hypothesis.label.kind == FaultKind::none; }
-
-/// A collision that pushes all joints at once, as a contact at the tip or on an outer link does: joint 0, one
-/// size a joint.
+inline bool is_misread(const Hypothesis& hypothesis) {
+  return hypothesis.form == HypothesisForm::misread_row;
+}
 inline bool is_everywhere(const Hypothesis& hypothesis) {
-  return hypothesis.label.kind == FaultKind::collision && hypothesis.label.joint == 0;
+  return hypothesis.form == HypothesisForm::push_on_all_joints;
 }
 
 /// What the catalogue says of size `s` of the hypothesis (a push on all joints has one size a joint, all

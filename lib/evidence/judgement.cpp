@@ -11,16 +11,20 @@ namespace {
 
 /// How far back faults are tried to have begun, in samples before the trigger.
 constexpr std::array<int, 16> kOffsets = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256};
-constexpr int kSlowOffset = 16;        // farther back only faults that creep are tried
-constexpr double kLookBack_s = 2.5;    // and never farther than this
+constexpr int kSlowOffset = 16;      // farther back only faults that creep are tried
+constexpr double kLookBack_s = 2.5;  // and never farther: what has crept that long has grown past the trigger
+// Most of the bank's work is spared by dropping what cannot win any more.
 constexpr int kFirstPrune = 12;        // samples after the trigger: two onsets a hypothesis stay
 constexpr int kFewestBeforePrune = 4;  // at low rates, when this many samples take this long
 constexpr double kFirstPrune_s = 0.25;
-constexpr int kSecondPrune = 40;  // one onset stays, and only hypotheses within kHopeless of the best
-constexpr double kHopeless = 60.0;
-constexpr double kWorthRefining = 25.0;
-constexpr int kMostRefined = 6;
-constexpr int kFewestConfirm = 16;  // samples
+constexpr int kSecondPrune = 40;         // one onset stays, and only hypotheses within kHopeless of the best
+constexpr int kPruneEvery = 20;          // samples, from then on
+constexpr double kHopeless = 60.0;       // nats: odds of 1e26, which no onset can make good
+constexpr double kWorthRefining = 25.0;  // nats: from farther behind a finer onset would not win
+constexpr int kMostRefined = 6;          // hypotheses
+constexpr int kRefineReach = 3;          // onsets tried on either side of the best,
+constexpr int kRefineFactor = 4;         // at spacings that shrink by this
+constexpr int kFewestConfirm = 16;       // samples
 
 bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
   return a.log_likelihood_ratio > b.log_likelihood_ratio;
@@ -73,7 +77,7 @@ void Judgement::advance() {
   const std::int64_t since = now_ - trigger_;
   const bool slow = history_[now_].time - history_[trigger_].time >= kFirstPrune_s;
   const bool first_time = !pruned_ && (since >= kFirstPrune || (slow && since >= kFewestBeforePrune));
-  if (first_time || (since >= kSecondPrune && since % 20 == 0)) prune();
+  if (first_time || (since >= kSecondPrune && since % kPruneEvery == 0)) prune();
 }
 
 void Judgement::update() {
@@ -150,16 +154,16 @@ bool Judgement::ready() const {
 RunningHypothesis Judgement::refined(const RunningHypothesis& coarse) const {
   RunningHypothesis best = coarse;
   const int distance = static_cast<int>(std::max<std::int64_t>(trigger_ - coarse.onset, 1));
-  for (int spacing = std::max(distance / 4, 1);; spacing /= 4) {
+  for (int spacing = std::max(distance / kRefineFactor, 1);; spacing /= kRefineFactor) {
     const std::int64_t centre = best.onset;
-    for (int k = -3; k <= 3; ++k) {
+    for (int k = -kRefineReach; k <= kRefineReach; ++k) {
       const std::int64_t onset = centre + k * spacing;
       if (k == 0 || onset < earliest_ || onset > trigger_) continue;
       const RunningHypothesis candidate = run(coarse.hypothesis, onset);
       if (better(candidate, best)) best = candidate;
     }
     if (spacing == 1) return best;
-    spacing = std::max(spacing, 4);
+    spacing = std::max(spacing, kRefineFactor);
   }
 }
 

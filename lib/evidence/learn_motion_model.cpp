@@ -12,11 +12,19 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestRows = 50;
-constexpr int kSearchRounds = 6;
+constexpr int kFewestRows = 50;       // fewer say nothing of noise and range
+constexpr int kSettlingRows = 10;     // at the start of a log, which the filter needs to forget its guess
+constexpr int kSearchRounds = 6;      // the first by this factor, each further one by its square root,
+constexpr double kFirstFactor = 4.0;  // but by no less than the last: likelihood is flat within it
+constexpr double kLastFactor = 1.2;
+constexpr double kGain = 1e-9;  // of the likelihood: less is rounding
 constexpr int kMostInflations = 8;
-constexpr double kInflation = 1.5;
-constexpr double kCalmShare = 0.6;  // of the threshold that healthy logs may reach
+constexpr double kInflation = 1.5;       // of the process noise, a round
+constexpr double kCalmShare = 0.6;       // of the threshold that healthy logs may reach: other days are worse
+constexpr double kTriggerSpare = 1.1;    // over what healthy logs reach, where more noise does not help
+constexpr double kThresholdSpare = 1.5;  // the same of the ratio, whose extremes scatter more
+constexpr double kFloorShare = 0.001;    // of the largest torque, where matching starts
+constexpr double kLeastFloor = 1e-9;     // N m or N, of joints without torque
 
 /// M_jj in the middle of the range.
 std::vector<double> inertia_scale(const MotionModel& model) {
@@ -49,7 +57,7 @@ double log_likelihood(const std::vector<Log>& logs, const MotionModel& model) {
     Follower follower(model);
     for (int k = 0; k < log.rows(); ++k) {
       follower.follow(log, k, sample);
-      if (k > 10) sum += sample.total_log_likelihood;
+      if (k > kSettlingRows) sum += sample.total_log_likelihood;
     }
   }
   return sum;
@@ -74,7 +82,7 @@ std::vector<std::vector<double*>> free_numbers(MotionModel& model, bool held) {
 /// Coordinate search by shrinking factors for the largest likelihood of the healthy innovations.
 void match_noise(MotionModel& model, const std::vector<Log>& logs, bool held) {
   const auto groups = free_numbers(model, held);
-  double best = log_likelihood(logs, model), factor = 4.0;
+  double best = log_likelihood(logs, model), factor = kFirstFactor;
   auto scale = [](const std::vector<double*>& group, double by) {
     for (double* value : group) *value *= by;
   };
@@ -83,14 +91,14 @@ void match_noise(MotionModel& model, const std::vector<Log>& logs, bool held) {
       for (const double by : {factor, 1.0 / factor}) {
         scale(group, by);
         const double moved = log_likelihood(logs, model);
-        if (moved > best + 1e-9 * std::abs(best)) {
+        if (moved > best + kGain * std::abs(best)) {
           best = moved;
           break;
         }
         scale(group, 1.0 / by);
       }
     }
-    factor = std::max(factor, 1.2);
+    factor = std::max(factor, kLastFactor);
   }
 }
 
@@ -137,7 +145,7 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   model.repeat_share = healthy.repeat_share;
   model.longest_repeat = healthy.longest_repeat;
   for (const double torque : healthy.torque_largest)
-    model.noise.floor.push_back(std::max(0.001 * torque, 1e-9));
+    model.noise.floor.push_back(std::max(kFloorShare * torque, kLeastFloor));
   if (identified.torque_is_held) model.noise.step_share = 0.0;
   model.inertia_scale = inertia_scale(model);
   model.priors = size_priors(model, healthy, options.priors);
@@ -160,8 +168,8 @@ EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionMod
     for (double& floor : model.noise.floor) floor *= kInflation;
   }
   const Extremes seen = extremes(logs, model, hypotheses, options);
-  options.trigger = std::max(options.trigger, 1.1 * seen.trigger);
-  options.threshold = std::max(options.threshold, 1.5 * seen.ratio);
+  options.trigger = std::max(options.trigger, kTriggerSpare * seen.trigger);
+  options.threshold = std::max(options.threshold, kThresholdSpare * seen.ratio);
   return options;
 }
 

@@ -20,10 +20,11 @@ struct IdentifiedMotion {
 
 struct LearnMotionOptions {
   int excerpt_rows = 12000;  ///< of all logs together, for matching the noise
-  double least_torque_share =
-      0.003;  ///< floors that keep a model of perfect logs from trusting itself too much
+  // Floors that keep a model of perfect logs from trusting itself too much: the smallest error of a parameter
+  // and of the shape of friction.
+  double least_torque_share = 0.003;
   double least_rest_share = 0.05;
-  double safety = 1.25;  ///< the matched process noise is taken this much larger
+  double safety = 1.25;  ///< the matched process noise is taken this much larger: other days are worse
   SizePriorOptions priors{};
 };
 

@@ -11,12 +11,13 @@ namespace faultline {
 /// What the identified robot does not know of its own torque, as white noise in torque space. The spectral
 /// density of joint j is correlation_s ((torque_share tau_j)^2 + (rest_share fc_j)^2 near rest + floor_j^2)
 /// plus dt (step_share |tau step|)^2 for what the torque did between two samples.
+/// The defaults are where matching to the healthy logs starts.
 struct ProcessNoise {
   double torque_share = 0.005;
-  double rest_share = 0.1;  ///< of the Coulomb friction, where |dq| is within some friction widths
-  double step_share = 0.3;  ///< 0 when the torque is known to be held
-  double correlation_s = 0.02;
-  std::vector<double> floor;  ///< N m or N, one a joint
+  double rest_share = 0.1;      ///< of the Coulomb friction, where |dq| is within some friction widths
+  double step_share = 0.3;      ///< 0 when the torque is known to be held
+  double correlation_s = 0.02;  ///< s, for which what the model misses stays the same: fixed, not matched
+  std::vector<double> floor;    ///< N m or N, one a joint
 };
 
 /// All that a Kalman filter needs to follow a healthy run of the identified robot.

@@ -11,6 +11,10 @@
 namespace faultline {
 namespace {
 
+// Of a share of the step that is uniform in 0..1: its variance is 1/12, its mean square 1/3, where a fault of
+// the whole step has 1.
+constexpr double kUniformSpread = 12.0;
+constexpr double kSizeExcess = 2.0 / 3.0;
 constexpr double kWanderingTime_s = 0.1;  // a size that wanders changes by its scale in this time
 
 JointArray mean_torque(const MotionModel& model, const Step& step) {
@@ -26,13 +30,15 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
   const int n = model.joints();
   const JointArray torque = mean_torque(model, step);
   const GaussianState before = state;
-  const Acceleration at = dynamics.integrate(&state.mean[0], &state.mean[n], torque.data(), step.dt,
-                                             hypothesis, &state.mean[2 * n]);
+  MotionState motion = motion_of(state.mean, n);
+  const Acceleration at =
+      dynamics.integrate(motion, torque, step.dt, {hypothesis, sizes_of(state.mean, n, state.size)});
+  set_motion(state.mean, motion, n);
   const Transition a =
       step.dt <= kAnalyticStep_s
           ? analytic_transition(state, at, n, step.dt, hypothesis && is_everywhere(*hypothesis))
           : numeric_transition(before, model, dynamics, torque, step.dt, hypothesis);
-  propagate_covariance(state, a.data());
+  propagate_covariance(state, a);
   return at;
 }
 
@@ -42,9 +48,8 @@ void zero_state(GaussianState& state, int index) {
 }
 
 /// From a fault at the start of the step (`state`) and one at its end (`late`) to one at an unknown moment.
-void blend_onset(GaussianState& state, const std::array<double, kMaxStates>& late,
-                 const std::array<double, kMaxStates>& prior_variance, int n) {
-  std::array<double, kMaxStates> d;
+void blend_onset(GaussianState& state, const StateVector& late, const StateVector& prior_variance, int n) {
+  StateVector d;
   for (int i = 0; i < 2 * n; ++i) {
     d[i] = state.mean[i] - late[i];
     state.mean[i] = 0.5 * (state.mean[i] + late[i]);
@@ -54,7 +59,7 @@ void blend_onset(GaussianState& state, const std::array<double, kMaxStates>& lat
       double from_sizes = 0.0;  // B P B^T, from the covariance of state and size, which is B P
       for (int s = 2 * n; s < state.size; ++s)
         from_sizes += state.p(i, s) * state.p(j, s) / prior_variance[s];
-      state.p(i, j) += d[i] * d[j] / 12.0 - 2.0 / 3.0 * from_sizes;
+      state.p(i, j) += d[i] * d[j] / kUniformSpread - kSizeExcess * from_sizes;
     }
   }
   for (int i = 0; i < 2 * n; ++i) {
@@ -67,11 +72,11 @@ void blend_onset(GaussianState& state, const std::array<double, kMaxStates>& lat
 
 /// Change of velocity when the joint of a locked hypothesis stops: its own, and where the lock is rigid also
 /// that of the others.
-JointArray stopping(const double* mean, const FaultDynamics& dynamics, const Hypothesis& hypothesis) {
-  const int n = dynamics.joints(), joint = hypothesis.joint_index();
+JointArray stopping(const MotionState& motion, const FaultDynamics& dynamics, const Hypothesis& hypothesis) {
+  const int joint = hypothesis.joint_index();
   JointArray change{};
-  if (hypothesis.variant) change = dynamics.stopping_impulse(mean, mean + n, joint);
-  change[joint] = -mean[n + joint];
+  if (hypothesis.form == HypothesisForm::rigid_lock) change = dynamics.stopping_impulse(motion, joint);
+  change[joint] = -motion.dq[joint];
   return change;
 }
 
@@ -113,22 +118,25 @@ void predict_onset(GaussianState& state, const MotionModel& model, const FaultDy
   if (describe(hypothesis.label.kind).acts_on != FaultActsOn::motion)
     return predict(state, model, dynamics, step, nullptr, 0.0);
   const bool locks = hypothesis.label.kind == FaultKind::locked;
-  std::array<double, kMaxStates> prior_variance;
+  StateVector prior_variance;
   for (int s = 2 * n; s < state.size; ++s) prior_variance[s] = state.p(s, s);
   const JointArray torque = mean_torque(model, step);
-  std::array<double, kMaxStates> late = state.mean;  // healthy up to the end of the step
-  dynamics.integrate(&late[0], &late[n], torque.data(), step.dt, nullptr, nullptr);
+  const MotionState early = motion_of(state.mean, n);
+  MotionState late = early;  // healthy up to the end of the step
+  dynamics.integrate(late, torque, step.dt);
   if (locks) {
-    const JointArray early_stop = stopping(state.mean.data(), dynamics, hypothesis);
-    const JointArray late_stop = stopping(late.data(), dynamics, hypothesis);
+    const JointArray early_stop = stopping(early, dynamics, hypothesis);
+    const JointArray late_stop = stopping(late, dynamics, hypothesis);
     for (int i = 0; i < n; ++i) {
       state.mean[n + i] += early_stop[i];
-      late[n + i] += late_stop[i];
+      late.dq[i] += late_stop[i];
     }
     zero_state(state, n + hypothesis.joint_index());
   }
   predict(state, model, dynamics, step, &hypothesis, 0.0);
-  blend_onset(state, late, prior_variance, n);
+  StateVector late_mean;
+  set_motion(late_mean, late, n);
+  blend_onset(state, late_mean, prior_variance, n);
 }
 
 GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothesis,

@@ -6,14 +6,14 @@
 
 namespace faultline {
 
-/// From one sample to the next.
+/// From one sample to the next; lists have an entry a joint.
 struct Step {
-  double dt = 0.0;                            ///< s
-  const double* torque = nullptr;             ///< logged at its start, n numbers
-  const double* next_torque = nullptr;        ///< logged at its end
-  const bool* pressed = nullptr;              ///< at its end: joints that an end stop may hold; null for none
-  const bool* torque_missing = nullptr;       ///< at its start: torque held over because none was logged
-  const bool* next_torque_missing = nullptr;  ///< at its end
+  double dt = 0.0;                              ///< s
+  std::span<const double> torque{};             ///< logged at its start, N m or N
+  std::span<const double> next_torque{};        ///< logged at its end
+  std::span<const bool> pressed{};              ///< at its end: joints that an end stop may hold; or empty
+  std::span<const bool> torque_missing{};       ///< at its start: held over because none was logged; or empty
+  std::span<const bool> next_torque_missing{};  ///< at its end
 };
 
 /// The Kalman prediction of q, dq (and fault sizes) over a step, healthy when `hypothesis` is null. `age_s`

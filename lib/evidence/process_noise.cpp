@@ -7,9 +7,16 @@
 namespace faultline {
 namespace {
 
-constexpr double kMissingShare =
-    0.5;                             // of the largest torque: what a torque that was not logged may be off by
-constexpr double kRestWidths = 3.0;  // friction is uncertain within this many widths of zero velocity
+// Of the largest torque: what a torque that was not logged may be off by.
+constexpr double kMissingShare = 0.5;
+// Friction is uncertain within this many widths of zero velocity, where its tanh is not yet 1 (to 0.5 %).
+constexpr double kRestWidths = 3.0;
+
+/// White noise of acceleration over dt that gives the velocity the variance v gives the position v dt^2 / 3
+/// (and v dt / 2 between them).
+constexpr double kIntegratedNoise = 3.0;
+
+bool is_set(std::span<const bool> flags, int j) { return !flags.empty() && flags[j]; }
 
 /// Variance of the torque impulse that the model misses at joint j over the step.
 double impulse_variance(const MotionModel& model, const Step& step, const GaussianState& state, int j) {
@@ -22,8 +29,7 @@ double impulse_variance(const MotionModel& model, const Step& step, const Gaussi
     const double rest = noise.rest_share * friction.coulomb;
     variance += rest * rest;
   }
-  if ((step.torque_missing && step.torque_missing[j]) ||
-      (step.next_torque_missing && step.next_torque_missing[j])) {
+  if (is_set(step.torque_missing, j) || is_set(step.next_torque_missing, j)) {
     const double guess = kMissingShare * model.torque_scale[j];
     return step.dt * step.dt * guess * guess;
   }
@@ -44,7 +50,7 @@ void add_process_noise(GaussianState& state, const Acceleration& at, const Motio
       double sum = 0.0;
       for (int j = 0; j < n; ++j)
         sum += at.inverse_inertia[i * n + j] * variance[j] * at.inverse_inertia[k * n + j];
-      const double half = 0.5 * step.dt * sum, third = step.dt * step.dt * sum / 3.0;
+      const double half = 0.5 * step.dt * sum, third = step.dt * step.dt * sum / kIntegratedNoise;
       state.p(n + i, n + k) += sum;
       state.p(i, n + k) += half;
       state.p(n + i, k) += half;
@@ -61,11 +67,11 @@ void add_process_noise(GaussianState& state, const Acceleration& at, const Motio
 void allow_end_stops(GaussianState& state, const MotionModel& model, const Step& step) {
   const int n = model.joints();
   for (int j = 0; j < n; ++j) {
-    if (!step.pressed || !step.pressed[j]) continue;
+    if (!is_set(step.pressed, j)) continue;
     const double push = model.torque_scale[j] * step.dt / model.inertia_scale[j];
     const double variance = state.mean[n + j] * state.mean[n + j] + push * push;
     state.p(n + j, n + j) += variance;
-    state.p(j, j) += step.dt * step.dt * variance / 3.0;
+    state.p(j, j) += step.dt * step.dt * variance / kIntegratedNoise;
     state.p(j, n + j) += 0.5 * step.dt * variance;
     state.p(n + j, j) += 0.5 * step.dt * variance;
   }

@@ -7,9 +7,9 @@
 namespace faultline {
 
 /// How large faults are thought to be before anything is seen of them, against what the healthy logs show.
-/// Wide enough for every size that the twin draws, and no wider: a wide prior costs likelihood.
+/// Two to three of these standard deviations hold what the twin draws; wider priors cost likelihood.
 struct SizePriorOptions {
-  double bias_share = 0.02;   ///< of the joint's range: some degrees, a few teeth of a slipped coupling
+  double bias_share = 0.02;   ///< of the joint's range: some degrees
   double drift_share = 0.02;  ///< of the joint's range, in a second
   double friction_share =
       0.05;  ///< of the joint's usual torque: added friction at least, where there was none

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
-#include "lib/robot/chain.hpp"
+#include "lib/evidence/joint_array.hpp"
 
 namespace faultline {
-
-using JointArray = std::array<double, kMaxJoints>;
-using JointSquare = std::array<double, kMaxJoints * kMaxJoints>;  ///< row by row, n numbers each
 
 /// Inverse of the `count` x `count` matrix in `work` (destroyed) by Gauss-Jordan without pivoting: for
 /// positive definite matrices and those near the identity.

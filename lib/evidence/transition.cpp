@@ -9,6 +9,9 @@
 namespace faultline {
 namespace {
 
+constexpr double kSeriesSuffices = 0.01;  // of dt M^-1 D: two terms are then good to 1e-4
+constexpr double kDifference = 1e-6;      // of a state, or of 1 in its unit: between rounding and curvature
+
 /// V = (1 + dt M^-1 D)^-1 with D the friction slope, by two terms of the series or Gauss-Jordan.
 JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
   JointSquare x, v{};
@@ -20,7 +23,7 @@ JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
     }
   }
   for (int i = 0; i < n; ++i) v[i * n + i] = 1.0;
-  if (largest < 0.01) {
+  if (largest < kSeriesSuffices) {
     for (int i = 0; i < n * n; ++i) v[i] -= x[i];
     return v;
   }
@@ -60,14 +63,16 @@ Transition numeric_transition(const GaussianState& before, const MotionModel& mo
   Transition a;
   const int n = model.joints(), size = before.size;
   std::fill_n(a.begin(), size * size, 0.0);
-  auto integrate = [&](std::array<double, kMaxStates>& x) {
-    dynamics.integrate_coarsely(&x[0], &x[n], torque.data(), dt, hypothesis, &x[2 * n]);
+  auto integrate = [&](StateVector& x) {
+    MotionState motion = motion_of(x, n);
+    dynamics.integrate_coarsely(motion, torque, dt, {hypothesis, sizes_of(x, n, size)});
+    set_motion(x, motion, n);
   };
-  std::array<double, kMaxStates> base = before.mean;
+  StateVector base = before.mean;
   integrate(base);
   for (int column = 0; column < size; ++column) {
-    std::array<double, kMaxStates> moved = before.mean;
-    const double delta = 1e-6 * std::max(1.0, std::abs(moved[column]));
+    StateVector moved = before.mean;
+    const double delta = kDifference * std::max(1.0, std::abs(moved[column]));
     moved[column] += delta;
     integrate(moved);
     for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - base[row]) / delta;

@@ -9,6 +9,9 @@ namespace faultline {
 /// d(state after the step) / d(state before), row by row, `size` numbers each.
 using Transition = std::array<double, kMaxStates * kMaxStates>;
 
+/// Steps up to this long (s) take the analytic transition, longer ones the numeric.
+inline constexpr double kAnalyticStep_s = 0.012;
+
 /// For short steps, from the friction slope and inverse inertia in `at`; the change of the rigid-body torque
 /// with position and speed over a step is left out. `each_joint_has_a_size` when the sizes are torques, one a
 /// joint.

@@ -112,7 +112,7 @@ TEST(SizeText, IsThatOfTheBestHypothesisOfTheLabel) {
   const Model model = agreed_on(kDrift1);
   EpisodeEvidence episode = episode_of_fault(model, kDrift1, 80.0, 0.01);
   for (std::size_t h = 0; h < model.bank.size(); ++h)
-    if (model.bank[h].label == kDrift1 && model.bank[h].variant) {
+    if (model.bank[h].label == kDrift1 && model.bank[h].form == HypothesisForm::drifting_velocity) {
       episode.hypotheses[h].log_likelihood_ratio = 100.0;
       episode.hypotheses[h].size[0] = 0.02;
       episode.best = static_cast<int>(h);

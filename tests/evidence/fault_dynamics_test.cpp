@@ -13,14 +13,17 @@ using mechanical::draw_torque;
 using mechanical::every_fault;
 using mechanical::Fault;
 using mechanical::fault_of;
+using mechanical::joint_array;
+using mechanical::motion_of;
 using mechanical::name_of;
+using mechanical::sized;
 using mechanical::Twin;
 using State = FaultyScara::State;
 using Triple = FaultyScara::Triple;
 
 Acceleration evaluated(const FaultDynamics& dynamics, const State& x, const Triple& torque,
                        const Fault& fault) {
-  return dynamics.evaluate(x.q.data(), x.dq.data(), torque.data(), &fault.hypothesis, fault.size.data());
+  return dynamics.evaluate(motion_of(x), joint_array(torque), sized(fault));
 }
 
 /// Largest difference of q and dq between integrate() over `dt` and the closed form, over some states.
@@ -30,10 +33,11 @@ double largest_error(const Twin& twin, Fault fault, double dt, double fine_step_
   Random random(3);
   double largest = 0.0;
   for (int draw = 0; draw < 5; ++draw) {
-    State x = draw_state(random, fault);
+    const State start = draw_state(random, fault);
     const Triple torque = draw_torque(random);
-    const State expected = fault.truth.after(x, torque, dt, steps);
-    twin.dynamics.integrate(x.q.data(), x.dq.data(), torque.data(), dt, &fault.hypothesis, fault.size.data());
+    const State expected = fault.truth.after(start, torque, dt, steps);
+    MotionState x = motion_of(start);
+    twin.dynamics.integrate(x, joint_array(torque), dt, sized(fault));
     for (int j = 0; j < 3; ++j)
       largest = std::max({largest, std::abs(x.q[j] - expected.q[j]), std::abs(x.dq[j] - expected.dq[j])});
   }
@@ -60,7 +64,7 @@ TEST(FaultDynamics, WithoutAHypothesisTheRobotIsHealthy) {
   Random random(2);
   const State x = draw_state(random, fault_of(FaultKind::sensor_bias, 1));
   const Triple torque = draw_torque(random), expected = twin.truth.acceleration(x, torque);
-  const Acceleration at = twin.dynamics.evaluate(x.q.data(), x.dq.data(), torque.data(), nullptr, nullptr);
+  const Acceleration at = twin.dynamics.evaluate(motion_of(x), joint_array(torque));
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(at.value[j], expected[j], 1e-9 * (1.0 + std::abs(expected[j])));
 }
 
@@ -160,10 +164,10 @@ TEST(Integrate, ASlideThroughSharpFrictionIsExact) {
   robot.fv = robot.fo = {0.0, 0.0, 0.0};
   robot.width = {1e-4, 1e-4, 1e-4};
   const Twin twin(robot);
-  State x{{0.0, 0.5, 0.0}, {0.0, 0.0, 1.0}};
+  MotionState x = motion_of(State{{0.0, 0.5, 0.0}, {0.0, 0.0, 1.0}});
   const Triple hold = {0.0, 0.0, robot.m3 * 9.81};
   constexpr double kStep_s = 0.073;
-  twin.dynamics.integrate(x.q.data(), x.dq.data(), hold.data(), kStep_s, nullptr, nullptr);
+  twin.dynamics.integrate(x, joint_array(hold), kStep_s);
   const double braking = 8.0 / robot.m3;
   EXPECT_NEAR(x.dq[2], 1.0 - braking * kStep_s, 1e-9);
   EXPECT_NEAR(x.q[2], kStep_s - 0.5 * braking * kStep_s * kStep_s, 1e-9);
@@ -175,10 +179,9 @@ double speed_left(double width, double dt) {
   robot.width = {width, width, width};
   robot.fo = {0.0, 0.0, 0.0};
   const Twin twin(robot);
-  State x{{0.0, 0.5, -0.1}, {0.01, -0.01, 0.005}};
+  MotionState x = motion_of(State{{0.0, 0.5, -0.1}, {0.01, -0.01, 0.005}});
   const Triple hold = {0.0, 0.0, robot.m3 * 9.81};
-  for (int k = 0; k < 20; ++k)
-    twin.dynamics.integrate(x.q.data(), x.dq.data(), hold.data(), dt, nullptr, nullptr);
+  for (int k = 0; k < 20; ++k) twin.dynamics.integrate(x, joint_array(hold), dt);
   return std::max({std::abs(x.dq[0]), std::abs(x.dq[1]), std::abs(x.dq[2])});
 }
 
@@ -200,9 +203,8 @@ TEST(Integrate, ReturnsTheMiddleOfAShortStepAndTheStartOfALongOne) {
   const Triple torque = {15.0, -6.0, 30.0}, at_start = fault.truth.acceleration(start, torque),
                in_middle = fault.truth.acceleration(fault.truth.after(start, torque, 0.002), torque);
   for (const double dt : {0.004, 0.02}) {
-    State x = start;
-    const Acceleration at = twin.dynamics.integrate(x.q.data(), x.dq.data(), torque.data(), dt,
-                                                    &fault.hypothesis, fault.size.data());
+    MotionState x = motion_of(start);
+    const Acceleration at = twin.dynamics.integrate(x, joint_array(torque), dt, sized(fault));
     for (int j = 0; j < 3; ++j) {
       const double apart = std::abs(in_middle[j] - at_start[j]);
       if (dt > kShortStep_s)
@@ -217,11 +219,11 @@ TEST(IntegrateCoarsely, IsGoodEnoughForDerivatives) {
   const Twin twin;
   Random random(5);
   for (const Fault& fault : every_fault()) {
-    State x = draw_state(random, fault);
+    const State start = draw_state(random, fault);
     const Triple torque = draw_torque(random);
-    const State expected = fault.truth.after(x, torque, 0.05);
-    twin.dynamics.integrate_coarsely(x.q.data(), x.dq.data(), torque.data(), 0.05, &fault.hypothesis,
-                                     fault.size.data());
+    const State expected = fault.truth.after(start, torque, 0.05);
+    MotionState x = motion_of(start);
+    twin.dynamics.integrate_coarsely(x, joint_array(torque), 0.05, sized(fault));
     for (int j = 0; j < 3; ++j) {
       EXPECT_NEAR(x.q[j], expected.q[j], 0.02) << name_of(fault);
       EXPECT_NEAR(x.dq[j], expected.dq[j], 0.3) << name_of(fault);
@@ -237,7 +239,7 @@ TEST(StoppingImpulse, StopsTheJointAndKeepsTheMomentumOfTheOthers) {
                c = r.l1 * r.l2 * (r.m2 / 2.0 + r.m3) * std::cos(x.q[1]);
   const double m[3][3] = {{a + b + 2.0 * c, b + c, 0.0}, {b + c, b, 0.0}, {0.0, 0.0, r.m3}};
   for (int stopped = 0; stopped < 3; ++stopped) {
-    const JointArray change = twin.dynamics.stopping_impulse(x.q.data(), x.dq.data(), stopped);
+    const JointArray change = twin.dynamics.stopping_impulse(motion_of(x), stopped);
     EXPECT_NEAR(x.dq[stopped] + change[stopped], 0.0, 1e-12);
     double energy_change = 0.0;
     for (int i = 0; i < 3; ++i) {

@@ -81,7 +81,7 @@ TEST(GaussianState, PropagationIsTheDenseProduct) {
   GaussianState state = random_state(8, random);
   const Eigen::MatrixXd p = covariance_of(state), a = random_matrix(8, random);
   const Eigen::Matrix<double, 8, 8, Eigen::RowMajor> rows = a;
-  propagate_covariance(state, rows.data());
+  propagate_covariance(state, std::span(rows.data(), rows.size()));
   EXPECT_LT((covariance_of(state) - a * p * a.transpose()).norm(), 1e-10);
   EXPECT_EQ(covariance_of(state), covariance_of(state).transpose());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct Fault {
 };
 
 inline Fault fault_of(FaultKind kind, int joint, FaultyScara::Triple size = {}) {
-  Fault fault{{{kind, joint}, 0.1, false, 2}, size, {}};
+  const HypothesisForm form = joint == 0 ? HypothesisForm::push_on_all_joints : HypothesisForm::usual;
+  Fault fault{{{kind, joint}, 0.1, form, 2}, size, {}};
   FaultyScara& truth = fault.truth;
   if (kind == FaultKind::payload_change) truth.m3 += size[0];
   if (kind == FaultKind::locked) truth.locked = joint - 1;
@@ -67,6 +69,16 @@ inline std::vector<Fault> every_fault() {
   }
   return all;
 }
+
+inline SizedFault sized(const Fault& fault) { return {&fault.hypothesis, fault.size}; }
+
+inline JointArray joint_array(const FaultyScara::Triple& values) {
+  JointArray out{};
+  std::copy(values.begin(), values.end(), out.begin());
+  return out;
+}
+
+inline MotionState motion_of(const FaultyScara::State& x) { return {joint_array(x.q), joint_array(x.dq)}; }
 
 inline std::string name_of(const Fault& fault) { return label_text(fault.hypothesis.label); }
 

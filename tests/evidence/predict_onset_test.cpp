@@ -121,10 +121,11 @@ TEST(PredictOnset, VelocitiesAreThoseOfAFaultAtAnyMomentOfTheStep) {
 
 TEST(PredictOnset, ARigidLockJoltsTheOtherJoints) {
   const PredictionWorld world;
-  const Hypothesis soft{{FaultKind::locked, 2}, 0.0, false, 0}, rigid{{FaultKind::locked, 2}, 0.0, true, 0};
+  const Hypothesis soft{{FaultKind::locked, 2}, 0.0, HypothesisForm::usual, 0},
+      rigid{{FaultKind::locked, 2}, 0.0, HypothesisForm::rigid_lock, 0};
   const GaussianState a = onset_of(world, soft, world.before(), 0.002),
                       b = onset_of(world, rigid, world.before(), 0.002);
-  const JointArray jolt = world.dynamics.stopping_impulse(world.start.q.data(), world.start.dq.data(), 1);
+  const JointArray jolt = world.dynamics.stopping_impulse(mechanical::motion_of(world.start), 1);
   EXPECT_GT(std::abs(jolt[0]), 0.1);
   EXPECT_NEAR(b.mean[3] - a.mean[3], jolt[0], 0.05 * std::abs(jolt[0]));
   EXPECT_EQ(b.mean[4], 0.0);
@@ -134,7 +135,7 @@ TEST(PredictOnset, ARigidLockJoltsTheOtherJoints) {
 
 TEST(PredictOnset, ALockStopsTheJointSomewhereInTheStep) {
   const PredictionWorld world;
-  const Hypothesis soft{{FaultKind::locked, 1}, 0.0, false, 0};
+  const Hypothesis soft{{FaultKind::locked, 1}, 0.0, HypothesisForm::usual, 0};
   const GaussianState a = onset_of(world, soft, world.before(), 0.01);
   EXPECT_NEAR(a.mean[0], world.start.q[0] + 0.5 * 0.01 * world.start.dq[0], 3e-4);
   const double way = 0.01 * world.start.dq[0];
@@ -145,7 +146,7 @@ TEST(PredictOnset, AFaultySensorChangesNothingOfTheMotion) {
   const PredictionWorld world;
   for (const FaultKind kind :
        {FaultKind::sensor_bias, FaultKind::sensor_drift, FaultKind::stuck_encoder, FaultKind::none}) {
-    const Hypothesis hypothesis{{kind, kind == FaultKind::none ? 0 : 2}, 0.0, false, 0};
+    const Hypothesis hypothesis{{kind, kind == FaultKind::none ? 0 : 2}, 0.0, HypothesisForm::usual, 0};
     GaussianState healthy = world.before();
     predict(healthy, world.model, world.dynamics, world.step(0.01), nullptr, 0.0);
     const GaussianState state = onset_of(world, hypothesis, world.before(), 0.01);

@@ -52,7 +52,7 @@ TEST(Predict, TheTorqueLiesBetweenTheSamplesByPhi) {
   for (int j = 0; j < 3; ++j) between[j] = 0.75 * world.torque[j] + 0.25 * next[j];
   GaussianState state = world.before();
   Step step = world.step(0.01);
-  step.next_torque = next.data();
+  step.next_torque = next;
   predict(state, world.model, world.dynamics, step, nullptr, 0.0);
   expect_near_truth(state, world.truth.after(world.start, between, 0.01), 1e-5, "healthy");
 }
@@ -137,7 +137,7 @@ TEST(Predict, WhatTheTorqueDidBetweenTheSamplesIsNoise) {
   world.model.noise.step_share = 0.3;
   const Triple next = {6.5, -3.0, 22.0};
   Step step = world.step(0.01);
-  step.next_torque = next.data();
+  step.next_torque = next;
   EXPECT_TRUE(noise_of_joint_3(world, step).isApprox(of_impulse(1e-4 * 9.0, 2.5, 0.01), 1e-9));
 }
 
@@ -147,7 +147,7 @@ TEST(Predict, AMissingTorqueMayBeHalfTheLargest) {
   Step step = world.step(0.01);
   step.torque_missing = missing;
   EXPECT_TRUE(noise_of_joint_3(world, step).isApprox(of_impulse(1e-4 * 400.0, 2.5, 0.01), 1e-9));
-  step.torque_missing = nullptr;
+  step.torque_missing = {};
   step.next_torque_missing = missing;
   EXPECT_TRUE(noise_of_joint_3(world, step).isApprox(of_impulse(1e-4 * 400.0, 2.5, 0.01), 1e-9));
 }
@@ -166,7 +166,7 @@ TEST(Predict, AnEndStopMayStopOrPushAPressedJoint) {
 
 TEST(Predict, ALockedJointsVelocityIsKnown) {
   const PredictionWorld world;
-  const Hypothesis locked{{FaultKind::locked, 2}, 0.0, false, 0};
+  const Hypothesis locked{{FaultKind::locked, 2}, 0.0, HypothesisForm::usual, 0};
   GaussianState state = world.before();
   predict(state, world.model, world.dynamics, world.step(0.01), &locked, 0.1);
   EXPECT_EQ(state.mean[4], 0.0);
@@ -176,7 +176,8 @@ TEST(Predict, ALockedJointsVelocityIsKnown) {
 TEST(Predict, APushIsOverAfterItsDuration) {
   const PredictionWorld world;
   for (const int joint : {0, 2}) {
-    const Hypothesis push{{FaultKind::collision, joint}, 0.04, false, joint ? 1 : 3};
+    const HypothesisForm form = joint ? HypothesisForm::usual : HypothesisForm::push_on_all_joints;
+    const Hypothesis push{{FaultKind::collision, joint}, 0.04, form, joint ? 1 : 3};
     GaussianState state = with_sizes(world.before(), push, world.model.priors);
     for (int s = 6; s < state.size; ++s) state.mean[s] = 3.0;
     GaussianState during = state;
@@ -194,7 +195,7 @@ TEST(Predict, APushIsOverAfterItsDuration) {
 
 TEST(Predict, AnUnknownTorqueWandersByItsScaleInATenthOfASecond) {
   const PredictionWorld world;
-  const Hypothesis unknown{{FaultKind::unknown, 1}, 0.0, false, 1};
+  const Hypothesis unknown{{FaultKind::unknown, 1}, 0.0, HypothesisForm::usual, 1};
   GaussianState state = with_sizes(world.before(), unknown, world.model.priors);
   predict(state, world.model, world.dynamics, world.step(0.01), &unknown, 0.0);
   EXPECT_NEAR(state.p(6, 6), 4.0 * (1.0 + 0.1), 1e-12);

@@ -24,7 +24,7 @@ struct PredictionWorld : Twin {
     model.priors.coulomb_increase = {1.0, 0.5, 2.0};
   }
 
-  Step step(double dt) const { return {dt, torque.data(), torque.data(), nullptr, nullptr, nullptr}; }
+  Step step(double dt) const { return {.dt = dt, .torque = torque, .next_torque = torque}; }
 
   /// The healthy state before the step; the velocity of a locked joint is known to be 0.
   GaussianState before(int locked = -1) const {
@@ -43,17 +43,17 @@ struct PredictionWorld : Twin {
 
 /// The hypotheses whose faults act on the motion, each with as many sizes as the bank gives it.
 inline std::vector<Hypothesis> moving_hypotheses() {
-  return {{{FaultKind::free_swinging, 1}, 0.0, false, 0},
-          {{FaultKind::free_swinging, 3}, 0.0, false, 0},
-          {{FaultKind::torque_loss, 1}, 0.0, false, 1},
-          {{FaultKind::torque_loss, 2}, 0.0, false, 1},
-          {{FaultKind::locked, 2}, 0.0, false, 0},
-          {{FaultKind::friction_increase, 1}, 0.0, false, 2},
-          {{FaultKind::friction_increase, 3}, 0.0, false, 2},
-          {{FaultKind::payload_change, 3}, 0.0, false, 1},
-          {{FaultKind::collision, 2}, 0.1, false, 1},
-          {{FaultKind::collision, 0}, 0.1, false, 3},
-          {{FaultKind::unknown, 1}, 0.0, false, 1}};
+  return {{{FaultKind::free_swinging, 1}, 0.0, HypothesisForm::usual, 0},
+          {{FaultKind::free_swinging, 3}, 0.0, HypothesisForm::usual, 0},
+          {{FaultKind::torque_loss, 1}, 0.0, HypothesisForm::usual, 1},
+          {{FaultKind::torque_loss, 2}, 0.0, HypothesisForm::usual, 1},
+          {{FaultKind::locked, 2}, 0.0, HypothesisForm::usual, 0},
+          {{FaultKind::friction_increase, 1}, 0.0, HypothesisForm::usual, 2},
+          {{FaultKind::friction_increase, 3}, 0.0, HypothesisForm::usual, 2},
+          {{FaultKind::payload_change, 3}, 0.0, HypothesisForm::usual, 1},
+          {{FaultKind::collision, 2}, 0.1, HypothesisForm::usual, 1},
+          {{FaultKind::collision, 0}, 0.1, HypothesisForm::push_on_all_joints, 3},
+          {{FaultKind::unknown, 1}, 0.0, HypothesisForm::usual, 1}};
 }
 
 inline FaultyScara::State state_of(const Eigen::VectorXd& x) {
