@@ -124,7 +124,7 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
   }
   features.push_back(std::log1p(best));
   features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));
-  features.push_back(std::log(std::max(episode.judged_s - episode.onset_s, 1e-3)));
+  features.push_back(std::log(std::max(episode.isolated_s - episode.onset_s, 1e-3)));
   for (int j = 0; j < joints; ++j) {
     const double rms = j < std::ssize(residuals) ? residuals[j].velocity_rms : kNotMeasured;
     features.push_back(std::isfinite(rms) ? std::log(std::max(rms, 1e-3)) : 0.0);

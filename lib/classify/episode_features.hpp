@@ -37,9 +37,9 @@ LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
 /// loss of nearly all torque counts for the free joint.
 double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
 
-/// The numbers the two networks judge an episode by: for each label how far it stays behind the likeliest and
-/// its size, how strong and how long the episode is, and the MLP's residual of each joint over the episode
-/// (root mean square in units of healthy; a joint without one counts as 1).
+/// The numbers the two networks classify an episode by: for each label how far it stays behind the likeliest
+/// and its size, how strong and how long the episode is, and the MLP's residual of each joint over the
+/// episode (root mean square in units of healthy; a joint without one counts as 1).
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
                                      std::span<const JointResidual> residuals, int joints);

@@ -12,7 +12,7 @@ namespace faultline {
 /// is made from.
 struct MonitoredEpisode {
   EpisodeEvidence evidence;
-  std::vector<JointResidual> residuals;  ///< of the MLP, a joint each, from onset to when it was judged
+  std::vector<JointResidual> residuals;  ///< of the MLP, a joint each, from onset to when it was named
 };
 
 }  // namespace faultline

@@ -39,7 +39,7 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   if (is_misread(hypotheses_[hypothesis]))
     pass_over(running, at);
   else
-    judge(running, at);
+    observe(running, at);
   return running;
 }
 
@@ -57,10 +57,10 @@ void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const
 void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
   predict(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
           &hypotheses_[running.hypothesis], before.time - running.onset_s);
-  judge(running, at);
+  observe(running, at);
 }
 
-void Bank::judge(RunningHypothesis& running, const FollowedSample& at) const {
+void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
   const Hypothesis& hypothesis = hypotheses_[running.hypothesis];
   const int n = model_.joints(), joint = hypothesis.joint_index();
   for (int j = 0; j < n; ++j) {

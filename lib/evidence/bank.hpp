@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/evidence/episode_evidence.hpp"
-#include "lib/evidence/follower.hpp"
+#include "lib/evidence/filter/follower.hpp"
 
 namespace faultline {
 
@@ -19,7 +19,7 @@ struct RunningHypothesis {
 };
 
 /// Runs hypotheses over samples that the healthy filter has followed. The history is a span of consecutive
-/// samples; sample 0 is never judged, it only gives states to start from.
+/// samples; sample 0 is never compared, it only gives states to start from.
 class Bank {
  public:
   Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses);
@@ -35,7 +35,7 @@ class Bank {
 
  private:
   void pass_over(RunningHypothesis& running, const FollowedSample& at) const;
-  void judge(RunningHypothesis& running, const FollowedSample& at) const;
+  void observe(RunningHypothesis& running, const FollowedSample& at) const;
 
   const MotionModel& model_;
   const FaultDynamics& dynamics_;

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "lib/evidence/bank.hpp"
-#include "lib/evidence/history.hpp"
-#include "lib/evidence/judgement.hpp"
+#include "lib/evidence/filter/history.hpp"
+#include "lib/evidence/hypothesis_test.hpp"
 #include "lib/evidence/trigger.hpp"
 
 namespace faultline {
@@ -72,30 +72,30 @@ class EpisodeDetector::Impl {
     if (statistic < kCalm * options_.trigger) follower_.learn_range(sample);
     if (!suspicious) return;
     looked_into_ = statistic;
-    judgement_.emplace(bank_, history_, options_, restart_, repeats);
+    test_.emplace(bank_, history_, options_, restart_, repeats);
     mode_ = Mode::testing;
   }
 
   void test() {
-    judgement_->advance();
-    if (judgement_->ready()) conclude(history_.back().time, history_.back().row);
+    test_->advance();
+    if (test_->ready()) conclude(history_.back().time, history_.back().row);
   }
 
   /// Names the fault, or lets the suspicion go when its evidence did not last.
   void conclude(double time_s, std::int64_t row) {
-    const GaussianState* misread = judgement_->misread();
+    const GaussianState* misread = test_->misread();
     if (misread) follower_.restore(*misread);
-    if (misread || !judgement_->alarmed() || judgement_->best_ratio() < options_.threshold) {
-      rejected_alarms += judgement_->alarmed();
-      if (!judgement_->alarmed()) largest_ratio = std::max(largest_ratio, judgement_->largest_ratio());
+    if (misread || !test_->alarmed() || test_->best_ratio() < options_.threshold) {
+      rejected_alarms += test_->alarmed();
+      if (!test_->alarmed()) largest_ratio = std::max(largest_ratio, test_->largest_ratio());
       rearm_row_ = row + kRearm;
       mode_ = Mode::watching;
     } else {
-      episodes.push_back(judgement_->evidence());
+      episodes.push_back(test_->evidence());
       episodes.back().end_s = last_faulty_s_ = time_s;
       mode_ = Mode::faulty;
     }
-    judgement_.reset();
+    test_.reset();
   }
 
   void look_for_end(const FollowedSample& sample, bool suspicious) {
@@ -115,7 +115,7 @@ class EpisodeDetector::Impl {
   Bank bank_;
   History history_;
   Mode mode_ = Mode::watching;
-  std::optional<Judgement> judgement_;
+  std::optional<HypothesisTest> test_;
   double last_faulty_s_ = 0.0;
   double last_time_s_ = 0.0;
   std::int64_t last_row_ = 0;

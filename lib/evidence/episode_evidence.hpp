@@ -26,11 +26,11 @@ struct EpisodeEvidence {
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< of the best hypothesis
   double alarm_s =
       std::numeric_limits<double>::quiet_NaN();  ///< first sample with the best ratio past the threshold
-  double judged_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that went into the ratios
-  double end_s = std::numeric_limits<double>::quiet_NaN();     ///< last sample that looked faulty
-  int samples = 0;                                             ///< from onset to judged_s
-  int best = -1;                                               ///< index into `hypotheses`
-  std::vector<HypothesisEvidence> hypotheses;                  ///< in the order of the bank
+  double isolated_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that went into the ratios
+  double end_s = std::numeric_limits<double>::quiet_NaN();       ///< last sample that looked faulty
+  int samples = 0;                                               ///< from onset to isolated_s
+  int best = -1;                                                 ///< index into `hypotheses`
+  std::vector<HypothesisEvidence> hypotheses;                    ///< in the order of the bank
   EvidenceTrace trace;
 };
 

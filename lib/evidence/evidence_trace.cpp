@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lib/evidence/bank.hpp"
-#include "lib/evidence/history.hpp"
+#include "lib/evidence/filter/history.hpp"
 
 namespace faultline {
 namespace {

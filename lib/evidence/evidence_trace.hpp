@@ -18,7 +18,7 @@ struct EvidenceCurve {
   std::vector<double> ratio;  ///< at EvidenceTrace::time; NaN before its onset
 };
 
-/// How the evidence of an episode grew until it was judged, for the labels that explain it best.
+/// How the evidence of an episode grew until the fault was named, for the labels that explain it best.
 struct EvidenceTrace {
   std::vector<double> time;           ///< s
   std::vector<EvidenceCurve> curves;  ///< the likeliest first

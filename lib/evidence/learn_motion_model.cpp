@@ -6,7 +6,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/evidence/episode_detector.hpp"
-#include "lib/evidence/follower.hpp"
+#include "lib/evidence/filter/follower.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {

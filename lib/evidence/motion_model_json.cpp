@@ -42,8 +42,8 @@ template <typename Options, typename Visit>
 void visit_options(Options& options, Visit visit) {
   visit("trigger", options.trigger);
   visit("threshold", options.threshold);
-  visit("judge_s", options.judge_s);
-  visit("longest_judge_s", options.longest_judge_s);
+  visit("judge_s", options.isolate_s);
+  visit("longest_judge_s", options.longest_isolate_s);
   visit("clear_margin", options.clear_margin);
   visit("confirm_s", options.confirm_s);
   visit("recover_s", options.recover_s);

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "lib/evidence/follower.hpp"
+#include "lib/evidence/filter/follower.hpp"
 
 namespace faultline {
 

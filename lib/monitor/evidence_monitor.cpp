@@ -38,7 +38,7 @@ void EvidenceMonitor::finish() {
 void EvidenceMonitor::summarise_new() {
   const std::vector<EpisodeEvidence>& detected = detector_.episodes();
   for (std::size_t i = residuals_.size(); i < detected.size(); ++i)
-    residuals_.push_back(recent_.between(detected[i].onset_s, detected[i].judged_s));
+    residuals_.push_back(recent_.between(detected[i].onset_s, detected[i].isolated_s));
 }
 
 std::vector<MonitoredEpisode> EvidenceMonitor::episodes() const {

@@ -27,7 +27,7 @@ struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
   TwinOptions twin{};              ///< how faults are simulated
-  int runs_per_label = 14;         ///< simulated to train the judges and fill the case base
+  int runs_per_label = 14;         ///< simulated to train the networks and fill the case base
   int validation_per_label = 5;    ///< simulated to measure the model, trained on by nothing
   int healthy_runs = 40;           ///< simulated to calibrate thresholds; as many again measure false alarms
   std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that the bank can name
@@ -46,7 +46,7 @@ struct Learned {
 };
 
 /// Learns one robot from its healthy logs: identify it, learn its fault-free motion, match the filters'
-/// noise, simulate faults on the identified robot, train the judges and fill the case base with them (and
+/// noise, simulate faults on the identified robot, train the networks and fill the case base with them (and
 /// with the labelled logs, if any), and measure all that on further simulated runs. Throws Error(input) when
 /// the logs do not suffice.
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,

@@ -22,7 +22,7 @@ struct Example {
 
   Example() {
     episode.onset_s = 1.0;
-    episode.judged_s = 1.5;
+    episode.isolated_s = 1.5;
     episode.samples = 50;
     episode.hypotheses.resize(bank.size());
     for (HypothesisEvidence& h : episode.hypotheses) h.log_likelihood_ratio = -40.0;
@@ -181,7 +181,7 @@ TEST(EpisodeFeatures, StayFiniteWhateverTheEvidence) {
     h.log_likelihood_ratio = -std::numeric_limits<double>::infinity();
   example.of({FaultKind::sensor_bias, 1}) = {1e5, 1.0, {1e9}, {}, {}};
   example.episode.samples = 0;
-  example.episode.judged_s = example.episode.onset_s;
+  example.episode.isolated_s = example.episode.onset_s;
   const std::vector<double> rms = {0.0, 1e9, kNaN};
   for (const double x : features(example, rms)) EXPECT_TRUE(std::isfinite(x));
 }

@@ -73,7 +73,7 @@ inline EpisodeEvidence episode_of_fault(const Model& model, const FaultLabel& la
   EpisodeEvidence episode;
   episode.onset_s = 2.0;
   episode.alarm_s = 2.1;
-  episode.judged_s = 2.7;
+  episode.isolated_s = 2.7;
   episode.end_s = 4.0;
   episode.samples = 70;
   episode.best = 0;

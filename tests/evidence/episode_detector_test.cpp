@@ -43,7 +43,7 @@ Log faulty_log(FaultKind kind, int joint, double size = 0.0, double length_s = 1
 }
 
 bool same(const EpisodeEvidence& a, const EpisodeEvidence& b) {
-  bool equal = a.onset_s == b.onset_s && a.alarm_s == b.alarm_s && a.judged_s == b.judged_s &&
+  bool equal = a.onset_s == b.onset_s && a.alarm_s == b.alarm_s && a.isolated_s == b.isolated_s &&
                a.end_s == b.end_s && a.samples == b.samples && a.best == b.best &&
                a.hypotheses.size() == b.hypotheses.size();
   for (std::size_t h = 0; equal && h < a.hypotheses.size(); ++h)
@@ -81,7 +81,7 @@ TEST_P(EachFault, IsNamedAtItsJointSoonAndNotEarly) {
   EXPECT_GE(first.alarm_s, kOnset_s);
   EXPECT_LE(first.alarm_s - kOnset_s, expected.latest_s);
   EXPECT_LE(first.onset_s, first.alarm_s);
-  EXPECT_LE(first.alarm_s, first.judged_s);
+  EXPECT_LE(first.alarm_s, first.isolated_s);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rrp, EachFault,
@@ -167,7 +167,7 @@ TEST(EpisodeDetector, AFaultAcrossAGapIsJudgedWithWhatThereIs) {
   for (int k = row; k < log.rows(); ++k) log.time[k] += 5.0;
   const auto episodes = detected(log);
   ASSERT_FALSE(episodes.empty());
-  EXPECT_LT(episodes.front().judged_s, log.time[row]);
+  EXPECT_LT(episodes.front().isolated_s, log.time[row]);
 }
 
 TEST(EpisodeDetector, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
@@ -178,7 +178,7 @@ TEST(EpisodeDetector, AFaultIsJudgedByWhatCameBeforeTheRobotRanAway) {
   ASSERT_FALSE(episodes.empty());
   EXPECT_EQ(label_text(named(episodes.front())), "free_swinging 2");
   EXPECT_GE(episodes.front().alarm_s, kOnset_s);
-  EXPECT_LT(episodes.front().judged_s, kOnset_s + 0.31);
+  EXPECT_LT(episodes.front().isolated_s, kOnset_s + 0.31);
 }
 
 TEST(EpisodeDetector, WithoutVelocitiesFaultsAreFoundLater) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/core/random.hpp"
-#include "lib/evidence/fault_dynamics.hpp"
+#include "lib/evidence/filter/fault_dynamics.hpp"
 #include "lib/fault/label_text.hpp"
 #include "tests/evidence/faulty_scara.hpp"
 #include "tests/support/hand_made_model.hpp"

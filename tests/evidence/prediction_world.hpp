@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "lib/evidence/prediction.hpp"
+#include "lib/evidence/filter/prediction.hpp"
 #include "tests/evidence/mechanical_faults.hpp"
 
 namespace faultline::mechanical {

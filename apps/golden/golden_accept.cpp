@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/exit_status.hpp"
+#include "apps/golden/golden.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+#include "lib/golden/accept.hpp"
+#include "lib/golden/check_text.hpp"
+
+namespace faultline {
+namespace {
+
+struct AcceptArguments : GoldenArguments {
+  std::vector<std::string> names;
+  bool all = false;
+};
+
+/// The item that the user means: by its name, or without the extension when that is clear.
+std::string item_named(const std::string& given, const GoldenCheck& check) {
+  std::vector<std::string> stems, names;
+  for (const CheckedItem& item : check.items) {
+    if (item.name == given) return item.name;
+    if (std::filesystem::path(item.name).stem() == given) stems.push_back(item.name);
+    names.push_back(item.name);
+  }
+  if (stems.size() == 1) return stems.front();
+  throw Error(ErrorCode::usage, given,
+              fmt::format("{}; expected one of {}",
+                          stems.empty() ? "is no log of this golden folder" : "could be more than one log",
+                          fmt::join(names, ", ")));
+}
+
+GoldenCheck only(const GoldenCheck& check, const std::vector<std::string>& names) {
+  GoldenCheck part = check;
+  std::erase_if(part.items, [&](const CheckedItem& item) {
+    return std::find(names.begin(), names.end(), item.name) == names.end();
+  });
+  return part;
+}
+
+std::vector<std::string> named_items(const AcceptArguments& arguments, const GoldenCheck& check) {
+  std::vector<std::string> names;
+  for (const std::string& given : arguments.names) names.push_back(item_named(given, check));
+  if (arguments.all || arguments.names.empty())
+    for (const CheckedItem& item : check.items) names.push_back(item.name);
+  return names;
+}
+
+/// Of the named ones those that change. With a new model all do.
+std::vector<std::string> changing(const GoldenCheck& part, bool new_model) {
+  std::vector<std::string> names;
+  for (const CheckedItem& item : part.items)
+    if (new_model || !item.same()) names.push_back(item.name);
+  return names;
+}
+
+int run_accept(const AcceptArguments& arguments, ColorChoice color) {
+  const GoldenSet set = load_golden(arguments.folder);
+  const ModelAndCases subject = golden_subject(arguments, set);
+  const GoldenRun run = golden_run(arguments, set, subject, color);
+  const GoldenCheck check = check_golden(set, run);
+  const GoldenCheck part = only(check, named_items(arguments, check));
+  print(render_check_text(part, use_color(color, stdout)));
+  if (!arguments.all && arguments.names.empty()) {
+    print(part.same() ? "There is nothing to accept.\n"
+                      : "Nothing was changed. Name the logs to accept, or give --all.\n");
+    return part.same() ? kNothingFound : kFindings;
+  }
+  const bool new_model = !arguments.model.empty();
+  const std::vector<std::string> names = changing(part, new_model);
+  if (names.empty()) {
+    print("There is nothing to accept.\n");
+    return kNothingFound;
+  }
+  accept_golden(arguments.folder, set, run, names,
+                new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{});
+  print(fmt::format("Accepted: {}{}\n", printable(fmt::format("{}", fmt::join(names, ", "))),
+                    new_model ? ", and the model" : ""));
+  return kNothingFound;
+}
+
+}  // namespace
+
+void add_golden_accept(CLI::App* golden, Program& program) {
+  auto arguments = std::make_shared<AcceptArguments>();
+  CLI::App* command =
+      golden->add_subcommand("accept", "Show what differs and make it what is expected, of the logs named");
+  command->fallthrough();
+  command->add_option("DIR", arguments->folder, "The golden folder")->required();
+  CLI::Option* names =
+      command->add_option("NAME", arguments->names, "Logs to accept, or identification; none: only show");
+  CLI::Option* all =
+      command->add_flag("--all", arguments->all, "Accept everything that differs")->excludes(names);
+  add_golden_model(*command, *arguments, "Take this model into the folder; needs --all");
+  command->get_option("--model")->needs(all);
+  add_golden_threads(*command, *arguments);
+  command->footer(
+      "Exit status 0: accepted or nothing to accept, 1: nothing named though something differs.\n"
+      "Example: faultline golden accept golden locked_1.csv identification");
+  command->callback([arguments, &program] {
+    program.run = [arguments, &program] { return run_accept(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline

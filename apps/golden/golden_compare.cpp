@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
+#include "apps/golden/golden.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/golden/check_text.hpp"
+#include "lib/golden/golden_folder.hpp"
+#include "lib/golden/run_json.hpp"
+
+namespace faultline {
+namespace {
+
+struct CompareArguments : GoldenArguments {
+  std::vector<std::string> sides;
+};
+
+/// What faultline golden check --json wrote holds its schema near the start; a model has another one.
+bool is_result(const std::string& text) {
+  return text.substr(0, 200).find("\"faultline/golden-check/") != std::string::npos;
+}
+
+GoldenRun side(const std::string& path, const CompareArguments& arguments, const GoldenSet& set,
+               ColorChoice color) {
+  if (const std::string text = read_file(path); is_result(text)) return run_from_json(text, path);
+  return golden_run(arguments, set, load_model_and_cases(path, case_base_path(path)), color);
+}
+
+int run_compare(const CompareArguments& arguments, ColorChoice color) {
+  const GoldenSet set = load_golden(arguments.folder);
+  const GoldenRun first = side(arguments.sides[0], arguments, set, color);
+  const GoldenRun second = arguments.sides.size() > 1
+                               ? side(arguments.sides[1], arguments, set, color)
+                               : golden_run(arguments, set, load_golden_model(arguments.folder, set), color);
+  const GoldenCheck check = compare_runs(set, first, second);
+  if (!arguments.json.empty()) write_file(arguments.json, render_check_json(check, second));
+  if (arguments.json != "-") print(render_check_text(check, use_color(color, stdout)));
+  return golden_status(check);
+}
+
+}  // namespace
+
+void add_golden_compare(CLI::App* golden, Program& program) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command =
+      golden->add_subcommand("compare", "Compare two models, or two program versions, on one golden folder");
+  command->fallthrough();
+  command->add_option("DIR", arguments->folder, "The golden folder")->required();
+  command
+      ->add_option("SIDE", arguments->sides,
+                   "A model (with " + case_base_path("MODEL") +
+                       " beside it), or what golden check --json wrote, by any version of the "
+                       "program; one alone is compared with the folder's model and this program")
+      ->required()
+      ->expected(1, 2);
+  add_golden_json(*command, *arguments);
+  add_golden_threads(*command, *arguments);
+  command->footer(
+      "Exit status 0: both say the same within the folder's tolerances, 1: they differ.\n"
+      "Example: faultline golden compare golden old.model new.model\n"
+      "         old/faultline golden check golden --json old.json; faultline golden compare golden old.json");
+  command->callback([arguments, &program] {
+    program.run = [arguments, &program] { return run_compare(*arguments, program.color); };
+  });
+}
+
+}  // namespace faultline

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "lib/evidence/filter/fault_load.hpp"
+#include "lib/evidence/filter/prediction.hpp"
+#include "lib/log/log.hpp"
+
+namespace faultline {
+
+/// A row of the log as the filters see it, with what the healthy filter made of it.
+struct FollowedSample {
+  std::int64_t row = 0;
+  double time = 0.0;  ///< s
+  double dt = 0.0;    ///< s since the sample before; 0 where the filter started anew
+  JointArray q;       ///< NaN where nothing was measured
+  JointArray dq;
+  JointArray torque;          ///< held over from the sample before where it is missing
+  JointFlags torque_missing;  ///< nobody knows what the drive did around this sample
+  JointFlags repeats;         ///< position and velocity equal the sample before, bit for bit
+  /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
+  /// may hold them, so their readings count for no hypothesis.
+  JointFlags pressed;
+  JointArray log_likelihood;  ///< of each joint's channels given the healthy past, chi-square capped
+  JointArray chi_square;      ///< of each joint's channels, capped
+  std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
+  double total_log_likelihood = 0.0;
+  GaussianState posterior;
+};
+
+/// The step that ends at a sample.
+Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before);
+
+/// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
+inline constexpr double kChiSquareCap = 36.0;
+
+/// Observes the measured channels of joint j.
+struct JointObservation {
+  double log_likelihood = 0.0;
+  double chi_square = 0.0;
+  double whitened_q = 0.0;
+  double whitened_dq = 0.0;
+};
+JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
+                               int j, const SensorError& error = {});
+
+/// Follows a log with the healthy filter, row by row; its state crosses segment borders.
+class Follower {
+ public:
+  explicit Follower(const MotionModel& model);
+
+  /// Takes row `row` of the segment and fills `out`.
+  void follow(const Log& segment, int row, FollowedSample& out);
+  /// The robot is healthy at this sample, so where its joints are belongs to the healthy range.
+  void learn_range(const FollowedSample& sample);
+  /// Goes on from another state at the last sample: of a filter that did not believe a wild value.
+  void restore(const GaussianState& state) { state_ = state; }
+  const FaultDynamics& dynamics() const { return dynamics_; }
+
+ private:
+  bool is_pressed(const FollowedSample& sample, int j) const;
+  void read_row(const Log& segment, int row, FollowedSample& out) const;
+  void start(FollowedSample& out);
+
+  const MotionModel& model_;
+  FaultDynamics dynamics_;
+  GaussianState state_;
+  bool started_ = false;
+  double last_time_ = 0.0;
+  double usual_dt_ = 0.0;
+  JointFlags last_torque_missing_{};
+  JointArray last_q_{}, last_dq_{}, last_torque_{};
+  JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
+};
+
+}  // namespace faultline

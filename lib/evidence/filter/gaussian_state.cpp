@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/filter/gaussian_state.hpp"
+
+#include <algorithm>
+
+namespace faultline {
+
+GaussianState& GaussianState::operator=(const GaussianState& other) {
+  size = other.size;
+  std::copy_n(other.mean.begin(), size, mean.begin());
+  std::copy_n(other.covariance.begin(), size * size, covariance.begin());
+  return *this;
+}
+
+GaussianState extended(const GaussianState& state, int size) {
+  GaussianState out;
+  out.size = size;
+  std::fill_n(out.mean.begin(), size, 0.0);
+  std::fill_n(out.covariance.begin(), size * size, 0.0);
+  std::copy_n(state.mean.begin(), state.size, out.mean.begin());
+  for (int i = 0; i < state.size; ++i)
+    for (int j = 0; j < state.size; ++j) out.p(i, j) = state.p(i, j);
+  return out;
+}
+
+ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
+                     double noise_variance) {
+  const int n = state.size;
+  StateVector ph;  // covariance times the observation row
+  for (int i = 0; i < n; ++i) ph[i] = state.p(i, index);
+  double predicted = state.mean[index];
+  if (other >= 0) {
+    for (int i = 0; i < n; ++i) ph[i] += factor * state.p(i, other);
+    predicted += factor * state.mean[other];
+  }
+  ScalarUpdate update;
+  update.innovation = z - predicted;
+  update.variance = ph[index] + (other >= 0 ? factor * ph[other] : 0.0) + noise_variance;
+  const double inverse = 1.0 / update.variance;
+  for (int i = 0; i < n; ++i) {
+    const double gain = ph[i] * inverse;
+    state.mean[i] += gain * update.innovation;
+    double* row = &state.covariance[i * n];
+    for (int j = 0; j < n; ++j) row[j] -= gain * ph[j];
+  }
+  return update;
+}
+
+void propagate_covariance(GaussianState& state, std::span<const double> transition) {
+  const int n = state.size;
+  std::array<double, kMaxStates * kMaxStates> half;  // A covariance
+  for (int i = 0; i < n; ++i) {
+    double* row = &half[i * n];
+    std::fill_n(row, n, 0.0);
+    for (int k = 0; k < n; ++k) {
+      const double a = transition[i * n + k];
+      if (a == 0.0) continue;
+      const double* source = &state.covariance[k * n];
+      for (int j = 0; j < n; ++j) row[j] += a * source[j];
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < n; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k < n; ++k) sum += half[i * n + k] * transition[j * n + k];
+      state.p(i, j) = sum;
+      state.p(j, i) = sum;
+    }
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "lib/evidence/filter/joint_array.hpp"
+
+namespace faultline {
+
+/// Positions, velocities and the numbers that say how large a fault is, at most one a joint (or two).
+inline constexpr int kMaxStates = 3 * kMaxJoints;
+
+using StateVector = std::array<double, kMaxStates>;
+
+/// Mean and covariance of a small state: q (n), dq (n), fault sizes.
+struct GaussianState {
+  int size = 0;
+  StateVector mean;
+  std::array<double, kMaxStates * kMaxStates> covariance;  ///< row by row, `size` numbers each
+
+  GaussianState() = default;
+  GaussianState(const GaussianState& other) { *this = other; }
+  GaussianState& operator=(const GaussianState& other);
+
+  double& p(int row, int column) { return covariance[row * size + column]; }
+  double p(int row, int column) const { return covariance[row * size + column]; }
+};
+
+/// q and dq of `n` joints, which begin a state vector, taken out of it and put back.
+inline MotionState motion_of(const StateVector& vector, int n) {
+  MotionState motion;
+  for (int j = 0; j < n; ++j) {
+    motion.q[j] = vector[j];
+    motion.dq[j] = vector[n + j];
+  }
+  return motion;
+}
+inline void set_motion(StateVector& vector, const MotionState& motion, int n) {
+  for (int j = 0; j < n; ++j) {
+    vector[j] = motion.q[j];
+    vector[n + j] = motion.dq[j];
+  }
+}
+/// The fault sizes behind them.
+inline std::span<const double> sizes_of(const StateVector& vector, int n, int size) {
+  return std::span<const double>(vector).subspan(2 * n, size - 2 * n);
+}
+
+/// A state of `size` numbers with the mean and covariance of `state` in front and zeros behind.
+GaussianState extended(const GaussianState& state, int size);
+
+/// What one measured number said.
+struct ScalarUpdate {
+  double innovation = 0.0;
+  double variance = 0.0;  ///< of the innovation
+  double chi_square() const { return innovation * innovation / variance; }
+};
+
+/// Kalman update by the measurement z = mean[index] + factor * mean[other] + noise; `other` < 0 for none.
+ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
+                     double noise_variance);
+
+/// covariance = A covariance A^T with A row by row, size x size.
+void propagate_covariance(GaussianState& state, std::span<const double> transition);
+
+}  // namespace faultline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/evidence/filter/prediction.hpp"
+
+namespace faultline {
+
+/// Adds what the model misses over the step (ProcessNoise) to the covariance of q and dq. `at` gives the
+/// inverse inertia that turns torque into acceleration.
+void add_process_noise(GaussianState& state, const Acceleration& at, const MotionModel& model,
+                       const Step& step);
+
+/// A joint that an end stop may hold: its velocity may have been stopped or turned within the step.
+void allow_end_stops(GaussianState& state, const MotionModel& model, const Step& step);
+
+}  // namespace faultline

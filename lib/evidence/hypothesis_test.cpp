@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/hypothesis_test.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+/// How far back faults are tried to have begun, in samples before the trigger.
+constexpr std::array<int, 16> kOffsets = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256};
+constexpr int kSlowOffset = 16;      // farther back only faults that creep are tried
+constexpr double kLookBack_s = 2.5;  // and never farther: what has crept that long has grown past the trigger
+// Most of the bank's work is spared by dropping what cannot win any more.
+constexpr int kFirstPrune = 12;        // samples after the trigger: two onsets a hypothesis stay
+constexpr int kFewestBeforePrune = 4;  // at low rates, when this many samples take this long
+constexpr double kFirstPrune_s = 0.25;
+constexpr int kSecondPrune = 40;         // one onset stays, and only hypotheses within kHopeless of the best
+constexpr int kPruneEvery = 20;          // samples, from then on
+constexpr double kHopeless = 60.0;       // nats: odds of 1e26, which no onset can make good
+constexpr double kWorthRefining = 25.0;  // nats: from farther behind a finer onset would not win
+constexpr int kMostRefined = 6;          // hypotheses
+constexpr int kRefineReach = 3;          // onsets tried on either side of the best,
+constexpr int kRefineFactor = 4;         // at spacings that shrink by this
+constexpr int kFewestConfirm = 16;       // samples
+
+bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
+  return a.log_likelihood_ratio > b.log_likelihood_ratio;
+}
+
+}  // namespace
+
+HypothesisTest::HypothesisTest(const Bank& bank, const History& history, const EvidenceOptions& options,
+                               std::int64_t restart, int repeats)
+    : bank_(bank),
+      history_(history),
+      options_(options),
+      earliest_(std::max(restart, history.first()) + 1),
+      trigger_(history.last()),
+      now_(history.last()) {
+  for (const int offset : kOffsets) begin_at(trigger_ - offset, offset > kSlowOffset);
+  if (repeats > 0 && std::find(kOffsets.begin(), kOffsets.end(), repeats - 1) == kOffsets.end())
+    begin_at(trigger_ - repeats + 1, false);
+  update();
+}
+
+RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset) const {
+  RunningHypothesis running = bank_.start(hypothesis, onset, history_[onset - 1], history_[onset]);
+  for (std::int64_t k = onset + 1; k <= now_; ++k) bank_.advance(running, history_[k - 1], history_[k]);
+  return running;
+}
+
+void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
+  if (onset < earliest_ || history_[trigger_].time - history_[onset].time > kLookBack_s) return;
+  for (std::size_t h = 0; h < bank_.hypotheses().size(); ++h)
+    if (!slow_only || describe(bank_.hypotheses()[h].label.kind).creeps)
+      running_.push_back(run(static_cast<int>(h), onset));
+}
+
+void HypothesisTest::advance() {
+  if (lost_) return;
+  const bool stands = alarmed() && now_ - alarm_ >= options_.fewest_samples;
+  std::vector<RunningHypothesis> before;
+  if (stands) before = running_;
+  ++now_;
+  for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
+  update();
+  if (stands && !std::isfinite(best_ratio_)) {
+    lost_ = true;
+    --now_;
+    running_ = std::move(before);
+    update();
+    return;
+  }
+  const std::int64_t since = now_ - trigger_;
+  const bool slow = history_[now_].time - history_[trigger_].time >= kFirstPrune_s;
+  const bool first_time = !pruned_ && (since >= kFirstPrune || (slow && since >= kFewestBeforePrune));
+  if (first_time || (since >= kSecondPrune && since % kPruneEvery == 0)) prune();
+}
+
+void HypothesisTest::update() {
+  best_ratio_ = -std::numeric_limits<double>::infinity();
+  for (const RunningHypothesis& running : running_)
+    best_ratio_ = std::max(best_ratio_, running.log_likelihood_ratio);
+  largest_ratio_ = std::max(largest_ratio_, best_ratio_);
+  if (alarm_ < 0 && best_ratio_ > options_.threshold) alarm_ = now_;
+}
+
+void HypothesisTest::prune() {
+  pruned_ = true;
+  const bool second = now_ - trigger_ >= kSecondPrune;
+  const std::size_t keep = second ? 1 : 2;
+  std::stable_sort(running_.begin(), running_.end(), [](const auto& a, const auto& b) {
+    return a.hypothesis != b.hypothesis ? a.hypothesis < b.hypothesis : better(a, b);
+  });
+  std::vector<RunningHypothesis> kept;
+  std::size_t of_this = 0;
+  for (std::size_t i = 0; i < running_.size(); ++i) {
+    of_this = i > 0 && running_[i].hypothesis == running_[i - 1].hypothesis ? of_this + 1 : 0;
+    if (of_this >= keep) continue;
+    if (second && running_[i].log_likelihood_ratio < best_ratio_ - kHopeless) {
+      dropped_.push_back(running_[i]);
+      dropped_.back().log_likelihood_ratio -= best_ratio_;
+    } else {
+      kept.push_back(running_[i]);
+    }
+  }
+  running_ = std::move(kept);
+}
+
+std::vector<RunningHypothesis> HypothesisTest::best_of_each() const {
+  std::vector<RunningHypothesis> best(bank_.hypotheses().size());
+  for (RunningHypothesis& b : best) b.log_likelihood_ratio = -std::numeric_limits<double>::infinity();
+  for (RunningHypothesis running : dropped_) {
+    running.log_likelihood_ratio += best_ratio_;
+    if (better(running, best[running.hypothesis])) best[running.hypothesis] = running;
+  }
+  for (const RunningHypothesis& running : running_)
+    if (better(running, best[running.hypothesis])) best[running.hypothesis] = running;
+  return best;
+}
+
+double HypothesisTest::margin() const {
+  const std::vector<RunningHypothesis> best = best_of_each();
+  const auto& hypotheses = bank_.hypotheses();
+  const auto top = std::min_element(best.begin(), best.end(), better);
+  double second = -std::numeric_limits<double>::infinity();
+  for (std::size_t h = 0; h < best.size(); ++h)
+    if (hypotheses[h].label != hypotheses[top->hypothesis].label)
+      second = std::max(second, best[h].log_likelihood_ratio);
+  return top->log_likelihood_ratio - second;
+}
+
+const GaussianState* HypothesisTest::misread() const {
+  const RunningHypothesis* best = nullptr;
+  for (const RunningHypothesis& running : running_)
+    if (!best || better(running, *best)) best = &running;
+  return best && is_misread(bank_.hypotheses()[best->hypothesis]) ? &best->state : nullptr;
+}
+
+bool HypothesisTest::ready() const {
+  if (lost_) return true;
+  if (now_ - trigger_ > history_.capacity() / 2) return true;
+  if (!alarmed())
+    return now_ - trigger_ >= kFewestConfirm &&
+           history_[now_].time - history_[trigger_].time >= options_.confirm_s;
+  const double since_s = history_[now_].time - history_[alarm_].time;
+  if (now_ - alarm_ < options_.fewest_samples || since_s < options_.isolate_s) return false;
+  return since_s >= options_.longest_isolate_s || margin() > options_.clear_margin;
+}
+
+RunningHypothesis HypothesisTest::refined(const RunningHypothesis& coarse) const {
+  RunningHypothesis best = coarse;
+  const int distance = static_cast<int>(std::max<std::int64_t>(trigger_ - coarse.onset, 1));
+  for (int spacing = std::max(distance / kRefineFactor, 1);; spacing /= kRefineFactor) {
+    const std::int64_t centre = best.onset;
+    for (int k = -kRefineReach; k <= kRefineReach; ++k) {
+      const std::int64_t onset = centre + k * spacing;
+      if (k == 0 || onset < earliest_ || onset > trigger_) continue;
+      const RunningHypothesis candidate = run(coarse.hypothesis, onset);
+      if (better(candidate, best)) best = candidate;
+    }
+    if (spacing == 1) return best;
+    spacing = std::max(spacing, kRefineFactor);
+  }
+}
+
+EpisodeEvidence HypothesisTest::evidence() const {
+  std::vector<RunningHypothesis> best = best_of_each();
+  std::vector<int> order;
+  for (std::size_t h = 0; h < best.size(); ++h) order.push_back(static_cast<int>(h));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return better(best[a], best[b]); });
+  for (int i = 0; i < kMostRefined && i < static_cast<int>(order.size()); ++i) {
+    const int h = order[i];
+    if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining) best[h] = refined(best[h]);
+  }
+  EpisodeEvidence out;
+  out.best = 0;
+  for (std::size_t h = 0; h < best.size(); ++h) {
+    out.hypotheses.push_back(std::isfinite(best[h].log_likelihood_ratio) ? bank_.evidence_of(best[h])
+                                                                         : HypothesisEvidence{});
+    if (better(best[h], best[out.best])) out.best = static_cast<int>(h);
+  }
+  const RunningHypothesis& winner = best[out.best];
+  out.onset_s = winner.onset_s;
+  out.alarm_s = history_[alarm_].time;
+  out.isolated_s = history_[now_].time;
+  out.samples = static_cast<int>(now_ - winner.onset + 1);
+  out.trace = trace_evidence(bank_, history_, best, now_);
+  return out;
+}
+
+}  // namespace faultline

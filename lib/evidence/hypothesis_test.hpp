@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/evidence/bank.hpp"
+#include "lib/evidence/evidence_options.hpp"
+#include "lib/evidence/filter/history.hpp"
+
+namespace faultline {
+
+/// One suspicion looked into: every hypothesis restarted from several earlier moments, their log likelihood
+/// ratios followed sample by sample until the fault can be named or the suspicion was wrong.
+class HypothesisTest {
+ public:
+  /// Begins at the last sample of the history. `restart` is the first sample that may be used; `repeats` the
+  /// length of a run of repeated encoder codes, 0 for none.
+  HypothesisTest(const Bank& bank, const History& history, const EvidenceOptions& options,
+                 std::int64_t restart, int repeats);
+
+  /// Takes the sample that was just added to the history.
+  void advance();
+  bool ready() const;
+  bool alarmed() const { return alarm_ >= 0; }
+  /// The state now of the filter that passed over one misread row, if that explains the log better than any
+  /// fault; null otherwise.
+  const GaussianState* misread() const;
+  double best_ratio() const { return best_ratio_; }
+  double largest_ratio() const { return largest_ratio_; }
+  /// The evidence so far, onsets refined for the hypotheses that matter.
+  EpisodeEvidence evidence() const;
+
+ private:
+  void begin_at(std::int64_t onset, bool slow_only);
+  void update();
+  void prune();
+  double margin() const;
+  std::vector<RunningHypothesis> best_of_each() const;
+  RunningHypothesis run(int hypothesis, std::int64_t onset) const;
+  RunningHypothesis refined(const RunningHypothesis& coarse) const;
+
+  const Bank& bank_;
+  const History& history_;
+  EvidenceOptions options_;
+  std::int64_t earliest_;  ///< first sample from which a hypothesis can start
+  std::int64_t trigger_;
+  std::int64_t now_;
+  std::int64_t alarm_ = -1;
+  bool pruned_ = false;
+  bool lost_ = false;  ///< after the alarm the robot ran away from every filter: what came before counts
+  double best_ratio_ = 0.0;
+  double largest_ratio_ = 0.0;
+  std::vector<RunningHypothesis> running_;
+  std::vector<RunningHypothesis> dropped_;  ///< their ratio is kept as a deficit against the best, below zero
+};
+
+}  // namespace faultline
