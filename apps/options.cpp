@@ -33,7 +33,7 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std
   add_choice_option(
       command, "--classify", options.mode, kClassifyModes,
       words(
-          "evidence: hypotheses on the identified robot, judged by both networks; samples: the paper's way, "
+          "evidence: hypotheses on the identified robot, classified by both networks; samples: the paper's way, "
           "both networks over the residuals of each sample"))
       ->default_str(to_string(options.mode));
   add_choice_option(command, "--criterion", options.criterion, kCriterionKinds,

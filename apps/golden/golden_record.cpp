@@ -60,7 +60,7 @@ void add_golden_record(CLI::App* golden, Program& program) {
                     "Do not identify the robot from the healthy logs");
   command
       ->add_option("--trace-points", arguments->options.trace_points,
-                   "Points of the foretold motion to keep of a log, at most")
+                   "Points of the predicted motion to keep of a log, at most")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   add_golden_threads(*command, *arguments);

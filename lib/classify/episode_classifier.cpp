@@ -49,7 +49,7 @@ EpisodeClassifier train_episode_classifier(std::span<const LabelledEpisode> epis
   EpisodeClassifier classifier;
   classifier.labels = labels_in(episodes);
   if (classifier.labels.size() < 2)
-    throw Error(ErrorCode::input, "training the judges",
+    throw Error(ErrorCode::input, "training the networks",
                 "the episodes show " + std::to_string(classifier.labels.size()) +
                     " kinds of fault; at least two are needed to tell them apart");
   Patterns patterns = patterns_of(episodes, classifier.labels);
@@ -96,13 +96,13 @@ EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const
     classifier.mlp = mlp_from_json(json.at("mlp"), where);
     classifier.rbfn = rbfn_from_json(json.at("rbfn"), where);
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorCode::input, where, std::string("the judges cannot be read (") + error.what() + ")");
+    throw Error(ErrorCode::input, where, std::string("the episode classifier cannot be read (") + error.what() + ")");
   }
   const int outputs = static_cast<int>(classifier.labels.size());
   if (classifier.mlp.outputs() != outputs || classifier.rbfn.outputs() != outputs ||
       classifier.mlp.inputs() != classifier.scaler.size() ||
       classifier.rbfn.inputs() != classifier.scaler.size())
-    throw Error(ErrorCode::input, where, "the judges' networks do not fit their labels and features");
+    throw Error(ErrorCode::input, where, "the episode classifier does not fit its labels and features");
   return classifier;
 }
 

@@ -80,8 +80,8 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     const std::string& channel = expected.channels[c];
     const auto same = std::find(actual.channels.begin(), actual.channels.end(), channel);
     if (same == actual.channels.end()) {
-      comparison.differences.push_back({channel, kNoNumber, "foretold", "no such channel", kNoNumber});
-      comparison.lines.push_back({channel + " foretold", "", true});
+      comparison.differences.push_back({channel, kNoNumber, "predicted", "no such channel", kNoNumber});
+      comparison.lines.push_back({channel + " predicted", "", true});
       continue;
     }
     const auto& there = actual.values[same - actual.channels.begin()];
@@ -92,7 +92,7 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     const double wanted = expected.values[c][i], got = there[j], time = expected.time[i];
     comparison.differences.push_back({channel, time, value(wanted), value(got), tolerance.allowed(wanted)});
     const auto line = [&, i = i](double number) {
-      return fmt::format("{} foretold {} at {} s", channel, value(number), expected.time[i]);
+      return fmt::format("{} predicted {} at {} s", channel, value(number), expected.time[i]);
     };
     comparison.lines.push_back(
         {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), found.count, points.size()),

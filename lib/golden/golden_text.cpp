@@ -51,7 +51,7 @@ std::string head(const GoldenSet& set) {
   std::string text =
       "# What faultline is expected to say of each log in this folder. Compare: faultline golden check;\n"
       "# take what changed: faultline golden accept. Tolerances may be edited: a number is as expected when\n"
-      "# |actual - expected| <= absolute + relative * |expected|. Names: q, dq or dq2 the foretold motion,\n"
+      "# |actual - expected| <= absolute + relative * |expected|. Names: q, dq or dq2 the predicted motion,\n"
       "# velocity_rms or velocity_rms_2 a residual, parameter or m1 what is identified.\n";
   text += fmt::format("schema = \"faultline/golden/1\"\nprogram = {}\nlog_count = {}\ntrace_points = {}\n",
                       quoted(set.program_version), set.logs.size(), set.trace_points);

@@ -112,9 +112,9 @@ class Peer:
 
     def features(self, log):
         t, q, dq, tau = log
-        foretold = self.net.predict((self.inputs(log)[:-1] - self.x_mean) / self.x_std)
+        predicted = self.net.predict((self.inputs(log)[:-1] - self.x_mean) / self.x_std)
         change = (np.hstack([np.diff(q, axis=0), np.diff(dq, axis=0)]) - self.y_mean) / self.y_std
-        parts = [windowed(change - foretold)]
+        parts = [windowed(change - predicted)]
         if self.with_filter:
             parts.append(windowed(innovations(t, q, dq, tau)[1:]))
         return np.hstack(parts)

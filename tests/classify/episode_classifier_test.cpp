@@ -31,8 +31,8 @@ std::vector<LabelledEpisode> draw_episodes(int each, std::uint64_t seed) {
 }
 
 const EpisodeClassifier& trained() {
-  static const EpisodeClassifier judges = train_episode_classifier(draw_episodes(40, 1));
-  return judges;
+  static const EpisodeClassifier classifier = train_episode_classifier(draw_episodes(40, 1));
+  return classifier;
 }
 
 bool same(const Opinion& a, const Opinion& b) { return a.label == b.label && a.confidence == b.confidence; }
@@ -45,9 +45,9 @@ std::vector<std::vector<double>> probes() {
   return out;
 }
 
-nlohmann::json json_of(const EpisodeClassifier& judges) {
+nlohmann::json json_of(const EpisodeClassifier& classifier) {
   nlohmann::json json;
-  to_json(json, judges);
+  to_json(json, classifier);
   return json;
 }
 
@@ -149,9 +149,9 @@ TEST(EpisodeClassifierJson, NetworksThatDoNotFitTheLabelsAreRefused) {
 }
 
 TEST(EpisodeClassifierJson, NetworksThatDoNotFitTheFeaturesAreRefused) {
-  EpisodeClassifier judges = trained();
-  judges.scaler = {Eigen::VectorXd::Zero(4), Eigen::VectorXd::Ones(4)};
-  EXPECT_THROW(episode_classifier_from_json(json_of(judges), "model.json"), Error);
+  EpisodeClassifier classifier = trained();
+  classifier.scaler = {Eigen::VectorXd::Zero(4), Eigen::VectorXd::Ones(4)};
+  EXPECT_THROW(episode_classifier_from_json(json_of(classifier), "model.json"), Error);
 }
 
 TEST(EpisodeClassifierJson, AFaultNobodyKnowsIsRefused) {

@@ -13,7 +13,7 @@ TEST(EpisodeOf, HasOneNumberAFeatureAndTheBestRatio) {
   const Episode episode = seen(episode_of_fault(model, kLocked2, 77.0), model);
   EXPECT_EQ(episode.features.size(), features_of(model).size());
   EXPECT_EQ(episode.evidence, 77.0);
-  EXPECT_EQ(episode.mlp, Opinion{}) << "a model without judges has no opinion";
+  EXPECT_EQ(episode.mlp, Opinion{}) << "a model without networks has no opinion";
 }
 
 TEST(EpisodeOf, CarriesTheOpinionsOfBothJudges) {

@@ -15,28 +15,28 @@ inline constexpr FaultLabel kLocked2{FaultKind::locked, 2}, kStuck2{FaultKind::s
     kLoss1{FaultKind::torque_loss, 1}, kFree1{FaultKind::free_swinging, 1}, kUnknown{FaultKind::unknown, 0};
 
 /// Two networks that give the same opinion whatever they are shown.
-inline EpisodeClassifier judges_that_say(const Opinion& mlp, const Opinion& rbfn, int features) {
-  EpisodeClassifier judges;
-  judges.labels = {mlp.label};
-  if (rbfn.label != mlp.label) judges.labels.push_back(rbfn.label);
-  judges.labels.push_back({FaultKind::none, 0});
-  const auto count = static_cast<Eigen::Index>(judges.labels.size());
+inline EpisodeClassifier classifier_that_says(const Opinion& mlp, const Opinion& rbfn, int features) {
+  EpisodeClassifier classifier;
+  classifier.labels = {mlp.label};
+  if (rbfn.label != mlp.label) classifier.labels.push_back(rbfn.label);
+  classifier.labels.push_back({FaultKind::none, 0});
+  const auto count = static_cast<Eigen::Index>(classifier.labels.size());
   const auto shares = [&](Eigen::Index who, double confidence) {
     Eigen::VectorXd p = Eigen::VectorXd::Constant(count, (1.0 - confidence) / static_cast<double>(count - 1));
     p[who] = confidence;
     return p;
   };
-  judges.scaler = {Eigen::VectorXd::Zero(features), Eigen::VectorXd::Ones(features)};
-  judges.mlp.output = OutputKind::softmax;
-  judges.mlp.layers = {{Eigen::MatrixXd::Zero(count, features), shares(0, mlp.confidence).array().log()}};
-  judges.rbfn.centres = Eigen::MatrixXd::Zero(features, 1);
-  judges.rbfn.inverse_radii = Eigen::MatrixXd::Ones(features, 1);
-  judges.rbfn.weights = Eigen::MatrixXd::Zero(count, 1);
-  judges.rbfn.bias = shares(rbfn.label == mlp.label ? 0 : 1, rbfn.confidence);
-  return judges;
+  classifier.scaler = {Eigen::VectorXd::Zero(features), Eigen::VectorXd::Ones(features)};
+  classifier.mlp.output = OutputKind::softmax;
+  classifier.mlp.layers = {{Eigen::MatrixXd::Zero(count, features), shares(0, mlp.confidence).array().log()}};
+  classifier.rbfn.centres = Eigen::MatrixXd::Zero(features, 1);
+  classifier.rbfn.inverse_radii = Eigen::MatrixXd::Ones(features, 1);
+  classifier.rbfn.weights = Eigen::MatrixXd::Zero(count, 1);
+  classifier.rbfn.bias = shares(rbfn.label == mlp.label ? 0 : 1, rbfn.confidence);
+  return classifier;
 }
 
-/// An RRP robot with its bank, no judges yet.
+/// An RRP robot with its bank, no classifier yet.
 inline Model hand_made_rrp() {
   Model model;
   model.robot = known_rrp();
@@ -49,10 +49,10 @@ inline std::vector<std::string> features_of(const Model& model) {
   return episode_feature_names(model.bank, model.robot.joints());
 }
 
-/// The same with judges of a fixed opinion.
+/// The same with classifier of a fixed opinion.
 inline Model hand_made_rrp(const Opinion& mlp, const Opinion& rbfn) {
   Model model = hand_made_rrp();
-  model.episode_classifier = judges_that_say(mlp, rbfn, static_cast<int>(features_of(model).size()));
+  model.episode_classifier = classifier_that_says(mlp, rbfn, static_cast<int>(features_of(model).size()));
   return model;
 }
 
@@ -101,7 +101,7 @@ inline Episode seen(const EpisodeEvidence& episode, const Model& model,
   return episode_of({episode, residuals}, evidence_by_label(episode, model.bank, model.motion), model);
 }
 
-/// An empty case base that compares what the model's judges are shown.
+/// An empty case base that compares what the model's classifier are shown.
 inline CaseBase empty_base(const Model& model) { return CaseBase(features_of(model)); }
 
 /// `count` confirmed cases that look exactly like `episode`.
