@@ -11,6 +11,7 @@
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "lib/twin/twin_json.hpp"
 
 namespace faultline {
 namespace {
@@ -117,6 +118,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.validation = validation_from_json(json.at("validation"));
   for (const auto& source : json.at("sources"))
     model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
+  if (json.contains("twin")) model.twin = twin_from_json(nlohmann::ordered_json(json["twin"]), where);
   return model;
 }
 
@@ -137,6 +139,7 @@ std::string model_to_json(const Model& model) {
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
   json["sources"] = sources_to_json(model.sources);
+  if (model.twin) json["twin"] = twin_to_json(*model.twin);
   json["validation"] = validation_to_json(model.validation);
   json["evidence"] = evidence;
   json["motion"] = motion;

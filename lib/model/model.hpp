@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "lib/identify/identification.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/robot/robot.hpp"
+#include "lib/twin/twin_options.hpp"
 
 namespace faultline {
 
@@ -69,6 +71,8 @@ struct Model {
   SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;
+  std::optional<TwinOptions>
+      twin;            ///< what it was trained on; none in models of programs that did not keep it
   std::string sha256;  ///< of the file it was read from
 };
 

@@ -128,6 +128,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.evidence = calibrate_thresholds(logs.sources(), model.motion, model.bank, {});
   learn_from_twin(out, labelled, options, progress);
   model.sources = sources_of(out.identification, labelled);
+  model.twin = options.twin;
   return out;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "lib/core/error.hpp"
 #include "lib/pipeline/diagnose.hpp"
 #include "lib/report/json.hpp"
 #include "tests/pipeline/small_robot.hpp"
@@ -43,6 +46,17 @@ TEST(LearnDiagnose, ThreadsAndSegmentBordersDoNotChangeTheModel) {
   const std::string one = model_to_json(learn_small(options).model);
   options.threads = options.identify.threads = 2;
   EXPECT_TRUE(one == model_to_json(learn_small(options, 100).model));
+}
+
+TEST(LearnDiagnose, AModelTellsWhatItWasSimulatedWithAndOlderOnesStillLoad) {
+  LearnOptions options = quick_learning();
+  options.twin.pd_share = 0.5;
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_to_json(learn_small(options).model));
+  EXPECT_EQ(model_from_json(json.dump(), "model").twin, options.twin);
+  json.erase("twin");
+  EXPECT_EQ(model_from_json(json.dump(), "model").twin, std::nullopt);
+  json["twin"] = {{"pd_share", "half"}};
+  EXPECT_THROW(model_from_json(json.dump(), "model"), Error);
 }
 
 TEST(LearnDiagnose, RoundTripAndSegmentBordersChangeNoByte) {
