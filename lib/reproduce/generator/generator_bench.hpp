@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
@@ -24,8 +25,18 @@ struct GeneratorBench {
 };
 GeneratorBench generator_bench(const Experiment& experiment, int trajectories);
 
-/// Normalised MSE, an output a row (q1..qn, dq1..dqn), a GeneratorTest a column.
-using GeneratorErrors = Eigen::MatrixXd;
+/// Where an error lies: in the worst samples, as many as hold the start of a move, or in the others.
+struct WorstSamples {
+  double share_of_error = std::numeric_limits<double>::quiet_NaN();  ///< of the squares
+  double mse_of_others = std::numeric_limits<double>::quiet_NaN();   ///< normalised, over all outputs
+};
+/// Of an error given as 2 joints x samples; NaN when it is not finite.
+WorstSamples worst_samples(const Eigen::MatrixXd& error, const HalfRanges& ranges, double share_of_samples);
+
+struct GeneratorErrors {
+  Eigen::MatrixXd mse;  ///< normalised, an output a row (q1..qn, dq1..dqn), a GeneratorTest a column
+  WorstSamples worst;   ///< of clean_runs; NaN when nothing was predicted
+};
 GeneratorErrors errors_of(const ResidualGenerator& generator, const GeneratorBench& bench);
 /// Of predicting that nothing changes.
 GeneratorErrors persistence_errors(const GeneratorBench& bench);

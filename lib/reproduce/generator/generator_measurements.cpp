@@ -44,13 +44,22 @@ std::size_t GeneratorMeasurements::index(int candidate, int controller, int seed
 
 std::optional<Measured> GeneratorMeasurements::mse(int candidate, int controller, GeneratorTest test) const {
   return by_seed(*this, candidate, controller,
-                 [&](const GeneratorErrors& found) { return found.col(static_cast<int>(test)).mean(); });
+                 [&](const GeneratorErrors& found) { return found.mse.col(static_cast<int>(test)).mean(); });
 }
 
 std::optional<Measured> GeneratorMeasurements::mse(int candidate, int controller, GeneratorTest test,
                                                    int output) const {
   return by_seed(*this, candidate, controller,
-                 [&](const GeneratorErrors& found) { return found(output, static_cast<int>(test)); });
+                 [&](const GeneratorErrors& found) { return found.mse(output, static_cast<int>(test)); });
+}
+
+WorstSamples GeneratorMeasurements::worst(int candidate, int controller) const {
+  const auto mean = [&](double WorstSamples::*figure) {
+    const auto figures = by_seed(*this, candidate, controller,
+                                 [&](const GeneratorErrors& found) { return found.worst.*figure; });
+    return figures.value_or(Measured{}).mean();
+  };
+  return {mean(&WorstSamples::share_of_error), mean(&WorstSamples::mse_of_others)};
 }
 
 int GeneratorMeasurements::find(const std::string& name) const {

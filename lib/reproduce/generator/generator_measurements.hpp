@@ -23,6 +23,8 @@ struct GeneratorMeasurements {
   /// apply.
   std::optional<Measured> mse(int candidate, int controller, GeneratorTest test) const;
   std::optional<Measured> mse(int candidate, int controller, GeneratorTest test, int output) const;
+  /// Of the error in runs of moves; means over the seeds, NaN where the candidate does not apply.
+  WorstSamples worst(int candidate, int controller) const;
   /// Number of the candidate of this name. Throws Error(internal) when there is none.
   int find(const std::string& name) const;
 };

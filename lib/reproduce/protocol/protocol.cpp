@@ -125,6 +125,13 @@ Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMo
   return simulate(robot, spec, seed).log;
 }
 
+double share_with_a_start() {
+  const MotionSpec motion = spec_of(ControllerReading::pd, 0.0).motion;
+  const double move_s = 0.5 * (motion.move_min_s + motion.move_max_s);
+  const double rest_s = 0.5 * (motion.dwell_min_s + motion.dwell_max_s);
+  return kSamplePeriod / (move_s + rest_s);
+}
+
 void add_noise(Log& log, const HalfRanges& ranges, double sigma, std::uint64_t seed) {
   if (sigma <= 0.0) return;
   Random random = Random::stream(seed, 1);

@@ -76,6 +76,8 @@ struct RunOfMoves {
 /// A run of such moves, each followed by a rest of up to 0.4 s, without noise. Ends early when a freed robot
 /// runs away. Readings whose torque changes every millisecond may be logged faster than the paper does.
 Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMoves& run, std::uint64_t seed);
+/// Share of the samples of such a run within which a move begins, on average.
+double share_with_a_start();
 
 /// Adds white noise of `sigma` half ranges to q and dq: measurement noise as in the paper's second test sets.
 /// The controller does not see it.

@@ -58,7 +58,7 @@ PlotPanel motion_panel(const ShownRun& run, const Eigen::MatrixXd& measured, con
                        const char* label) {
   return {.y_label = label,
           .series = {{"measured", run.time, row(measured, kJoint)},
-                     {"foretold by the MLP", run.time, row(predicted, kJoint)}},
+                     {"predicted by the MLP", run.time, row(predicted, kJoint)}},
           .y_range = {{-2.5, 2.5}}};
 }
 

@@ -27,11 +27,24 @@ std::vector<double> thresholds() {
 struct Sweep {
   std::vector<AlarmScore> consecutive[3], log_odds[3];  // of each network and their average
   std::vector<AlarmScore> cases_at_samples, cases_of_episodes;
+  Agreement agreement;
 };
 
 void add(std::vector<AlarmScore>& scores, const MonitoredRun& run, const std::vector<Alarms>& alarms) {
   scores.resize(alarms.size());
   for (std::size_t i = 0; i < alarms.size(); ++i) scores[i].add(run, alarms[i]);
+}
+
+void add(Agreement& agreement, const MonitoredRun& run, const SampleOutputs& outputs) {
+  for (Eigen::Index i = 0; i < outputs.time.size() && run.faulty(); ++i) {
+    if (outputs.time[i] <= run.onset_s) continue;
+    if (!outputs.mlp.col(i).allFinite() || !outputs.rbfn.col(i).allFinite()) continue;
+    Eigen::Index by_mlp = 0, by_rbfn = 0;
+    outputs.mlp.col(i).maxCoeff(&by_mlp);
+    outputs.rbfn.col(i).maxCoeff(&by_rbfn);
+    ++agreement.samples;
+    agreement.same += by_mlp == by_rbfn;
+  }
 }
 
 struct Cases {
@@ -46,6 +59,7 @@ Sweep sweep(const SampleDetector& detector, const Cases& cases, std::span<const 
   Sweep out;
   for (const MonitoredRun& run : runs) {
     const SampleOutputs outputs = outputs_of(detector, run.log);
+    add(out.agreement, run, outputs);
     const Eigen::MatrixXd networks[] = {outputs.mlp, outputs.rbfn, outputs.average()};
     for (int n = 0; n < 3; ++n) {
       add(out.consecutive[n], run, sweep_consecutive(meaning, outputs.time, networks[n], kMostG));
@@ -80,6 +94,7 @@ void watch_with_networks(const SampleDetector& detector, const ConditionRuns& ru
     cases.suspicions = cases_of_suspicions(detector, runs.tuning, kSampleCap, kLeastSuspicion, kFalseCases);
   const Sweep tuning = sweep(detector, cases, runs.tuning, sum_log_odds);
   const Sweep test = sweep(detector, cases, runs.test, sum_log_odds);
+  if (sum_log_odds) result.best_networks = test.agreement;
   for (int n = 0; n < 3; ++n) {
     const std::string name = recipe + ", " + kNetworks[n];
     result.trade_offs.push_back({name, test.consecutive[n]});

@@ -15,7 +15,8 @@ struct ConditionRuns {
 
 /// Networks over the residuals of single samples: MLP, RBFN, their average and the case-based decision, each
 /// under the paper's criterion and, with `sum_log_odds` (networks that put out probabilities), under summed
-/// log odds. `recipe` begins the detectors' names.
+/// log odds. `recipe` begins the detectors' names; of the recipe with `sum_log_odds` it is also counted how
+/// often both networks agree.
 void watch_with_networks(const SampleDetector& detector, const ConditionRuns& runs, const std::string& recipe,
                          bool sum_log_odds, ConditionResult& result);
 

@@ -45,10 +45,17 @@ struct TradeOff {
   std::vector<AlarmScore> by_g;
 };
 
+/// How often two networks name the same class, over samples of faulty runs after the onset.
+struct Agreement {
+  long samples = 0;
+  long same = 0;
+};
+
 struct ConditionResult {
   double sigma = 0.0;
   std::vector<DetectorResult> detectors;
   std::vector<TradeOff> trade_offs;
+  Agreement best_networks{};  ///< MLP and RBFN of the best recipe, in the test runs
 };
 
 /// Every detector under one controller, a result for each noise; experiment `seed`.

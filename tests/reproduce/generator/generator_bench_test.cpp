@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "lib/reproduce/generator/generator_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+const HalfRanges kRanges{Eigen::Vector3d(2.0, 2.0, 0.2), Eigen::Vector3d(4.0, 4.0, 4.0), {}};
+
+TEST(WorstSamples, HaveTheErrorThatOneBadSampleMakes) {
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(6, 20);
+  error.row(3).setConstant(0.004);  // 1e-3 of the half range
+  error(3, 7) = 0.4;
+  const WorstSamples worst = worst_samples(error, kRanges, 0.05);
+  EXPECT_NEAR(worst.share_of_error, 1e-2 / (1e-2 + 19e-6), 1e-12);
+  EXPECT_NEAR(worst.mse_of_others, 1e-6 / 6.0, 1e-18);
+}
+
+TEST(WorstSamples, AreNotToldOfAnErrorThatIsNotFinite) {
+  Eigen::MatrixXd error = Eigen::MatrixXd::Ones(6, 20);
+  error(0, 0) = std::nan("");
+  EXPECT_TRUE(std::isnan(worst_samples(error, kRanges, 0.05).share_of_error));
+}
+
+TEST(WorstSamples, AreAsManyAsHoldTheStartOfAMove) {
+  const Log log = run_of_moves(bench_robot(), ControllerReading::pd, {.duration_s = 600.0}, 3);
+  int starts = 0;
+  for (int k = 1; k < log.rows(); ++k) starts += std::abs(log.tau[0][k] - log.tau[0][k - 1]) > 5.0;
+  EXPECT_NEAR(share_with_a_start(), 0.043, 0.001);
+  EXPECT_NEAR(static_cast<double>(starts) / log.rows(), share_with_a_start(), 0.02);
+}
+
+}  // namespace
+}  // namespace faultline
