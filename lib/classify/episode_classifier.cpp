@@ -96,7 +96,8 @@ EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const
     classifier.mlp = mlp_from_json(json.at("mlp"), where);
     classifier.rbfn = rbfn_from_json(json.at("rbfn"), where);
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorCode::input, where, std::string("the episode classifier cannot be read (") + error.what() + ")");
+    throw Error(ErrorCode::input, where,
+                std::string("the episode classifier cannot be read (") + error.what() + ")");
   }
   const int outputs = static_cast<int>(classifier.labels.size());
   if (classifier.mlp.outputs() != outputs || classifier.rbfn.outputs() != outputs ||

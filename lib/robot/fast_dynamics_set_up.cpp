@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What FastDynamics works out once for a chain; its equations at a state are in fast_dynamics.cpp.
-#include "lib/robot/fast_dynamics.hpp"
-
 #include <Eigen/Geometry>
+
+#include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
 namespace {
