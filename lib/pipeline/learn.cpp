@@ -99,6 +99,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
 
 void LearnOptions::check() const {
   identify.check();
+  twin.check();
   auto at_least = [](const char* name, int value, int bound) {
     if (value < bound)
       throw Error(ErrorCode::usage, std::string("LearnOptions.") + name,
