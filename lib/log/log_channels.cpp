@@ -15,9 +15,11 @@ auto& signals_in(AnyLog& log, Quantity quantity) {
       return log.q_ref;
     case Quantity::dq_ref:
       return log.dq_ref;
-    default:
-      return log.q;
+    case Quantity::time:  // belongs to no joint
+    case Quantity::q:
+      break;
   }
+  return log.q;
 }
 
 }  // namespace

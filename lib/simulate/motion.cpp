@@ -110,7 +110,9 @@ void Motion::at(double t, Reference& reference) const {
       return harmonics_at(t, reference);
     case MotionProfile::replay:
       return replay_at(t, reference);
-    default:
+    case MotionProfile::quintic:
+    case MotionProfile::trapezoidal:
+    case MotionProfile::step:
       return move_at(t, reference);
   }
 }

@@ -25,9 +25,10 @@ std::string figure_text(double value, FigureStyle style) {
       return value == 1.0 ? "100 %" : fmt::format("{:.2f} %", 100.0 * value);
     case FigureStyle::decimal:
       return std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-    default:
-      return scientific(value);
+    case FigureStyle::scientific:
+      break;
   }
+  return scientific(value);
 }
 
 std::string figure_text(const Measured& measured, FigureStyle style) {
