@@ -84,15 +84,15 @@ void add_pushed_joints(Alternatives& alternatives, const FaultLabel& collision,
 
 }  // namespace
 
-std::vector<Alternative> alternatives_to(const Decision& decision, const DecisionBasis& basis,
-                                         const EpisodeEvidence& observed, const Model& model,
+std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model,
                                          const DecisionOptions& options) {
+  const auto& [observed, basis, decision] = decided;
   Alternatives alternatives(decision.label);
   add_opinions(alternatives, basis.episode);
   add_votes(alternatives, basis.votes);
   add_close_labels(alternatives, basis.evidence, options);
   if (decision.label.kind == FaultKind::collision)
-    add_pushed_joints(alternatives, decision.label, basis.evidence, observed, model, options);
+    add_pushed_joints(alternatives, decision.label, basis.evidence, observed.evidence, model, options);
   return alternatives.list;
 }
 

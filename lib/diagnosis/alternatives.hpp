@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/diagnosis/decision.hpp"
+#include "lib/diagnosis/decided_episode.hpp"
 #include "lib/diagnosis/diagnosis.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
 #include "lib/model/model.hpp"
@@ -14,8 +14,7 @@ namespace faultline {
 /// What a fault could also be: the networks' other opinions, labels with a good share of the votes, labels
 /// whose evidence comes near that of the best, and the other joints that a push on all of them reached. Each
 /// label once, with the first reason that named it, and never the fault's own.
-std::vector<Alternative> alternatives_to(const Decision& decision, const DecisionBasis& basis,
-                                         const EpisodeEvidence& observed, const Model& model,
+std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model,
                                          const DecisionOptions& options = {});
 
 /// The words of single networks.

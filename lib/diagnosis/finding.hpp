@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/diagnosis/decision.hpp"
+#include "lib/diagnosis/decided_episode.hpp"
 #include "lib/diagnosis/diagnosis.hpp"
-#include "lib/diagnosis/monitored_episode.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
 
-/// All that is said about a decision once it stands: precedents, what it could also be, what speaks for it,
-/// and what to check next.
-FaultFinding finding_of(const Decision& decision, const DecisionBasis& basis,
-                        const MonitoredEpisode& observed, const Model& model);
+/// All that is said about an episode once the decision stands: precedents, what it could also be, what speaks
+/// for it, and what to check next.
+FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
 
 /// What the paper's criterion found, with the other words of single networks as alternatives.
 FaultFinding finding_of(const SampleAlarm& alarm);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "lib/diagnosis/decide_episode.hpp"
+#include "lib/diagnosis/describe_episode.hpp"
 
 namespace faultline {
 namespace {
@@ -28,8 +28,7 @@ TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Mod
   for (const MonitoredRun& run : runs) {
     const MonitoredEpisode* of_fault = episode_of_fault(run);
     if (!of_fault) continue;
-    const Episode episode =
-        episode_of(*of_fault, evidence_by_label(of_fault->evidence, model.bank, model.motion), model);
+    const Episode episode = describe_episode(*of_fault, model).episode;
     out.episodes.push_back({episode.features, run.label});
     out.evidence.push_back(episode.evidence);
     out.origins.push_back(run.origin);

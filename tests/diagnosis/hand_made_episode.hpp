@@ -6,6 +6,7 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
+#include "lib/diagnosis/describe_episode.hpp"
 #include "tests/support/hand_made_model.hpp"
 
 namespace faultline {
@@ -98,7 +99,7 @@ inline std::vector<JointResidual> residuals_of(const std::vector<double>& veloci
 /// The episode as the case base compares it.
 inline Episode seen(const EpisodeEvidence& episode, const Model& model,
                     const std::vector<JointResidual>& residuals = {}) {
-  return episode_of({episode, residuals}, evidence_by_label(episode, model.bank, model.motion), model);
+  return describe_episode({episode, residuals}, model).episode;
 }
 
 /// An empty case base that compares what the model's classifier are shown.

@@ -5,6 +5,7 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
+#include "lib/diagnosis/describe_episode.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
@@ -100,8 +101,7 @@ ProductAlarms product_alarms(const Learned& learned, const Log& log) {
   ProductAlarms alarms;
   for (const MonitoredEpisode& observed : monitor(source, model).episodes) {
     const double alarm_s = observed.evidence.alarm_s;
-    const auto evidence = evidence_by_label(observed.evidence, model.bank, model.motion);
-    const Episode episode = episode_of(observed, evidence, model);
+    const auto [evidence, episode] = describe_episode(observed, model);
     alarms.mlp.push_back({alarm_s, named_by_size(episode.mlp.label, evidence)});
     alarms.rbfn.push_back({alarm_s, named_by_size(episode.rbfn.label, evidence)});
     alarms.cases.push_back({alarm_s, decide_episode(observed, model, learned.cases).label});
