@@ -36,7 +36,7 @@ std::vector<double> inertia_scale(const MotionModel& model) {
   return diagonal;
 }
 
-/// The same number of rows from the middle of every log.
+/// The same number of rows from the beginning of every log.
 std::vector<Log> excerpts(std::span<LogSource* const> logs, int rows) {
   std::vector<Log> out;
   const int each = std::max(rows / static_cast<int>(std::max<std::size_t>(logs.size(), 1)), kFewestRows);
