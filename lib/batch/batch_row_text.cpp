@@ -86,8 +86,8 @@ BatchRow row_from_json(const std::string& line) {
 }
 
 std::string batch_csv_header() {
-  return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,rows_used,"
-         "start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256\n";
+  return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,"
+         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256\n";
 }
 
 std::string to_csv_line(const BatchRow& row) {

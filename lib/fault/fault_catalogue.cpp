@@ -67,8 +67,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .heading = "position sensor offset",
         .of_a_joint = "reads a shifted position",
         .next_check =
-            "Move {} to its reference mark and compare the reading: look for a slipped encoder coupling, lost "
-            "counts or a wrong home offset, then home again.",
+            "Move {} to its reference mark and compare the reading: look for a slipped encoder coupling, "
+            "lost counts or a wrong home offset, then home again.",
         .size_words = "the position reads {first:+.4g} {length} too much",
         .acts_on = FaultActsOn::sensor,
         .shows_in_each_sample = false,  // only in its first: after it, samples look healthy
@@ -81,8 +81,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .heading = "stuck encoder",
         .of_a_joint = "repeats the same reading",
         .next_check =
-            "Check the encoder of {}: cable, connector, supply and the status bits of its interface; move the "
-            "joint by hand and watch whether the count changes.",
+            "Check the encoder of {}: cable, connector, supply and the status bits of its interface; move "
+            "the joint by hand and watch whether the count changes.",
         .acts_on = FaultActsOn::sensor,
     },
     {
@@ -132,8 +132,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .heading = "changed payload",
         .of_a_joint = "carries another load",
         .next_check =
-            "Check what the gripper holds or lost, and the payload set in the controller; weigh the tool if in "
-            "doubt.",
+            "Check what the gripper holds or lost, and the payload set in the controller; weigh the tool if "
+            "in doubt.",
         .size_words = "the load at the tip changed by {first:+.3g} kg",
         .acts_on = FaultActsOn::motion,
         .place = FaultPlace::tip,
@@ -171,7 +171,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .of_a_joint = "shows an unknown fault",
         .next_check =
             "No known fault and no recorded case fits. Look at the residuals of the joints around this time; "
-            "when the cause is found, record it with `faultline cases add`, so that it is known the next time.",
+            "when the cause is found, record it with `faultline cases add`, so that it is known the next "
+            "time.",
         .acts_on = FaultActsOn::motion,
         .creeps = true,
         .course = SizeCourse::wanders,

@@ -21,11 +21,11 @@ double mean_mse(const GeneratorMeasurements& measured, const char* name, Control
 
 constexpr const char* kProtocol =
     R"(The state (q, dq) one sample (73 ms) later, predicted from q, dq and tau of healthy motion: mean
-squared error over the six outputs in squares of half ranges, on {} trajectories of 25 samples that were not trained
-on, clean and with noise of 0.01 and 0.1 of half range on q and dq at both ends; then on as many samples of
-runs, moves and rests one after the other. Networks train for {} iterations of Levenberg-Marquardt ({} with
-noise 0.1, where more only fits the noise) or {} epochs of back-propagation; the large training set was used
-in the first experiment only. "Identified" is from healthy logs alone, as in the table with friction.)";
+squared error over the six outputs in squares of half ranges, on {} trajectories of 25 samples that were not
+trained on, clean and with noise of 0.01 and 0.1 of half range on q and dq at both ends; then on as many
+samples of runs, moves and rests one after the other. Networks train for {} iterations of Levenberg-Marquardt
+({} with noise 0.1, where more only fits the noise) or {} epochs of back-propagation; the large training set
+was used in the first experiment only. "Identified" is from healthy logs alone, as in the table with friction.)";
 
 constexpr const char* kLessons =
     R"(With the same network and patterns Levenberg-Marquardt leaves a small part of the error of
