@@ -32,9 +32,8 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std
   const auto words = [&](const char* own) { return help.empty() ? own : help; };
   add_choice_option(
       command, "--classify", options.mode, kClassifyModes,
-      words(
-          "evidence: hypotheses on the identified robot, classified by both networks; samples: the paper's "
-          "way, both networks over the residuals of each sample"))
+      words("evidence: hypotheses on the identified robot, classified by both networks; samples: the paper's "
+            "way, both networks over the residuals of each sample"))
       ->default_str(to_string(options.mode));
   add_choice_option(command, "--criterion", options.criterion, kCriterionKinds,
                     words("With --classify samples: sum of log odds, or g consecutive samples (the paper)"))

@@ -25,7 +25,8 @@ squared error over the six outputs in squares of half ranges, on {} trajectories
 trained on, clean and with noise of 0.01 and 0.1 of half range on q and dq at both ends; then on as many
 samples of runs, moves and rests one after the other. Networks train for {} iterations of Levenberg-Marquardt
 ({} with noise 0.1, where more only fits the noise) or {} epochs of back-propagation; the large training set
-was used in the first experiment only. "Identified" is from healthy logs alone, as in the table with friction.)";
+was used in the first experiment only. "Identified" is from healthy logs alone, as in the table with
+friction.)";
 
 constexpr const char* kLessons =
     R"(With the same network and patterns Levenberg-Marquardt leaves a small part of the error of
