@@ -61,9 +61,9 @@ std::string reproduction_json(const Reproduction& reproduction) {
   json["options"] = {{"seeds", reproduction.options.seeds},
                      {"seed", reproduction.options.seed},
                      {"quick", reproduction.options.quick}};
-  json["goals"] = list_of<Json>(reproduction.goals, goal_json);
-  json["tables"] = list_of<Json>(reproduction.tables, table_json);
   json["figures"] = list_of<Json>(reproduction.figures, figure_json);
+  json["tables"] = list_of<Json>(reproduction.tables, table_json);
+  json["goals"] = list_of<Json>(reproduction.goals, goal_json);
   return json.dump(1) + "\n";
 }
 
