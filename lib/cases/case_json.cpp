@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case_json.hpp"
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/json_values.hpp"
 
 namespace faultline {
 namespace {
@@ -13,12 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "faultline/cases/1";
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-double number_from(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
 
 Json label_json(const FaultLabel& label) { return {{"kind", to_string(label.kind)}, {"joint", label.joint}}; }
 
@@ -28,7 +21,7 @@ FaultLabel label_from(const Json& json) {
 
 Json opinion_json(const Opinion& opinion) {
   Json json = label_json(opinion.label);
-  json["confidence"] = number(opinion.confidence);
+  json["confidence"] = number_or_null(opinion.confidence);
   return json;
 }
 
@@ -37,7 +30,7 @@ Opinion opinion_from(const Json& json) { return {label_from(json), json.at("conf
 Json feature_values(const CaseBase& base, const Case& c) {
   Json values = Json::object();
   for (std::size_t i = 0; i < c.episode.features.size(); ++i)
-    values[base.metric().features[i].name] = number(c.episode.features[i]);
+    values[base.metric().features[i].name] = number_or_null(c.episode.features[i]);
   return values;
 }
 
@@ -47,7 +40,7 @@ std::vector<double> features_from(const Json& json, const std::vector<Feature>& 
         ErrorCode::input, "features",
         std::to_string(json.size()) + " values, " + std::to_string(features.size()) + " were expected");
   std::vector<double> values;
-  for (const Feature& f : features) values.push_back(number_from(json.at(f.name)));
+  for (const Feature& f : features) values.push_back(number_or_nan(json.at(f.name)));
   return values;
 }
 
@@ -61,7 +54,7 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   c.origin = json.at("origin").get<std::string>();
   c.episode.mlp = opinion_from(json.at("opinions").at("mlp"));
   c.episode.rbfn = opinion_from(json.at("opinions").at("rbfn"));
-  c.episode.evidence = number_from(json.at("evidence"));
+  c.episode.evidence = number_or_nan(json.at("evidence"));
   c.episode.features = features_from(json.at("features"), features);
   return c;
 }
@@ -92,12 +85,12 @@ nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
           {"what_was_done", c.what_was_done},
           {"origin", c.origin},
           {"opinions", {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}}},
-          {"evidence", number(c.episode.evidence)},
+          {"evidence", number_or_null(c.episode.evidence)},
           {"features", feature_values(base, c)}};
 }
 
 std::string to_cases_json(const CaseBase& base) {
-  Json json = {{"schema", kSchema}, {"near_similarity", number(base.metric().near_similarity)}};
+  Json json = {{"schema", kSchema}, {"near_similarity", number_or_null(base.metric().near_similarity)}};
   json["features"] = Json::array();
   for (const Feature& f : base.metric().features)
     json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "lib/core/statistics.hpp"
+
 namespace faultline {
 namespace {
 
@@ -136,12 +138,6 @@ bool step(const CriterionOptions& options, const OutputMeaning& meaning, double 
                                                     : log_odds_step(options, meaning, time, outputs, state);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 std::vector<SampleEpisode> all_episodes(const CriterionOptions& options, const OutputMeaning& meaning,
                                         const LabelledOutputs& run) {
   CriterionState state;
@@ -216,7 +212,7 @@ CriterionScore score_criterion(const CriterionOptions& options, const OutputMean
       }
     }
   }
-  score.median_delay_s = median(std::move(delays));
+  score.median_delay_s = upper_median(std::move(delays));
   return score;
 }
 

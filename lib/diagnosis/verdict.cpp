@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "lib/core/text.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
 
 namespace faultline {
@@ -41,7 +42,7 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   number_by_onset(diagnosis.faults);
   const std::size_t count = diagnosis.faults.size();
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
-  diagnosis.verdict_reason = count > 0 ? fmt::format("{} fault{} found", count, count == 1 ? "" : "s")
+  diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found"
                                        : "the identified robot explains the whole log";
 }
 

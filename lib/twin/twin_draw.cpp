@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/statistics.hpp"
 #include "lib/evidence/size_scale.hpp"
 
 namespace faultline {
@@ -66,8 +67,7 @@ double usual_move_s(const Twin& twin) {
     if (motion.velocity_scale[j] > 0.0)
       lengths.push_back(kMoveShare * (motion.q_high[j] - motion.q_low[j]) / motion.velocity_scale[j]);
   if (lengths.empty()) return kMoveOfAStill_s;
-  std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
-  return std::clamp(lengths[lengths.size() / 2], twin.options.shortest_move_s, twin.options.longest_move_s);
+  return std::clamp(upper_median_of(lengths), twin.options.shortest_move_s, twin.options.longest_move_s);
 }
 
 MotionSpec draw_motion(const Twin& twin, Random& random) {

@@ -4,49 +4,16 @@
 #include <cmath>
 #include <string>
 
-#include "formats/open_log.hpp"
-#include "lib/core/error.hpp"
-#include "lib/core/hash.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/formats/read_csv.hpp"
 
 namespace faultline {
 namespace {
-
-/// A log read in full, with what was found wrong in it.
-struct ReadLog {
-  Log log;
-  LogIdentity identity;
-  Issues issues;
-};
-
-ReadLog read(const std::string& text, const OpenLogOptions& options = {}) {
-  const TemporaryFolder folder;
-  const auto source = open_log(folder.write("log.csv", text), options);
-  ReadLog result;
-  result.log = read_all(*source);
-  result.identity = source->identity();
-  result.issues = source->issues();
-  EXPECT_EQ(result.identity.rows_read, result.log.rows() + result.issues.rows_dropped());
-  EXPECT_EQ(result.identity.sha256, sha256_hex(text));
-  return result;
-}
-
-std::string why_refused(const std::string& text, const OpenLogOptions& options = {}) {
-  const TemporaryFolder folder;
-  try {
-    const auto source = open_log(folder.write("log.csv", text), options);
-    read_all(*source);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "was read";
-}
 
 using Values = std::vector<double>;
 
 TEST(CsvReader, CanonicalColumnsNeedNoMapping) {
   const auto [log, identity, issues] =
-      read("t,q1,q2,dq1,dq2,tau1,tau2\n0,1,2,3,4,5,6\n0.1,1.5,2.5,3,4,5,6\n");
+      read_csv("t,q1,q2,dq1,dq2,tau1,tau2\n0,1,2,3,4,5,6\n0.1,1.5,2.5,3,4,5,6\n");
   EXPECT_EQ(log.time, (Values{0, 0.1}));
   EXPECT_EQ(log.q, (JointSignals{{1, 1.5}, {2, 2.5}}));
   EXPECT_EQ(log.dq, (JointSignals{{3, 3}, {4, 4}}));
@@ -56,7 +23,7 @@ TEST(CsvReader, CanonicalColumnsNeedNoMapping) {
 }
 
 TEST(CsvReader, SemicolonsAndDecimalComma) {
-  const Log log = read("t;q1;q2\n0;1,5;-2\n0,1;1,25e-1;3\n").log;
+  const Log log = read_csv("t;q1;q2\n0;1,5;-2\n0,1;1,25e-1;3\n").log;
   EXPECT_EQ(log.time, (Values{0, 0.1}));
   EXPECT_EQ(log.q, (JointSignals{{1.5, 0.125}, {-2, 3}}));
 }
@@ -67,7 +34,7 @@ TEST(CsvReader, TabsBlanksBarsAndCommasWithBlanks) {
     for (std::size_t at; (at = text.find(',')) != std::string::npos && std::string(separator) != ", ";)
       text.replace(at, 1, separator);
     if (std::string(separator) == ", ") text = "t, q1, tau1\n0, 1.5, 2\n0.1, -1.5, 3\n";
-    const Log log = read(text).log;
+    const Log log = read_csv(text).log;
     EXPECT_EQ(log.q, (JointSignals{{1.5, -1.5}})) << separator;
     EXPECT_EQ(log.tau, (JointSignals{{2, 3}})) << separator;
   }
@@ -75,17 +42,18 @@ TEST(CsvReader, TabsBlanksBarsAndCommasWithBlanks) {
 
 TEST(CsvReader, QuotesCommentsByteOrderMarkAndCarriageReturns) {
   const Log log =
-      read("\xEF\xBB\xBF# a robot\r\n\"t\",\"q1\"\r\n\"0\",\"1.5\"\r\n% pause\r\n\r\n0.1,2.5\r\n").log;
+      read_csv("\xEF\xBB\xBF# a robot\r\n\"t\",\"q1\"\r\n\"0\",\"1.5\"\r\n% pause\r\n\r\n0.1,2.5\r\n").log;
   EXPECT_EQ(log.time, (Values{0, 0.1}));
   EXPECT_EQ(log.q, (JointSignals{{1.5, 2.5}}));
 }
 
 TEST(CsvReader, HeaderBehindACommentSign) {
-  EXPECT_EQ(read("# t q1 tau1\n0 1 2\n0.5 3 4\n").log.tau, (JointSignals{{2, 4}}));
+  EXPECT_EQ(read_csv("# t q1 tau1\n0 1 2\n0.5 3 4\n").log.tau, (JointSignals{{2, 4}}));
 }
 
 TEST(CsvReader, LinesBeforeTheTableAreLeftOutAndCounted) {
-  const auto [log, identity, issues] = read("Robot 7, cell 2\nspeed: 3\n\nt,q1,tau1\n0,1,2\n1,3,4\n2,4,5\n");
+  const auto [log, identity, issues] =
+      read_csv("Robot 7, cell 2\nspeed: 3\n\nt,q1,tau1\n0,1,2\n1,3,4\n2,4,5\n");
   EXPECT_EQ(log.q, (JointSignals{{1, 3, 4}}));
   ASSERT_NE(issues.find("preamble_skipped"), nullptr);
   EXPECT_EQ(issues.find("preamble_skipped")->count, 2);
@@ -93,7 +61,7 @@ TEST(CsvReader, LinesBeforeTheTableAreLeftOutAndCounted) {
 
 TEST(CsvReader, UnitsInTheHeaderAreHonoured) {
   const Log log =
-      read("time_ms,q1 [deg],q2 (mm),dq1 [rad/s],dq2 [mm/s]\n0,180,1000,1,500\n10,90,500,1,500\n").log;
+      read_csv("time_ms,q1 [deg],q2 (mm),dq1 [rad/s],dq2 [mm/s]\n0,180,1000,1,500\n10,90,500,1,500\n").log;
   EXPECT_DOUBLE_EQ(log.time[1], 0.01);
   EXPECT_DOUBLE_EQ(log.q[0][0], M_PI);
   EXPECT_DOUBLE_EQ(log.q[1][1], 0.5);
@@ -102,14 +70,14 @@ TEST(CsvReader, UnitsInTheHeaderAreHonoured) {
 }
 
 TEST(CsvReader, UnitsInTheirOwnLineAreHonoured) {
-  EXPECT_DOUBLE_EQ(read("t,q1\nms,deg\n0,180\n10,90\n").log.q[0][0], M_PI);
+  EXPECT_DOUBLE_EQ(read_csv("t,q1\nms,deg\n0,180\n10,90\n").log.q[0][0], M_PI);
 }
 
 TEST(CsvReader, ColumnMapGivesNameUnitSignScaleAndOffset) {
   OpenLogOptions options;
   options.columns["t"] = {.name = "stamp", .unit = "us"};
   options.columns["q1"] = {.name = "enc", .unit = "deg", .sign = -1, .scale = 2, .offset = 1};
-  const Log log = read("stamp,enc\n0,0\n1000,90\n", options).log;
+  const Log log = read_csv("stamp,enc\n0,0\n1000,90\n", options).log;
   EXPECT_DOUBLE_EQ(log.time[1], 1e-3);
   EXPECT_DOUBLE_EQ(log.q[0][1], 1.0 - M_PI);
 }
@@ -117,19 +85,19 @@ TEST(CsvReader, ColumnMapGivesNameUnitSignScaleAndOffset) {
 TEST(CsvReader, RowNumbersStandForAMissingTime) {
   OpenLogOptions options;
   options.columns["t"] = {.name = "@row", .scale = 0.5};
-  EXPECT_EQ(read("q1\n7\n8\n9\n", options).log.time, (Values{0, 0.5, 1.0}));
+  EXPECT_EQ(read_csv("q1\n7\n8\n9\n", options).log.time, (Values{0, 0.5, 1.0}));
 }
 
 TEST(CsvReader, OneColumnMayServeTwoChannels) {
   OpenLogOptions options;
   options.columns["q_ref1"] = {.name = "q1", .offset = 1};
-  const Log log = read("t,q1\n0,5\n1,6\n", options).log;
+  const Log log = read_csv("t,q1\n0,5\n1,6\n", options).log;
   EXPECT_EQ(log.q, (JointSignals{{5, 6}}));
   EXPECT_EQ(log.q_ref, (JointSignals{{6, 7}}));
 }
 
 TEST(CsvReader, TextWhereANumberBelongsIsMissingAndToldWithItsPlace) {
-  const auto [log, identity, issues] = read("t,q1,tau1\n0,1,2\n1,oops,3\n2,4,bad\n3,worse,5\n");
+  const auto [log, identity, issues] = read_csv("t,q1,tau1\n0,1,2\n1,oops,3\n2,4,bad\n3,worse,5\n");
   EXPECT_TRUE(std::isnan(log.q[0][1]));
   EXPECT_TRUE(std::isnan(log.q[0][3]));
   const Issue* issue = issues.find("not_a_number", "q1");
@@ -141,21 +109,21 @@ TEST(CsvReader, TextWhereANumberBelongsIsMissingAndToldWithItsPlace) {
 }
 
 TEST(CsvReader, EmptyCellsAreMissingWithoutComplaint) {
-  const auto [log, identity, issues] = read("t,q1,q2\n0,1,\n1,,2\n2,nan,NULL\n");
+  const auto [log, identity, issues] = read_csv("t,q1,q2\n0,1,\n1,,2\n2,nan,NULL\n");
   EXPECT_TRUE(std::isnan(log.q[1][0]) && std::isnan(log.q[0][1]) && std::isnan(log.q[0][2]));
   EXPECT_EQ(log.q[1][1], 2);
   EXPECT_TRUE(issues.empty());
 }
 
 TEST(CsvReader, InfinityBecomesMissingWithAnIssue) {
-  const auto [log, identity, issues] = read("t,q1\n0,1\n1,inf\n2,1e282\n");
+  const auto [log, identity, issues] = read_csv("t,q1\n0,1\n1,inf\n2,1e282\n");
   EXPECT_TRUE(std::isnan(log.q[0][1]) && std::isnan(log.q[0][2]));
   ASSERT_NE(issues.find("value_implausible", "q1"), nullptr);
   EXPECT_EQ(issues.find("value_implausible", "q1")->count, 2);
 }
 
 TEST(CsvReader, ShortRowsAreFilledLongRowsAreLeftOut) {
-  const auto [log, identity, issues] = read("t,q1,q2\n0,1,2\n1,3\n2,4,5,6\n3,7,8\n");
+  const auto [log, identity, issues] = read_csv("t,q1,q2\n0,1,2\n1,3\n2,4,5,6\n3,7,8\n");
   EXPECT_EQ(log.time, (Values{0, 1, 3}));
   EXPECT_TRUE(std::isnan(log.q[1][1]));
   ASSERT_NE(issues.find("ragged_row"), nullptr);
@@ -165,20 +133,20 @@ TEST(CsvReader, ShortRowsAreFilledLongRowsAreLeftOut) {
 }
 
 TEST(CsvReader, TruncatedLastLineIsLeftOut) {
-  const auto [log, identity, issues] = read("t,q1,q2\n0,1,2\n1,3,4\n2,5");
+  const auto [log, identity, issues] = read_csv("t,q1,q2\n0,1,2\n1,3,4\n2,5");
   EXPECT_EQ(log.rows(), 2);
   ASSERT_NE(issues.find("truncated_last_line"), nullptr);
   EXPECT_EQ(issues.find("truncated_last_line")->first_row, 3);
 }
 
 TEST(CsvReader, CompleteLastLineWithoutNewlineIsKept) {
-  const auto [log, identity, issues] = read("t,q1,q2\n0,1,2\n1,3,4");
+  const auto [log, identity, issues] = read_csv("t,q1,q2\n0,1,2\n1,3,4");
   EXPECT_EQ(log.rows(), 2);
   EXPECT_TRUE(issues.empty());
 }
 
 TEST(CsvReader, HeaderRepeatedWhereFilesWereJoinedIsLeftOut) {
-  const auto [log, identity, issues] = read("t,q1\n0,1\nt,q1\n1,2\n");
+  const auto [log, identity, issues] = read_csv("t,q1\n0,1\nt,q1\n1,2\n");
   EXPECT_EQ(log.q, (JointSignals{{1, 2}}));
   EXPECT_NE(issues.find("header_repeated"), nullptr);
 }
@@ -220,13 +188,13 @@ TEST(CsvReader, NoHeaderNumbersTheColumnsAndTellsHowToMap) {
   OpenLogOptions options;
   options.columns["t"] = {.name = "column1"};
   options.columns["q1"] = {.name = "column3"};
-  const auto [log, identity, issues] = read("0,1,2\n1,3,4\n", options);
+  const auto [log, identity, issues] = read_csv("0,1,2\n1,3,4\n", options);
   EXPECT_EQ(log.q, (JointSignals{{2, 4}}));
   EXPECT_NE(issues.find("no_header"), nullptr);
 }
 
 TEST(CsvReader, NamesInRowsBecomeColumns) {
-  const Log log = read(
+  const Log log = read_csv(
                       "1760365398,710681477,,state.j2/position,0.5,state.j1/position,1.5,load,3\n"
                       "1760365398,730681477,,state.j2/position,0.6,state.j1/position,1.6,load,3\n")
                       .log;
@@ -235,7 +203,7 @@ TEST(CsvReader, NamesInRowsBecomeColumns) {
 }
 
 TEST(CsvReader, SparseRowsAreKeptWithMissingValues) {
-  const auto [log, identity, issues] = read("t,q1,extra\n0,1,\n0.1,,7\n0.2,2,\n0.3,,8\n");
+  const auto [log, identity, issues] = read_csv("t,q1,extra\n0,1,\n0.1,,7\n0.2,2,\n0.3,,8\n");
   EXPECT_EQ(log.rows(), 4);
   EXPECT_TRUE(std::isnan(log.q[0][1]));
   ASSERT_EQ(log.extra.size(), 1u);
@@ -245,58 +213,9 @@ TEST(CsvReader, SparseRowsAreKeptWithMissingValues) {
 TEST(CsvReader, ExtraColumnsCanBeLeftOut) {
   OpenLogOptions options;
   options.keep_extra = false;
-  const Log log = read("t,note,q1\n0,\"a, b\",1\n1,c,2\n", options).log;
+  const Log log = read_csv("t,note,q1\n0,\"a, b\",1\n1,c,2\n", options).log;
   EXPECT_TRUE(log.extra.empty());
   EXPECT_EQ(log.q, (JointSignals{{1, 2}}));
-}
-
-/// Everything a reader has to do, in one text.
-std::string troubled_text() {
-  std::string text = "t,q1,q2,tau1,tau2,note\n";
-  for (int i = 0; i < 500; ++i) {
-    const std::string row = std::to_string(i);
-    std::string time = std::to_string(0.01 * i);
-    if (i % 97 == 13) time = "x";
-    if (i % 89 == 20) time = "0.05";
-    if (i % 71 == 30) time = "1000";
-    if (i % 61 == 33) text += "# comment\n\n";
-    text += time + "," + row + (i % 53 == 7 ? ",oops" : ",1") + (i % 43 == 4 ? ",inf" : ",2") + ",3";
-    text += i % 37 == 5 ? "\n" : i % 31 == 6 ? ",a,b,c\n" : ",a\n";
-  }
-  return text + "5.01,1";
-}
-
-TEST(CsvReader, SegmentSizeChangesNothing) {
-  OpenLogOptions options;
-  options.segment_rows = 4096;
-  const ReadLog whole = read(troubled_text(), options);
-  ASSERT_GT(whole.log.rows(), 400);
-  ASSERT_GE(whole.issues.all().size(), 8u);
-  for (const int rows : {1, 2, 7, 100}) {
-    options.segment_rows = rows;
-    const ReadLog parts = read(troubled_text(), options);
-    EXPECT_EQ(parts.log.time, whole.log.time) << rows;
-    EXPECT_EQ(parts.log.q[0], whole.log.q[0]) << rows;
-    ASSERT_EQ(parts.issues.all().size(), whole.issues.all().size()) << rows;
-    for (std::size_t i = 0; i < whole.issues.all().size(); ++i) {
-      EXPECT_EQ(parts.issues.all()[i].code, whole.issues.all()[i].code);
-      EXPECT_EQ(parts.issues.all()[i].count, whole.issues.all()[i].count);
-      EXPECT_EQ(parts.issues.all()[i].message, whole.issues.all()[i].message);
-    }
-  }
-}
-
-TEST(CsvReader, RewindReadsTheSameAgain) {
-  const TemporaryFolder folder;
-  const auto source = open_log(folder.write("log.csv", troubled_text()));
-  const Log first = read_all(*source);
-  const auto issues = source->issues().all().size();
-  source->rewind();
-  const Log second = read_all(*source);
-  EXPECT_EQ(first.time, second.time);
-  EXPECT_EQ(first.tau[1], second.tau[1]);
-  EXPECT_EQ(source->issues().all().size(), issues);
-  EXPECT_EQ(source->identity().sha256, sha256_hex(troubled_text()));
 }
 
 TEST(CsvReader, BinaryBytesAreRefused) {
