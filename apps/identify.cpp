@@ -51,9 +51,14 @@ std::string table(const Identification& id) {
   for (const auto& e : id.physical_parameters) text += row(e);
   text += "fit\n";
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
-    text += fmt::format("  joint {}   R2 {:.5f}, torque left over {:.4g} rms, noise of q {:.3g}{}\n", j + 1,
-                        id.fit_r2[j], id.residual_rms[j], id.q_noise[j],
-                        id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
+    text += fmt::format(
+        "  joint {}   R2 {:.5f}, held out {:.5f}; torque left over {:.4g} rms, {:.2g} ms late; noise of q "
+        "{:.3g}{}\n",
+        j + 1, id.fit_r2[j], id.held_out_r2[j], id.residual_rms[j], 1e3 * id.torque_delay_s[j], id.q_noise[j],
+        id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
+  for (const ModelTerm& t : id.terms)
+    text += fmt::format("  {:<9} {}: held-out residual of joint {} {:.4g} without, {:.4g} with it\n", t.name,
+                        t.kept ? "pays" : "does not pay", t.joint + 1, t.error_before, t.error_after);
   text += fmt::format("  condition number {:.3g}\n", id.condition_number);
   for (const auto& log : id.logs)
     text += fmt::format("log {}: {} rows, sample period {:.6g} s\n", log.path, log.rows, log.sample_period_s);
@@ -93,6 +98,7 @@ void add_identify(CLI::App& app, Program& program) {
   command->add_option("--json", arguments->json, "Write the identification as JSON; - is standard output");
   add_choice_option(*command, "--method", arguments->options.method, kMethods,
                     "automatic, weak_form or output_error");
+  command->add_flag("--keep-all", arguments->options.keep_all, "Also use logs that disagree with the others");
   command
       ->add_option("--threads", arguments->options.threads,
                    "Threads; 0 is one a core. The result does not depend on it")

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "apps/robot_log.hpp"
 
+#include <utility>
+
 #include "formats/open_log.hpp"
+#include "lib/log/delayed_torque_source.hpp"
 
 namespace faultline {
 
@@ -9,7 +12,9 @@ std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& 
   OpenLogOptions options;
   options.columns = robot.log.columns;
   options.keep_extra = false;
-  return open_log(path, options);
+  std::unique_ptr<LogSource> log = open_log(path, options);
+  if (robot.torque_delay_s.empty()) return log;
+  return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s);
 }
 
 }  // namespace faultline

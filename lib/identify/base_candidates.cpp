@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 BaseCandidate candidate(const std::string& name, const std::string& unit, int joints) {
-  return {{name, unit, name, false}, Eigen::VectorXd::Zero(joints * kLinkParameters)};
+  return {{name, unit, name}, Eigen::VectorXd::Zero(joints * (kLinkParameters + 1))};
 }
 
 LinkVector rod_inertia(const Eigen::Vector3d& direction) {
@@ -44,6 +44,16 @@ void add_link_candidates(const Robot& robot, int i, std::vector<BaseCandidate>& 
   out.back().parameter.is_mass = true;
 }
 
+/// What turns with the motor: felt by its own joint alone.
+void add_rotor_candidate(const Robot& robot, int i, std::vector<BaseCandidate>& out) {
+  const bool turns = robot.chain.geometry[i].kind == AxisKind::revolute;
+  BaseCandidate c = candidate("jr" + std::to_string(i + 1), turns ? "kg m^2" : "kg", robot.joints());
+  c.parameter.is_rotor = true;
+  c.direction[robot.joints() * kLinkParameters + i] = 1.0;
+  c.joint = i;
+  out.push_back(std::move(c));
+}
+
 /// a, b, c, m3 of physics of the SCARA: each direction changes that one number of M and G and no other.
 std::vector<BaseCandidate> scara_candidates(const Robot& robot) {
   const int n = robot.joints();
@@ -76,6 +86,8 @@ std::vector<BaseCandidate> base_candidates(const Robot& robot) {
   if (is_scara(robot) && robot.chain.length[0] > 0.0 && robot.chain.length[1] > 0.0)
     out = scara_candidates(robot);
   for (int i = 0; i < robot.joints(); ++i) add_link_candidates(robot, i, out);
+  for (int i = 0; i < robot.joints(); ++i)
+    if (robot.known.count("jr" + std::to_string(i + 1)) == 0) add_rotor_candidate(robot, i, out);
   return out;
 }
 

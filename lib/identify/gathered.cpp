@@ -4,61 +4,114 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/identify/stretch.hpp"
+#include "lib/identify/motion/stretch.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kStill = 20.0;        ///< times the noise of q: a joint that does not move
-constexpr double kLeastMotion = 1e-4;  ///< rad or m
-constexpr std::size_t kWindows = 10;   ///< fewer tell nothing
+constexpr std::size_t kWindows = 10;         // fewer tell nothing
+constexpr std::int64_t kMostRows = 400'000;  // of longer logs every n-th stretch is used
+
+/// Every how many stretches one is used, so that long logs cost no more than is worth it.
+int stretch_stride(const std::vector<LogSurvey>& surveys) {
+  std::int64_t rows = 0;
+  for (const LogSurvey& survey : surveys) rows += survey.summary.rows;
+  return static_cast<int>(1 + rows / kMostRows);
+}
+
+void visit_stretches(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys, int joints,
+                     const std::function<void(const Stretch&)>& visit) {
+  const int stride = stretch_stride(surveys);
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    for_each_stretch(*logs[i], static_cast<int>(i), joints, surveys[i], stride, visit);
+}
+
+/// The torque of joint j in row k is that logged `shift` rows before; rows without it go.
+Stretch shifted(const Stretch& s, const std::vector<int>& shift) {
+  const int first = std::max(0, *std::max_element(shift.begin(), shift.end()));
+  const int last = s.rows() + std::min(0, *std::min_element(shift.begin(), shift.end()));
+  const int rows = last - first;
+  Stretch out = s;
+  if (rows < 2) {
+    out.time.resize(0);
+    return out;
+  }
+  out.time = s.time.segment(first, rows);
+  for (auto m : {&Stretch::q, &Stretch::dq, &Stretch::q_smooth, &Stretch::dq_smooth})
+    out.*m = (s.*m).middleCols(first, rows);
+  out.outlier = s.outlier.middleCols(first, rows);
+  out.tau.resize(s.joints(), rows);
+  for (int j = 0; j < s.joints(); ++j) out.tau.row(j) = s.tau.row(j).segment(first - shift[j], rows);
+  return out;
+}
 
 }  // namespace
 
-void gather(std::span<LogSource* const> logs, const Progress& progress, Gathered& gathered,
-            Identification& id) {
+Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
+                const Progress& progress, Identification& id) {
+  Gathered out;
+  double period_s = 0.0;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress("reading", static_cast<double>(i) / static_cast<double>(logs.size()));
-    const int log = static_cast<int>(i);
-    const auto read = for_each_stretch(*logs[i], log, id.space.joints(), [&](const Stretch& s) {
-      gathered.windows.add(s);
-      gathered.excerpts.add(s);
-      gathered.roughness.add(s);
-    });
-    const LogIdentity& from = logs[i]->identity();
-    id.logs.push_back(
-        {from.path, from.sha256, read.rows, gathered.windows.rows_used(log), read.period_s, 0.0});
+    out.surveys.push_back(survey_log(*logs[i], id.space.joints()));
     id.issues.merge(logs[i]->issues());
+    id.issues.merge(survey_issues(out.surveys.back()));
+    period_s = std::max(period_s, out.surveys.back().summary.period_s);
   }
-  const std::size_t windows = gathered.windows.all().size();
+  out.left_out.assign(logs.size(), false);
+  out.windows.space = id.space;
+  out.windows.shifts = shift_range(period_s);
+  for (const double length : window_lengths(shortest_window_s, std::max(period_s, 1e-9)))
+    out.windows.sets.emplace_back(length, max_windows);
+  visit_stretches(logs, out.surveys, id.space.joints(), [&](const Stretch& s) {
+    out.windows.add(s);
+    out.measurements.add(s);
+  });
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const LogIdentity& from = logs[i]->identity();
+    const StretchSummary& read = out.surveys[i].summary;
+    id.logs.push_back({from.path,
+                       from.sha256,
+                       read.rows,
+                       out.windows.sets[0].rows_used(static_cast<int>(i)),
+                       read.period_s,
+                       0.0,
+                       {},
+                       false});
+  }
+  const std::size_t windows = out.windows.sets[0].all().size();
   if (windows < kWindows)
     throw Error(
         ErrorCode::input, logs.empty() ? "" : logs[0]->identity().path,
         fmt::format("gives {} usable windows in all; identification needs at least {}: give longer logs of a "
                     "moving robot",
                     windows, kWindows));
+  while (out.windows.sets.back().all().size() < kWindows) out.windows.sets.pop_back();
+  return out;
 }
 
-Eigen::VectorXd noise_floor(const Roughness& roughness) { return (1e-7 * roughness.range()).cwiseMax(1e-9); }
-
-Eigen::VectorXd first_noise(const Roughness& roughness) {
-  Eigen::VectorXd noise = roughness.std();
-  for (Eigen::Index c = 0; c < noise.size(); ++c)
-    if (std::isnan(noise[c])) noise[c] = 0.005 * roughness.range()[c];
-  return noise;
+void Gathered::leave_out(const std::vector<int>& logs) {
+  for (const int log : logs) left_out[log] = true;
+  for (WeakWindows& set : windows.sets) set.leave_out(left_out);
 }
 
-std::vector<int> still_joints(const Roughness& roughness) {
-  const Eigen::VectorXd noise = roughness.std();
+std::vector<int> still_joints(const Measurements& measurements, int joints) {
   std::vector<int> still;
-  for (int j = 0; j < static_cast<int>(noise.size()) / 2; ++j) {
-    const double jitter = std::isnan(noise[j]) ? 0.0 : kStill * noise[j];
-    if (roughness.still(j, std::max(jitter, kLeastMotion))) still.push_back(j + 1);
-  }
+  for (int j = 0; j < joints; ++j)
+    if (measurements.still(j)) still.push_back(j + 1);
   return still;
+}
+
+std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,
+                                     const std::vector<int>& shift, Excerpts excerpts) {
+  visit_stretches(logs, gathered.surveys, gathered.windows.space.joints(), [&](const Stretch& s) {
+    if (gathered.left_out[s.log]) return;
+    const Stretch acting = shifted(s, shift);
+    if (acting.rows() > 0) excerpts.add(acting);
+  });
+  return excerpts.take();
 }
 
 }  // namespace faultline

@@ -5,31 +5,35 @@
 #include <vector>
 
 #include "lib/core/progress.hpp"
-#include "lib/identify/excerpt.hpp"
+#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/identification.hpp"
-#include "lib/identify/weak_form/weak_form.hpp"
+#include "lib/identify/motion/log_survey.hpp"
+#include "lib/identify/motion/measurements.hpp"
+#include "lib/identify/weak_form/weak_windows.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
 
 /// What one pass over the logs gathers.
 struct Gathered {
-  WeakWindows windows;
-  Excerpts excerpts;
-  Roughness roughness;
+  std::vector<LogSurvey> surveys;
+  WeakSets windows;
+  Measurements measurements;
+  std::vector<bool> left_out;  ///< by log: its windows and excerpts do not count
+
+  void leave_out(const std::vector<int>& logs);
 };
 
-/// Reads every log once; what is known of each goes to `id.logs`, what was wrong to `id.issues`. Throws
+/// Reads every log twice; what is known of each goes to `id.logs`, what was wrong to `id.issues`. Throws
 /// Error(input) when they give too few windows.
-void gather(std::span<LogSource* const> logs, const Progress& progress, Gathered& gathered,
-            Identification& id);
-
-/// Least noise a channel can have: rounding of its digits. q (first) and dq by joint.
-Eigen::VectorXd noise_floor(const Roughness& roughness);
-/// Noise as roughness shows it; on logs too slow to tell, a share of the range.
-Eigen::VectorXd first_noise(const Roughness& roughness);
+Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
+                const Progress& progress, Identification& id);
 
 /// Joints, from 1, whose position hardly changed against its noise in all logs.
-std::vector<int> still_joints(const Roughness& roughness);
+std::vector<int> still_joints(const Measurements& measurements, int joints);
+
+/// Excerpts of the logs with each joint's torque shifted by as many samples as it acts later.
+std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,
+                                     const std::vector<int>& shift, Excerpts excerpts);
 
 }  // namespace faultline

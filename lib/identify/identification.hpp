@@ -18,6 +18,7 @@ enum class IdentificationStatus {
   converged,
   not_converged,   ///< values are the best found, not an optimum
   poorly_excited,  ///< converged, but some parameters could not be told from the motion and were kept
+  unexplained,     ///< the model does not explain the torque of some joint: its values mean nothing
 };
 
 const char* to_string(IdentificationStatus status);
@@ -49,6 +50,25 @@ struct IdentifiedLog {
   std::int64_t rows_used = 0;  ///< in the windows of the weak form
   double sample_period_s = 0.0;
   double payload_kg = 0.0;
+  std::vector<double> fit_r2;  ///< share of the torque's variance explained in this log, by joint
+  bool left_out = false;       ///< it disagrees with the others
+};
+
+/// One thing the model may have, and what it is worth on data it was not fitted to.
+struct ModelTerm {
+  std::string name;  ///< of the parameter, such as "jr2", or "delay_1"
+  int joint = 0;     ///< from 0: whose torque it is judged by
+  bool kept = false;
+  double error_before = 0.0;  ///< held-out residual of that joint without it, N m or N rms
+  double error_after = 0.0;   ///< with it
+};
+
+/// What moved one joint and what the model says should have, window by window, for pictures.
+struct JointFit {
+  std::vector<int> log;                    ///< from 0
+  std::vector<double> time_s;              ///< start of the window
+  std::vector<double> q, dq;               ///< in its middle
+  std::vector<double> measured, modelled;  ///< mean torque, N m or N
 };
 
 /// What healthy logs tell about a robot.
@@ -66,8 +86,14 @@ struct Identification {
   double condition_number = 0.0;     ///< of the base parameters' regressor, columns scaled to length 1
   std::vector<double> residual_rms;  ///< torque the model does not explain over windows, by joint, N m or N
   std::vector<double> fit_r2;        ///< share of the windowed torque's variance explained, by joint
+  std::vector<double> held_out_r2;   ///< the same of windows that were not fitted to
+  std::vector<ModelTerm> terms;      ///< what the model was offered beyond its base, and whether it paid
+  std::vector<double> between_logs_std;  ///< of `estimate`, fitted to each log alone; NaN where not known
+  std::vector<double> torque_delay_s;  ///< how late each joint's torque acts, against a straight line between
+                                       ///< samples
   std::vector<IdentifiedLog> logs;
   Issues issues;
+  std::vector<JointFit> joint_fits;  ///< by joint; not kept in JSON
 
   ParameterSpace space;
   Eigen::VectorXd estimate;    ///< all parameters of `space`

@@ -47,7 +47,9 @@ Json log_json(const IdentifiedLog& log) {
           {"rows", log.rows},
           {"rows_used", log.rows_used},
           {"sample_period_s", number_or_null(log.sample_period_s)},
-          {"payload_kg", number_or_null(log.payload_kg)}};
+          {"payload_kg", number_or_null(log.payload_kg)},
+          {"fit_r2", numbers_or_null(log.fit_r2)},
+          {"left_out", log.left_out}};
 }
 
 IdentifiedLog log_from(const Json& j) {
@@ -56,7 +58,22 @@ IdentifiedLog log_from(const Json& j) {
           j.at("rows"),
           j.at("rows_used"),
           number_or_nan(j.at("sample_period_s")),
-          number_or_nan(j.at("payload_kg"))};
+          number_or_nan(j.at("payload_kg")),
+          j.contains("fit_r2") ? numbers_or_nan(j.at("fit_r2")) : std::vector<double>{},
+          j.value("left_out", false)};
+}
+
+Json term_json(const ModelTerm& t) {
+  return {{"name", t.name},
+          {"joint", t.joint + 1},
+          {"kept", t.kept},
+          {"held_out_without", number_or_null(t.error_before)},
+          {"held_out_with", number_or_null(t.error_after)}};
+}
+
+ModelTerm term_from(const Json& j) {
+  return {j.at("name"), j.at("joint").get<int>() - 1, j.at("kept"), number_or_nan(j.at("held_out_without")),
+          number_or_nan(j.at("held_out_with"))};
 }
 
 Json state_json(const Identification& id) {
@@ -78,9 +95,10 @@ Identification read_summary(const Json& j, const std::string& where) {
   using Status = IdentificationStatus;
   using Method = IdentifyMethod;
   Identification id;
-  id.status =
-      enum_from(j.at("status").get<std::string>(),
-                {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited}, where);
+  id.status = enum_from(j.at("status").get<std::string>(),
+                        {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited,
+                         Status::unexplained},
+                        where);
   id.reason = j.at("reason");
   id.method = enum_from(j.at("method").get<std::string>(),
                         {Method::automatic, Method::weak_form, Method::output_error}, where);
@@ -91,6 +109,12 @@ Identification read_summary(const Json& j, const std::string& where) {
   id.condition_number = number_or_nan(j.at("condition_number"));
   id.residual_rms = numbers_or_nan(j.at("residual_rms"));
   id.fit_r2 = numbers_or_nan(j.at("fit_r2"));
+  if (j.contains("held_out_r2")) {
+    id.held_out_r2 = numbers_or_nan(j.at("held_out_r2"));
+    for (const Json& term : j.at("terms")) id.terms.push_back(term_from(term));
+    id.torque_delay_s = numbers_or_nan(j.at("torque_delay_s"));
+    id.between_logs_std = numbers_or_nan(j.at("between_logs_std"));
+  }
   for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
   return id;
 }
@@ -123,6 +147,10 @@ nlohmann::ordered_json summary_to_json(const Identification& id) {
           {"condition_number", number_or_null(id.condition_number)},
           {"residual_rms", numbers_or_null(id.residual_rms)},
           {"fit_r2", numbers_or_null(id.fit_r2)},
+          {"held_out_r2", numbers_or_null(id.held_out_r2)},
+          {"terms", list_of<Json>(id.terms, term_json)},
+          {"torque_delay_s", numbers_or_null(id.torque_delay_s)},
+          {"between_logs_std", numbers_or_null(id.between_logs_std)},
           {"q_noise", numbers_or_null(id.q_noise)},
           {"dq_noise", numbers_or_null(id.dq_noise)},
           {"logs", list_of<Json>(id.logs, log_json)}};

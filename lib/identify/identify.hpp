@@ -19,8 +19,9 @@ struct IdentifyOptions {
   int max_iterations = 40;      ///< of each least-squares solve
   bool estimate_offset = true;  ///< friction offset of a joint, kept only where the data ask for it
   bool estimate_width =
-      true;         ///< friction width, with the robot file's as a prior within a factor of about 3
-  int threads = 0;  ///< 0 = one a core; the result does not depend on it
+      true;               ///< friction width, with the robot file's as a prior within a factor of about 3
+  bool keep_all = false;  ///< also logs that disagree with the others
+  int threads = 0;        ///< 0 = one a core; the result does not depend on it
 
   /// Throws Error(usage) naming the field, its value and its bound.
   void check() const;

@@ -13,6 +13,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kRounding = 1e-12;  // kg m^2 or kg
 constexpr int kProbes = 40;
 constexpr double kIndependent = 1e-7;  ///< share of a column that the columns before it must leave
 
@@ -22,16 +23,17 @@ JointVector<double> draw(Random& random, int n, double scale) {
   return v;
 }
 
-/// Torque of every inertial number at random states: (probes n) x (10 n).
+/// Torque of every inertial number and rotor at random states: (probes n) x (11 n).
 Eigen::MatrixXd probe(const Chain<double>& chain) {
   const int n = chain.joints();
   Random random(20260101);
-  Eigen::MatrixXd all(kProbes * n, n * kLinkParameters);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(kProbes * n, n * (kLinkParameters + 1));
   LinkRegressor y;
   for (int k = 0; k < kProbes; ++k) {
     const auto q = draw(random, n, 2.0), dq = draw(random, n, 2.0), ddq = draw(random, n, 5.0);
     torque_regressor(chain, q, dq, ddq, y);
-    all.middleRows(k * n, n) = y;
+    all.block(k * n, 0, n, n * kLinkParameters) = y;
+    all.block(k * n, n * kLinkParameters, n, n).diagonal() = ddq;
   }
   return all;
 }
@@ -78,6 +80,7 @@ std::string ParameterSpace::unit(int p) const {
 ParameterSpace parameter_space(const Robot& robot) {
   ParameterSpace space;
   space.chain = robot.chain;
+  space.chain.rotor_inertia.resize(robot.joints(), 0.0);
   const Eigen::MatrixXd all = probe(robot.chain);
   const auto list = base_candidates(robot);
   Eigen::MatrixXd kept(all.rows(), 0), lift(all.cols(), 0);
@@ -95,6 +98,7 @@ ParameterSpace parameter_space(const Robot& robot) {
     kept.rightCols<1>() = column;
     lift.rightCols<1>() = c.direction;
     space.base.push_back(c.parameter);
+    if (c.parameter.is_rotor) space.chain.rotor_inertia[c.joint] = 0.0;
   }
   space.lift = lift;
   if (is_scara(robot)) return space;
@@ -108,9 +112,11 @@ ParameterSpace parameter_space(const Robot& robot) {
 
 Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
   Chain<double> chain = space.chain;
-  const Eigen::VectorXd links = space.lift * p.head(space.rigid());
-  for (int i = 0; i < chain.joints(); ++i) {
-    chain.links[i] = link_from(links.segment<kLinkParameters>(i * kLinkParameters));
+  const int n = chain.joints();
+  const Eigen::VectorXd numbers = space.lift * p.head(space.rigid());
+  for (int i = 0; i < n; ++i) {
+    chain.links[i] = link_from(numbers.segment<kLinkParameters>(i * kLinkParameters));
+    chain.rotor_inertia[i] += numbers[n * kLinkParameters + i];
     chain.friction[i] = {p[space.viscous(i)], p[space.coulomb(i)], p[space.offset(i)],
                          std::exp(p[space.log_width(i)])};
   }
@@ -119,10 +125,16 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
 
 Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi) {
   const int n = space.joints();
-  Eigen::VectorXd links(n * kLinkParameters), p(space.count());
-  for (int i = 0; i < n; ++i) links.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
-  const Eigen::VectorXd torque = probe(chain) * links;
+  Eigen::VectorXd numbers(n * (kLinkParameters + 1)), p(space.count());
+  for (int i = 0; i < n; ++i) {
+    numbers.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
+    const double rotor = chain.rotor_inertia.empty() ? 0.0 : chain.rotor_inertia[i];
+    numbers[n * kLinkParameters + i] = rotor - space.chain.rotor_inertia[i];
+  }
+  const Eigen::VectorXd torque = probe(chain) * numbers;
   p.head(space.rigid()) = (probe(space.chain) * space.lift).colPivHouseholderQr().solve(torque);
+  for (int k = 0; k < space.rigid(); ++k)  // solved for, so zero comes out as rounding
+    if (space.base[k].is_rotor && std::abs(p[k]) < kRounding) p[k] = 0.0;
   for (int i = 0; i < n; ++i) {
     p[space.viscous(i)] = chain.friction[i].viscous;
     p[space.coulomb(i)] = chain.friction[i].coulomb;
@@ -131,6 +143,11 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
   }
   p[space.timing()] = phi;
   return p;
+}
+
+Eigen::MatrixXd base_map(const ParameterSpace& space) {
+  const Eigen::MatrixXd all = probe(space.chain);
+  return (all * space.lift).colPivHouseholderQr().solve(all);
 }
 
 }  // namespace faultline

@@ -14,18 +14,22 @@ namespace faultline {
 struct BaseParameter {
   std::string
       name;  ///< a, b, c, m3 of a SCARA; else the inertial number it is gathered in, such as "I1", "mx2"
-  std::string unit;      ///< kg m^2, kg m or kg
-  std::string meaning;   ///< what it adds up, such as "I2 + 0.09 m3" at the lengths of `chain`
-  bool is_mass = false;  ///< the mass that a vertical prismatic axis carries: one that gravity weighs
+  std::string unit;       ///< kg m^2, kg m or kg
+  std::string meaning;    ///< what it adds up, such as "I2 + 0.09 m3" at the lengths of `chain`
+  bool is_mass = false;   ///< the mass that a vertical prismatic axis carries: one that gravity weighs
+  bool is_rotor = false;  ///< what turns faster than the joint and that nothing else feels
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
 /// joint fv, fc, offset, then phi (torque timing), then ln(friction width) of every joint. Torques are linear
 /// in all but the widths.
 struct ParameterSpace {
-  Chain<double> chain;  ///< geometry, lengths, gravity and rotor inertia; its links and friction do not count
+  Chain<double> chain;  ///< geometry, lengths, gravity and rotor inertia that is no base parameter; its links
+                        ///< and friction do not count
   std::vector<BaseParameter> base;
-  Eigen::MatrixXd lift;  ///< (10 n) x base: the links' inertial numbers that stand for the base parameters
+  /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
+  /// parameters.
+  Eigen::MatrixXd lift;
 
   int joints() const { return chain.joints(); }
   int rigid() const { return static_cast<int>(base.size()); }
@@ -43,8 +47,8 @@ struct ParameterSpace {
 };
 
 /// Base parameters by rank over random states, so that every torque the robot's link shapes allow can be
-/// formed: a, b, c, m3 for SCARA orders, else the inertial numbers themselves, base first
-/// (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
+/// formed: a, b, c, m3 for SCARA orders, else the inertial numbers themselves, base first, then the rotors
+/// that are felt apart from the links (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
 ParameterSpace parameter_space(const Robot& robot);
 
 /// The chain that moves as the parameters say. Its masses and first moments stand for the base parameters and
@@ -54,5 +58,8 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& par
 /// The parameters of `robot` in `space`: the base parameters whose torques come nearest to its own, its
 /// friction, `phi`.
 Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi);
+
+/// The base parameters that arbitrary links and rotors act like: base x (11 n).
+Eigen::MatrixXd base_map(const ParameterSpace& space);
 
 }  // namespace faultline

@@ -48,6 +48,8 @@ std::string why_not(const Identification& id, int p, const TableFacts& facts) {
   const std::vector<int> still = still_for(id, p, facts.still);
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
   if (p > id.space.timing()) return why_width(id, p, facts);
+  if (p < id.space.rigid() && id.space.base[p].is_rotor)
+    return fmt::format("left at {:g}: it does not pay on data that were not fitted", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
     return fmt::format("left at {:g}: the robot file says how torque runs between samples", id.estimate[p]);
   return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
@@ -83,8 +85,10 @@ void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identifi
 }
 
 bool all_told(const Identification& id) {
-  return std::all_of(id.base_parameters.begin(), id.base_parameters.begin() + id.space.offset(0),
-                     [](const ParameterEstimate& e) { return e.identifiable; });
+  for (int p = 0; p < id.space.offset(0); ++p)
+    if (!id.base_parameters[p].identifiable && !(p < id.space.rigid() && id.space.base[p].is_rotor))
+      return false;
+  return true;
 }
 
 }  // namespace faultline

@@ -2,10 +2,12 @@
 #include "lib/pipeline/learn.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
+#include "lib/log/delayed_torque_source.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/identified_model.hpp"
@@ -46,8 +48,9 @@ void tell(const Progress& progress, const char* what, double share) {
 std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const Model& model) {
   std::vector<MonitoredRun> runs;
   for (const LabelledLog& entry : labelled) {
-    entry.log->rewind();
-    runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(*entry.log, model)});
+    DelayedTorqueSource log(*entry.log, model.robot.torque_delay_s);
+    log.rewind();
+    runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(log, model)});
   }
   return runs;
 }
@@ -59,6 +62,20 @@ std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
   std::erase_if(labels, [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
   labels.insert(labels.end(), kHealthySampleRuns, FaultLabel{});
   return labels;
+}
+
+/// The logs that agree, told as if their torques acted when logged.
+std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const Identification& id) {
+  std::deque<DelayedTorqueSource> out;
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    if (!id.logs[i].left_out) out.emplace_back(*logs[i], id.robot.torque_delay_s);
+  return out;
+}
+
+std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
+  std::vector<LogSource*> out;
+  for (DelayedTorqueSource& log : logs) out.push_back(&log);
+  return out;
 }
 
 /// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
@@ -119,14 +136,16 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   Model& model = out.model;
   out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
   model = identified_model(out.identification);
+  std::deque<DelayedTorqueSource> in_time_logs = in_time(logs.sources(), out.identification);
+  const std::vector<LogSource*> acting = pointers(in_time_logs);
   out.residual =
-      learn_residual_generator(logs.sources(), model.robot, model.robot.torque_phi.value_or(0.0),
-                               options.residual, part_of(progress, kIdentified, kResidualsLearned));
+      learn_residual_generator(acting, model.robot, model.robot.torque_phi.value_or(0.0), options.residual,
+                               part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   tell(progress, "matching the noise", kResidualsLearned);
-  model.motion = learn_motion_model(logs.sources(), identified_motion(out.identification), {});
+  model.motion = learn_motion_model(acting, identified_motion(out.identification), {});
   tell(progress, "checking the alarm threshold", kResidualsLearned);
-  model.evidence = calibrate_thresholds(logs.sources(), model.motion, model.bank, {});
+  model.evidence = calibrate_thresholds(acting, model.motion, model.bank, {});
   learn_from_twin(out, labelled, options, progress);
   model.sources = sources_of(out.identification, labelled);
   model.twin = options.twin;

@@ -51,6 +51,9 @@ struct Robot {
   bool identified = false;
   /// Identified timing of the torque: over a sample it was tau_k + phi (tau_k+1 - tau_k). 0 is held.
   std::optional<double> torque_phi;
+  /// Identified, by joint: how much later the torque acts than it is logged, in whole samples of the logs it
+  /// was identified from; s. Empty when all act when they are logged.
+  std::vector<double> torque_delay_s;
   LogMeaning log;
 
   int joints() const { return chain.joints(); }

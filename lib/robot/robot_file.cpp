@@ -79,6 +79,8 @@ void read_identified(Robot& robot, const TomlTable& table) {
   const TomlTable identified = table.table("identified");
   if (!robot.identified) return;
   if (identified.has("torque_phi")) robot.torque_phi = identified.number("torque_phi");
+  if (identified.has("torque_delay_s"))
+    robot.torque_delay_s = identified.each("torque_delay_s", robot.joints());
   const auto joints = identified.tables("joint");
   if (static_cast<int>(joints.size()) != robot.joints())
     identified.fail("joint",

@@ -94,6 +94,8 @@ std::string log_text(const LogMeaning& log) {
 std::string identified_text(const Robot& robot) {
   std::string text = "\n[identified]\n";
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", number(*robot.torque_phi));
+  if (!robot.torque_delay_s.empty())
+    text += fmt::format("torque_delay_s = {}\n", numbers(robot.torque_delay_s));
   for (int i = 0; i < robot.joints(); ++i) {
     const LinkInertia<double>& link = robot.chain.links[i];
     const Friction<double>& f = robot.chain.friction[i];

@@ -36,7 +36,7 @@ const Identification& identified() {
 /// Base parameters, then fv and fc of every joint, of a drawn robot.
 Eigen::VectorXd parameters_in(const Robot& robot, const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& lift,
                               int rigid) {
-  Eigen::VectorXd links(3 * kLinkParameters), out(rigid + 6);
+  Eigen::VectorXd links = Eigen::VectorXd::Zero(3 * (kLinkParameters + 1)), out(rigid + 6);
   for (int i = 0; i < 3; ++i)
     links.segment<kLinkParameters>(i * kLinkParameters) = to_vector(robot.chain.links[i]);
   out.head(rigid) = lift.solve(links);
@@ -81,7 +81,9 @@ TEST(Identification, DrawsScatterAsTheCovarianceSays) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> lift(id.space.lift);
   Random random(12);
   Eigen::MatrixXd scaled(count, kDraws);
-  const Eigen::VectorXd std = id.covariance.diagonal().head(count).cwiseSqrt();
+  const Eigen::VectorXd std = (id.covariance.diagonal().head(count).array() > 0.0)
+                                  .select(id.covariance.diagonal().head(count), 1.0)
+                                  .cwiseSqrt();
   for (int k = 0; k < kDraws; ++k)
     scaled.col(k) =
         (parameters_in(draw(id, random), lift, rigid) - id.estimate.head(count)).cwiseQuotient(std);

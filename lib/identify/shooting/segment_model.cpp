@@ -13,8 +13,10 @@ Chain<double> direction_chain(const ParameterSpace& space, int base) {
   Chain<double> chain = space.chain;
   chain.rotor_inertia.assign(chain.joints(), 0.0);
   chain.friction.assign(chain.joints(), {});
-  for (int i = 0; i < chain.joints(); ++i)
+  for (int i = 0; i < chain.joints(); ++i) {
     chain.links[i] = link_from(space.lift.block<kLinkParameters, 1>(i * kLinkParameters, base));
+    chain.rotor_inertia[i] = space.lift(chain.joints() * kLinkParameters + i, base);
+  }
   return chain;
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/excerpt.hpp"
+#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/core/progress.hpp"
-#include "lib/identify/excerpt.hpp"
+#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/parameter_space.hpp"
 
 namespace faultline {

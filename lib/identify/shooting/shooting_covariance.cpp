@@ -9,6 +9,18 @@ namespace faultline {
 namespace {
 
 constexpr double kBlock_s = 1.0;
+constexpr double kBlocksPerParameter = 5.0;
+constexpr double kShortestBlock_s = 0.1;
+constexpr double kFreeBlocks = 0.5;  // share of the blocks that at least counts as free
+constexpr double kWhite =
+    1.5;  // mean ratio of the sandwich's variances to the white ones: chance, not correlation
+
+/// A second, on short logs less: a covariance from fewer blocks than parameters is none.
+double block_length(const std::vector<Excerpt>& excerpts, double parameters) {
+  double total_s = 0.0;
+  for (const Excerpt& e : excerpts) total_s += e.time[e.rows() - 1] - e.time[0];
+  return std::clamp(total_s / (kBlocksPerParameter * parameters), kShortestBlock_s, kBlock_s);
+}
 
 }  // namespace
 
@@ -31,6 +43,7 @@ bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eig
 Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
                          const Eigen::MatrixXd& white) {
   const Eigen::Index m = white.rows();
+  const double block_s = block_length(excerpts, static_cast<double>(m));
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
   double blocks = 0.0;
@@ -40,18 +53,23 @@ Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector
     g += evaluation.reduced[i].by_parameter.transpose() * evaluation.reduced[i].residual;
     const bool ends =
         i + 1 == excerpts.size() || excerpts[i + 1].log != excerpts[i].log ||
-        std::floor(excerpts[i + 1].time[0] / kBlock_s) != std::floor(excerpts[i].time[0] / kBlock_s);
+        std::floor(excerpts[i + 1].time[0] / block_s) != std::floor(excerpts[i].time[0] / block_s);
     if (!ends) continue;
     meat += g * g.transpose();
     g.setZero();
     blocks += 1.0;
   }
-  const double correction = blocks / std::max(1.0, blocks - static_cast<double>(m));
+  const double correction = blocks / std::max({1.0, blocks - static_cast<double>(m), kFreeBlocks * blocks});
   return correction * white * meat * white;
 }
 
 Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
-  Eigen::VectorXd factor(white.rows());
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(white.rows());
+  const double mean = robust.diagonal().cwiseQuotient(white.diagonal().cwiseMax(1e-300)).mean();
+  if (mean < kWhite) {
+    widened = std::sqrt(std::max(1.0, mean));
+    return widened * widened * white;
+  }
   for (Eigen::Index k = 0; k < white.rows(); ++k)
     factor[k] = white(k, k) > 0.0 ? std::sqrt(std::max(1.0, robust(k, k) / white(k, k))) : 1.0;
   widened = factor.maxCoeff();

@@ -8,22 +8,26 @@
 
 #include "lib/core/statistics.hpp"
 #include "lib/identify/weak_form/column_selection.hpp"
-#include "lib/identify/weak_form/weak_system.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kRounds = 8;
 constexpr double kOutlierStd = 8.0;
-constexpr double kClearlyBetter = 1.3;  ///< Coulomb friction is sharp unless the logs strongly say otherwise
-constexpr double kResting = 0.03;       ///< of a joint's fastest window
+constexpr double kSettled = 1e-9;  // relative change of the residual's scales below which rounds end
 
-/// 1.4826 times the median absolute value of every n-th entry from `joint`.
-double robust_scale(const Eigen::VectorXd& r, int joint, int n) {
-  std::vector<double> size;
-  for (Eigen::Index k = joint; k < r.size(); k += n) size.push_back(std::abs(r[k]));
-  if (size.empty()) return 1.0;
-  return 1.4826 * upper_median_of(size);
+/// 1.4826 times the median absolute value of a joint's used rows; at least 1e-9 and rounding of its torque.
+Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
+  std::vector<std::vector<double>> size(s.joints);
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(s.joints, 1e-12);
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    least[s.joint[k]] = std::max(least[s.joint[k]], 1e-12 * std::abs(s.y[k]));
+    if (s.use[k] > 0.0) size[s.joint[k]].push_back(std::abs(r[k]));
+  }
+  Eigen::VectorXd scale(s.joints);
+  for (int j = 0; j < s.joints; ++j)
+    scale[j] = size[j].empty() ? 1.0 : std::max(1.4826 * upper_median_of(size[j]), least[j]);
+  return scale;
 }
 
 Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) {
@@ -39,124 +43,80 @@ double outlier_weight(double r) {
 }
 
 /// (A^T W A)^-1 (sum over blocks of g g^T) (A^T W A)^-1, g the weighted gradient of a block.
-Eigen::MatrixXd sandwich(const Eigen::MatrixXd& a, const Eigen::VectorXd& weight, const Eigen::VectorXd& r,
-                         const std::vector<int>& block) {
+Eigen::MatrixXd sandwich(const WeakSystem& s, const Eigen::MatrixXd& a, const Eigen::VectorXd& weight,
+                         const Eigen::VectorXd& r) {
   const Eigen::Index m = a.cols();
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
-  for (Eigen::Index k = 0; k < a.rows(); ++k) {
-    if (k > 0 && block[k] != block[k - 1]) {
-      meat += g * g.transpose();
-      g.setZero();
-    }
-    g += weight[k] * r[k] * a.row(k).transpose();
-  }
-  meat += g * g.transpose();
+  Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(m, s.blocks);
+  for (Eigen::Index k = 0; k < a.rows(); ++k)
+    gradient.col(s.block[k]) += weight[k] * r[k] * a.row(k).transpose();
   const Eigen::MatrixXd bread =
       (a.transpose() * weight.asDiagonal() * a).ldlt().solve(Eigen::MatrixXd::Identity(m, m));
-  const double blocks = block.empty() ? 1.0 : block.back() + 1.0;
-  return bread * meat * bread * std::max(1.0, blocks / std::max(1.0, blocks - static_cast<double>(m)));
+  const Eigen::MatrixXd half = bread * gradient;
+  const double blocks = s.blocks;
+  return half * half.transpose() * std::max(1.0, blocks / std::max(1.0, blocks - static_cast<double>(m)));
 }
 
-void judge(const WeakSystem& s, const Eigen::VectorXd& residual, const Eigen::VectorXd& robust,
-           WeakFit& fit) {
-  for (int j = 0; j < s.joints; ++j) {
-    double sum = 0.0, mean = 0.0, spread = 0.0, count = 0.0;
-    for (Eigen::Index k = j; k < s.y.size(); k += s.joints)
-      if (robust[k] > 0.0) mean += s.y[k], ++count;
-    mean /= std::max(count, 1.0);
-    for (Eigen::Index k = j; k < s.y.size(); k += s.joints)
-      if (robust[k] > 0.0) {
-        sum += residual[k] * residual[k];
-        spread += (s.y[k] - mean) * (s.y[k] - mean);
-      }
-    fit.residual_rms.push_back(std::sqrt(sum / std::max(count, 1.0)));
-    fit.r2.push_back(spread > 0.0 ? 1.0 - sum / spread : 0.0);
-  }
-}
-
-WeakFit fit_system(const WeakSystem& s, const WeakWindows& windows, const Eigen::VectorXd& start,
-                   const std::vector<bool>& wanted) {
-  const int linear = windows.space().linear();
-  WeakFit fit;
-  fit.windows = static_cast<int>(windows.all().size());
-  fit.parameters = start;
-  for (int j = 0; j < s.joints; ++j)
-    fit.parameters[windows.space().log_width(j)] =
-        std::log(weak_width(windows.space(), j, nearest_width(windows.space(), start, j)));
-  Eigen::VectorXd row_weight = Eigen::VectorXd::Ones(s.y.size()), robust = s.use, residual = s.y;
-  for (int j = 0; j < s.joints; ++j) {
-    const double scale = std::max(robust_scale(s.y, j, s.joints), 1e-9);
-    for (Eigen::Index k = j; k < s.y.size(); k += s.joints) row_weight[k] = 1.0 / (scale * scale);
-  }
-  ColumnSelection selection;
-  for (int round = 0; round < kRounds; ++round) {
-    const Eigen::VectorXd root = (row_weight.array() * robust.array()).sqrt();
-    const Eigen::MatrixXd a = root.asDiagonal() * s.a;
-    if (round < 2) selection = select_columns(a, wanted, windows.space().rigid());
-    Eigen::VectorXd known = start.head(linear);
-    for (int c : selection.columns) known[c] = 0.0;
-    const Eigen::MatrixXd free = pick(a, selection.columns);
-    const Eigen::VectorXd x = free.householderQr().solve(root.asDiagonal() * (s.y - s.a * known));
-    fit.parameters.head(linear) = known;
-    for (std::size_t i = 0; i < selection.columns.size(); ++i) fit.parameters[selection.columns[i]] = x[i];
-    residual = s.y - s.a * fit.parameters.head(linear);
-    for (int j = 0; j < s.joints; ++j) {
-      const double scale = std::max(robust_scale(residual, j, s.joints), 1e-12);
-      for (Eigen::Index k = j; k < s.y.size(); k += s.joints) {
-        row_weight[k] = 1.0 / (scale * scale);
-        robust[k] = s.use[k] * outlier_weight(residual[k] / scale);
-      }
+void judge(const WeakSystem& s, const Eigen::VectorXd& robust, WeakFit& fit) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(s.joints), mean = sum, spread = sum, count = sum;
+  for (Eigen::Index k = 0; k < s.y.size(); ++k)
+    if (robust[k] > 0.0) mean[s.joint[k]] += s.y[k], count[s.joint[k]] += 1.0;
+  mean = mean.cwiseQuotient(count.cwiseMax(1.0));
+  for (Eigen::Index k = 0; k < s.y.size(); ++k)
+    if (robust[k] > 0.0) {
+      const int j = s.joint[k];
+      sum[j] += fit.residual[k] * fit.residual[k];
+      spread[j] += (s.y[k] - mean[j]) * (s.y[k] - mean[j]);
     }
+  for (int j = 0; j < s.joints; ++j) {
+    fit.residual_rms.push_back(std::sqrt(sum[j] / std::max(count[j], 1.0)));
+    fit.r2.push_back(spread[j] > 0.0 ? 1.0 - sum[j] / spread[j] : 0.0);
   }
-  fit.condition_number = selection.condition_number;
-  fit.confounded = selection.confounded;
-  fit.confounded.resize(windows.space().count(), true);
-  fit.free.assign(windows.space().count(), false);
-  for (int c : selection.columns) fit.free[c] = true;
-  const Eigen::MatrixXd cov =
-      sandwich(pick(s.a, selection.columns), row_weight.cwiseProduct(robust), residual, s.block);
-  fit.covariance.setZero(windows.space().count(), windows.space().count());
-  for (std::size_t i = 0; i < selection.columns.size(); ++i)
-    for (std::size_t k = 0; k < selection.columns.size(); ++k)
-      fit.covariance(selection.columns[i], selection.columns[k]) = cov(i, k);
-  judge(s, residual, robust, fit);
-  return fit;
-}
-
-WeakFit fit_moving(const WeakWindows& windows, const Eigen::VectorXd& start,
-                   const std::vector<bool>& wanted) {
-  WeakSystem s = assemble(windows, start);
-  const auto& all = windows.all();
-  Eigen::VectorXd fastest = Eigen::VectorXd::Zero(s.joints);
-  for (const WeakWindow& w : all) fastest = fastest.cwiseMax(w.speed);
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (int j = 0; j < s.joints; ++j)
-      if (all[k].speed[j] < kResting * fastest[j]) s.use[static_cast<Eigen::Index>(k) * s.joints + j] = 0.0;
-  return fit_system(s, windows, start, wanted);
 }
 
 }  // namespace
 
-WeakFit fit_weak_form(const WeakWindows& windows, const Eigen::VectorXd& start,
+WeakFit fit_weak_form(const WeakSystem& s, const ParameterSpace& space, const Eigen::VectorXd& start,
                       const std::vector<bool>& wanted) {
-  return fit_system(assemble(windows, start), windows, start, wanted);
-}
-
-WeakFit fit_weak_form_and_width(const WeakWindows& windows, const Eigen::VectorXd& start,
-                                const std::vector<bool>& wanted) {
-  const ParameterSpace& space = windows.space();
-  Eigen::VectorXd sharp = start;
-  for (int j = 0; j < space.joints(); ++j) sharp[space.log_width(j)] = std::log(weak_width(space, j, 0));
-  WeakFit best = fit_moving(windows, sharp, wanted);
-  for (int j = 0; j < space.joints(); ++j)
-    for (int k = 1; k < kWidths; ++k) {
-      Eigen::VectorXd tried = best.parameters;
-      tried[space.log_width(j)] = std::log(weak_width(space, j, k));
-      WeakFit fit = fit_moving(windows, tried, wanted);
-      if (kClearlyBetter * fit.residual_rms[j] < best.residual_rms[j]) best = std::move(fit);
-    }
-  return best;
+  const int linear = space.linear();
+  WeakFit fit;
+  fit.windows = static_cast<int>(s.y.size()) / std::max(s.joints, 1);
+  fit.parameters = start;
+  for (int j = 0; j < s.joints; ++j) fit.parameters[space.log_width(j)] = s.width[j];
+  Eigen::VectorXd robust = s.use, scale = robust_scales(s, s.y);
+  fit.weight.resize(s.y.size());
+  ColumnSelection selection;
+  for (int round = 0; round < kRounds; ++round) {
+    for (Eigen::Index k = 0; k < s.y.size(); ++k)
+      fit.weight[k] = robust[k] / (scale[s.joint[k]] * scale[s.joint[k]]);
+    const Eigen::VectorXd root = fit.weight.cwiseSqrt();
+    const Eigen::MatrixXd a = root.asDiagonal() * s.a;
+    if (round < 2) selection = select_columns(a, wanted, space.rigid());
+    Eigen::VectorXd known = start.head(linear);
+    for (int c : selection.columns) known[c] = 0.0;
+    const Eigen::VectorXd x =
+        pick(a, selection.columns).householderQr().solve(root.asDiagonal() * (s.y - s.a * known));
+    fit.parameters.head(linear) = known;
+    for (std::size_t i = 0; i < selection.columns.size(); ++i) fit.parameters[selection.columns[i]] = x[i];
+    fit.residual = s.y - s.a * fit.parameters.head(linear);
+    const Eigen::VectorXd next = robust_scales(s, fit.residual);
+    const bool settled = ((next - scale).array().abs() <= kSettled * scale.array()).all();
+    scale = next;
+    for (Eigen::Index k = 0; k < s.y.size(); ++k)
+      robust[k] = s.use[k] * outlier_weight(fit.residual[k] / scale[s.joint[k]]);
+    if (settled && round > 1) break;
+  }
+  fit.condition_number = selection.condition_number;
+  fit.confounded = selection.confounded;
+  fit.confounded.resize(space.count(), true);
+  fit.free.assign(space.count(), false);
+  for (int c : selection.columns) fit.free[c] = true;
+  const Eigen::MatrixXd cov = sandwich(s, pick(s.a, selection.columns), fit.weight, fit.residual);
+  fit.covariance.setZero(space.count(), space.count());
+  for (std::size_t i = 0; i < selection.columns.size(); ++i)
+    for (std::size_t k = 0; k < selection.columns.size(); ++k)
+      fit.covariance(selection.columns[i], selection.columns[k]) = cov(i, k);
+  judge(s, robust, fit);
+  return fit;
 }
 
 }  // namespace faultline

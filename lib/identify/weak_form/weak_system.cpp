@@ -1,54 +1,73 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/weak_form/weak_system.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace faultline {
 namespace {
 
-constexpr double kBlock_s = 1.0;
+constexpr double kBlock_s = 1.0;          // over which residuals may be alike; on short logs less, for
+constexpr double kBlocksPerColumn = 5.0;  // a covariance from fewer blocks is none
+constexpr double kShortestBlock_s = 0.1;
+constexpr double kResting = 0.03;  // of a joint's fastest window
+
+/// Length of the blocks, s.
+double block_length(const WeakWindows& windows, int columns) {
+  std::map<std::pair<int, long>, int> seconds;
+  for (const WeakWindow& w : windows.all()) ++seconds[{w.log, static_cast<long>(std::floor(w.time_s))}];
+  return std::clamp(static_cast<double>(seconds.size()) / (kBlocksPerColumn * columns), kShortestBlock_s,
+                    kBlock_s);
+}
 
 }  // namespace
 
-int nearest_width(const ParameterSpace& space, const Eigen::VectorXd& parameters, int joint) {
-  int best = 0;
-  const auto distance = [&](int k) {
-    return std::abs(std::log(weak_width(space, joint, k)) - parameters[space.log_width(joint)]);
-  };
-  for (int k = 1; k < kWidths; ++k)
-    if (distance(k) < distance(best)) best = k;
-  return best;
+std::vector<bool> moving_windows(const WeakWindows& windows, int joint) {
+  double fastest = 0.0;
+  for (const WeakWindow& w : windows.all()) fastest = std::max(fastest, w.speed[joint]);
+  std::vector<bool> moving;
+  for (const WeakWindow& w : windows.all()) moving.push_back(w.speed[joint] >= kResting * fastest);
+  return moving;
 }
 
-WeakSystem assemble(const WeakWindows& windows, const Eigen::VectorXd& parameters) {
-  const ParameterSpace& space = windows.space();
-  const int n = space.joints(), count = static_cast<int>(windows.all().size());
+WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
+  const ParameterSpace& space = windows.space;
   WeakSystem s;
-  s.joints = n;
-  s.a.setZero(count * n, space.linear());
-  s.y.resize(count * n);
-  s.use.setOnes(count * n);
-  std::vector<int> width;
-  for (int j = 0; j < n; ++j) width.push_back(nearest_width(space, parameters, j));
-  double start = 0.0;
-  int block = -1, log = -1;
-  for (int k = 0; k < count; ++k) {
-    const WeakWindow& w = windows.all()[k];
-    if (w.log != log || w.time_s - start >= kBlock_s) {
-      ++block;
-      log = w.log;
-      start = w.time_s;
-    }
-    s.a.block(k * n, 0, n, space.rigid()) = w.base;
-    for (int j = 0; j < n; ++j) {
-      s.a(k * n + j, space.viscous(j)) = w.viscous[j];
-      s.a(k * n + j, space.coulomb(j)) = w.coulomb(j, width[j]);
-      s.a(k * n + j, space.offset(j)) = 1.0;
-      s.a(k * n + j, space.timing()) = -w.timing[j];
-      s.y[k * n + j] = w.torque[j];
-      s.block.push_back(block);
+  s.joints = space.joints();
+  s.width.resize(s.joints);
+  Eigen::Index rows = 0;
+  for (int j = 0; j < s.joints; ++j) {
+    rows += static_cast<Eigen::Index>(windows.sets[choice.set[j]].all().size());
+    s.width[j] = std::log(weak_width(space, j, choice.width[j]));
+  }
+  s.a.setZero(rows, space.linear());
+  s.y.resize(rows);
+  s.use.setOnes(rows);
+  const double block_s = block_length(windows.sets[0], space.linear());
+  std::map<std::pair<int, long>, int> blocks;
+  Eigen::Index row = 0;
+  for (int j = 0; j < s.joints; ++j) {
+    const WeakWindows& set = windows.sets[choice.set[j]];
+    const std::vector<bool> moving = moving_windows(set, j);
+    const int at = choice.shift[j] - windows.shifts.first, before = std::max(at - 1, 0);
+    for (std::size_t k = 0; k < set.all().size(); ++k, ++row) {
+      const WeakWindow& w = set.all()[k];
+      s.a.row(row).head(space.rigid()) = w.base.row(j);
+      s.a(row, space.viscous(j)) = w.viscous[j];
+      s.a(row, space.coulomb(j)) = w.coulomb(j, choice.width[j]);
+      s.a(row, space.offset(j)) = 1.0;
+      s.a(row, space.timing()) = w.torque(j, at) - w.torque(j, before);
+      s.y[row] = w.torque(j, at);
+      if (!moving[k]) s.use[row] = 0.0;
+      const std::pair<int, long> second{w.log, static_cast<long>(std::floor(w.time_s / block_s))};
+      s.joint.push_back(j);
+      s.log.push_back(w.log);
+      s.block.push_back(blocks.emplace(second, static_cast<int>(blocks.size())).first->second);
     }
   }
+  s.blocks = static_cast<int>(blocks.size());
   return s;
 }
 

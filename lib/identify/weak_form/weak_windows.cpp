@@ -1,121 +1,61 @@
 // SPDX-License-Identifier: MIT
+#include "lib/identify/weak_form/weak_windows.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kLongestStep_s = 0.012;  ///< longer samples are integrated over by interpolation
-
-/// Momentum and force of the base parameters and the friction terms at one state.
-struct StateTerms {
-  Eigen::MatrixXd momentum, force;  ///< joints x base
-  Eigen::VectorXd rotor_momentum;
-  Eigen::MatrixXd coulomb;  ///< joints x kWidths
-};
-
-StateTerms terms_at(const ParameterSpace& space, const Eigen::VectorXd& q, const Eigen::VectorXd& dq) {
-  const LinkFrames frames = link_frames(space.chain, q);
-  LinkRegressor y;
-  StateTerms terms;
-  momentum_regressor(frames, dq, y);
-  terms.momentum = y * space.lift;
-  force_regressor(frames, dq, y);
-  terms.force = y * space.lift;
-  terms.rotor_momentum.setZero(space.joints());
-  terms.coulomb.resize(space.joints(), kWidths);
-  for (int j = 0; j < space.joints(); ++j) {
-    if (!space.chain.rotor_inertia.empty()) terms.rotor_momentum[j] = space.chain.rotor_inertia[j] * dq[j];
-    for (int k = 0; k < kWidths; ++k) terms.coulomb(j, k) = std::tanh(dq[j] / weak_width(space, j, k));
-  }
-  return terms;
-}
-
-/// Position and velocity between two samples: cubic through both ends' positions and velocities.
-void interpolate(const Stretch& s, int k, double x, Eigen::VectorXd& q, Eigen::VectorXd& dq) {
-  const double h = s.time[k + 1] - s.time[k];
-  const auto q0 = s.q_smooth.col(k), q1 = s.q_smooth.col(k + 1), v0 = s.dq_smooth.col(k),
-             v1 = s.dq_smooth.col(k + 1);
-  const double x2 = x * x, x3 = x2 * x;
-  q = (2 * x3 - 3 * x2 + 1) * q0 + (x3 - 2 * x2 + x) * h * v0 + (3 * x2 - 2 * x3) * q1 + (x3 - x2) * h * v1;
-  dq = (6 * x2 - 6 * x) / h * (q0 - q1) + (3 * x2 - 4 * x + 1) * v0 + (3 * x2 - 2 * x) * v1;
-}
-
-/// Means over one sample of the terms that are integrated.
-struct StepMeans {
-  Eigen::MatrixXd force, coulomb;
-};
-
-StepMeans step_means(const ParameterSpace& space, const Stretch& s, int k, const StateTerms& from,
-                     const StateTerms& to) {
-  StepMeans means{0.5 * (from.force + to.force), 0.5 * (from.coulomb + to.coulomb)};
-  const int pieces = static_cast<int>(std::ceil((s.time[k + 1] - s.time[k]) / kLongestStep_s));
-  Eigen::VectorXd q, dq;
-  for (int i = 1; i < pieces; ++i) {
-    interpolate(s, k, static_cast<double>(i) / pieces, q, dq);
-    const StateTerms inside = terms_at(space, q, dq);
-    means.force += inside.force;
-    means.coulomb += inside.coulomb;
-  }
-  if (pieces > 1) {
-    means.force /= pieces;
-    means.coulomb /= pieces;
-  }
-  return means;
-}
+constexpr int kLengths = 4;      // each twice the one before
+constexpr int kMostShifts = 24;  // samples, but no more than
+constexpr double kLongestShift_s = 0.25;
+constexpr double kSlow_s = 0.02;  // at longer periods only the neighbouring samples are tried
+constexpr int kShapedSteps = 4;   // fewer samples are weighted alike
 
 /// Smooth bump over (0, 1), zero with its slope at both ends.
 double bump(double x) { return std::pow(4.0 * x * (1.0 - x), 2); }
 
-/// Sample k of a stretch, from one state to the next.
-struct Step {
-  int k = 0;
-  double weight = 1.0;
-  const StateTerms& from;
-  const StateTerms& to;
-  const StepMeans& means;
-};
-
-/// Adds one sample's momentum balance to a window with the weight of the step.
-void add_step(WeakWindow& window, const Stretch& s, const Step& step) {
-  const auto& [k, weight, from, to, means] = step;
-  const double dt = s.time[k + 1] - s.time[k];
-  window.base += weight * (to.momentum - from.momentum - dt * means.force);
-  window.viscous += weight * (s.q_smooth.col(k + 1) - s.q_smooth.col(k));
-  window.coulomb += weight * dt * means.coulomb;
-  window.timing += weight * dt * (s.tau.col(k + 1) - s.tau.col(k));
-  window.torque += weight * (dt * s.tau.col(k) - (to.rotor_momentum - from.rotor_momentum));
+/// Weights of a window's samples, whose mean over its time is 1.
+Eigen::VectorXd weights(const Eigen::Ref<const Eigen::VectorXd>& step_s) {
+  const Eigen::Index steps = step_s.size();
+  Eigen::VectorXd w = Eigen::VectorXd::Ones(steps);
+  for (Eigen::Index k = 0; k < steps && steps >= kShapedSteps; ++k)
+    w[k] = bump((static_cast<double>(k) + 0.5) / static_cast<double>(steps));
+  return w / w.dot(step_s);
 }
 
-WeakWindow empty_window(const ParameterSpace& space, const Stretch& s, int begin, int steps) {
-  WeakWindow w;
-  w.log = s.log;
-  w.time_s = s.time[begin];
-  w.rows = steps;
-  w.base.setZero(space.joints(), space.rigid());
-  w.coulomb.setZero(space.joints(), kWidths);
-  w.viscous = w.timing = w.torque = Eigen::VectorXd::Zero(space.joints());
-  w.speed = s.dq_smooth.middleCols(begin, steps + 1).cwiseAbs().rowwise().mean();
-  w.travel = (s.q.middleCols(begin, steps + 1).rowwise().maxCoeff() -
-              s.q.middleCols(begin, steps + 1).rowwise().minCoeff())
-                 .sum();
-  return w;
+bool mostly_empty(const Stretch& s, int begin, int rows) {
+  const auto off = s.outlier.block(0, begin, s.joints(), rows).rowwise().sum();
+  return off.maxCoeff() * 2 > rows;
+}
+
+WeakWindow window_at(const Stretch& s, const StretchTerms& terms, const ShiftRange& shifts, int begin,
+                     int steps) {
+  const int n = s.joints();
+  const Eigen::VectorXd w = weights(terms.step_s.segment(begin, steps));
+  const Eigen::VectorXd duration = w.cwiseProduct(terms.step_s.segment(begin, steps));
+  WeakWindow out;
+  out.log = s.log;
+  out.time_s = s.time[begin];
+  const Eigen::VectorXd base = terms.base.middleCols(begin, steps) * w;
+  out.base = Eigen::Map<const Eigen::MatrixXd>(base.data(), n, base.size() / n);
+  const Eigen::VectorXd coulomb = terms.coulomb.middleCols(begin, steps) * w;
+  out.coulomb = Eigen::Map<const Eigen::MatrixXd>(coulomb.data(), n, kWidths);
+  out.viscous = terms.viscous.middleCols(begin, steps) * w;
+  const Eigen::VectorXd rotor = terms.rotor.middleCols(begin, steps) * w;
+  out.torque.resize(n, shifts.count());
+  for (int i = 0; i < shifts.count(); ++i)
+    out.torque.col(i) = s.tau.middleCols(begin - shifts.first - i, steps) * duration - rotor;
+  out.q = s.q_smooth.col(begin + steps / 2);
+  out.dq = s.dq_smooth.col(begin + steps / 2);
+  out.speed = s.dq_smooth.middleCols(begin, steps + 1).cwiseAbs().rowwise().mean();
+  return out;
 }
 
 }  // namespace
 
-double weak_width(const ParameterSpace& space, int joint, int k) {
-  constexpr double kFactor[kWidths] = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
-  return kFactor[k] * space.chain.friction[joint].width;
-}
-
-WeakWindows::WeakWindows(const ParameterSpace& space, double window_s, int max_windows)
-    : space_(space), window_s_(window_s), max_windows_(static_cast<std::size_t>(max_windows)) {}
-
 void WeakWindows::keep(WeakWindow window) {
-  if (seen_++ % stride_ != 0) return;
   windows_.push_back(std::move(window));
   if (windows_.size() <= max_windows_) return;
   std::vector<WeakWindow> half;
@@ -124,32 +64,47 @@ void WeakWindows::keep(WeakWindow window) {
   stride_ *= 2;
 }
 
-void WeakWindows::add(const Stretch& s) {
-  const int steps = std::max(1, static_cast<int>(std::lround(window_s_ / s.period_s)));
+void WeakWindows::add(const Stretch& s, const StretchTerms& terms, const ShiftRange& shifts) {
+  const int steps = std::max(1, static_cast<int>(std::lround(length_s_ / s.period_s)));
   const int hop = std::max(1, steps / 2);
-  if (s.rows() <= steps) return;
-  std::vector<StateTerms> terms;
-  std::vector<StepMeans> means;
-  for (int k = 0; k < s.rows(); ++k) terms.push_back(terms_at(space_, s.q_smooth.col(k), s.dq_smooth.col(k)));
-  for (int k = 0; k + 1 < s.rows(); ++k) means.push_back(step_means(space_, s, k, terms[k], terms[k + 1]));
   if (static_cast<int>(rows_.size()) <= s.log) rows_.resize(s.log + 1, 0);
-  for (int begin = 0; begin + steps < s.rows(); begin += hop) {
-    if (s.outlier.middleCols(begin, steps + 1).any()) continue;
-    WeakWindow window = empty_window(space_, s, begin, steps);
-    std::vector<double> weight(steps, 1.0);
-    for (int k = 0; k < steps && steps >= 4; ++k) weight[k] = bump((k + 0.5) / steps);
-    double total = 0.0;
-    for (int k = 0; k < steps; ++k) total += weight[k] * (s.time[begin + k + 1] - s.time[begin + k]);
-    for (int k = 0; k < steps; ++k)
-      add_step(window, s,
-               {begin + k, weight[k] / total, terms[begin + k], terms[begin + k + 1], means[begin + k]});
+  const int first = std::max(shifts.last, 0), last = s.rows() - 1 - steps + std::min(shifts.first, 0);
+  for (int begin = first; begin <= last; begin += hop) {
+    if (mostly_empty(s, begin, steps + 1)) continue;
     rows_[s.log] += hop;
-    keep(std::move(window));
+    if (seen_++ % stride_ == 0) keep(window_at(s, terms, shifts, begin, steps));
   }
+}
+
+void WeakWindows::leave_out(const std::vector<bool>& logs) {
+  std::erase_if(windows_, [&](const WeakWindow& w) { return logs[w.log]; });
 }
 
 std::int64_t WeakWindows::rows_used(int log) const {
   return log < static_cast<int>(rows_.size()) ? rows_[log] : 0;
+}
+
+void WeakSets::add(const Stretch& s) {
+  const StretchTerms terms = stretch_terms(space, s);
+  for (WeakWindows& set : sets) set.add(s, terms, shifts);
+}
+
+std::vector<double> window_lengths(double shortest_s, double period_s) {
+  std::vector<double> out;
+  long before = 0;
+  double length = shortest_s;
+  for (int i = 0; i < kLengths; ++i, length *= 2.0) {
+    const long steps = std::max(1L, std::lround(length / period_s));
+    if (steps > before) out.push_back(length);
+    before = steps;
+  }
+  return out;
+}
+
+ShiftRange shift_range(double period_s) {
+  if (period_s > kSlow_s) return {-1, 1};
+  const int most = std::clamp(static_cast<int>(kLongestShift_s / period_s), 1, kMostShifts);
+  return {-most, most};
 }
 
 }  // namespace faultline

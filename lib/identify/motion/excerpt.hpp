@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/stretch.hpp"
+#include "lib/identify/motion/stretch.hpp"
 
 namespace faultline {
 
@@ -39,28 +39,6 @@ class Excerpts {
   std::int64_t max_rows_;
   std::int64_t seen_ = 0, stride_ = 1, held_rows_ = 0;
   std::vector<Excerpt> pool_;
-};
-
-/// Measurement noise seen as roughness: what a local quadratic over some 10 ms leaves, by channel.
-class Roughness {
- public:
-  void add(const Stretch& stretch);
-  /// Std of q (first) and dq by joint; NaN where no log was fast enough to tell.
-  Eigen::VectorXd std() const;
-  /// Largest minus smallest value of q (first) and dq by joint.
-  Eigen::VectorXd range() const { return high_ - low_; }
-  bool has_dq() const { return has_dq_; }
-  /// Whether a joint's position only jitters: neighbours differ as much as any two samples (von Neumann
-  /// 1941), or its range is below `least`.
-  bool still(int joint, double least) const;
-
- private:
-  void add_steps(const Stretch& stretch);
-
-  bool has_dq_ = false;
-  Eigen::VectorXd sum_, count_, low_, high_;
-  Eigen::VectorXd first_, samples_, mean_, square_, steps_,
-      step_square_;  ///< of q by joint, from its first value
 };
 
 }  // namespace faultline

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/excerpt.hpp"
+#include "lib/identify/motion/excerpt.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace faultline {
@@ -66,62 +65,6 @@ std::vector<Excerpt> Excerpts::take() {
   std::vector<Excerpt> out;
   for (int i : chosen) out.push_back(std::move(pool_[i]));
   pool_.clear();
-  return out;
-}
-
-void Roughness::add(const Stretch& s) {
-  const int n = s.joints();
-  if (sum_.size() == 0) {
-    sum_ = count_ = Eigen::VectorXd::Zero(2 * n);
-    low_ = Eigen::VectorXd::Constant(2 * n, std::numeric_limits<double>::infinity());
-    high_ = -low_;
-    first_ = s.q.col(0);
-    samples_ = mean_ = square_ = steps_ = step_square_ = Eigen::VectorXd::Zero(n);
-  }
-  has_dq_ = has_dq_ || s.has_dq;
-  add_steps(s);
-  const bool smoothed = s.q_smooth != s.q;
-  for (int c = 0; c < 2 * n; ++c) {
-    const auto raw = c < n ? s.q.row(c) : s.dq.row(c - n);
-    const auto smooth = c < n ? s.q_smooth.row(c) : s.dq_smooth.row(c - n);
-    for (int k = 0; k < s.rows(); ++k) {
-      if (s.outlier(c, k)) continue;
-      low_[c] = std::min(low_[c], raw[k]);
-      high_[c] = std::max(high_[c], raw[k]);
-      if (!smoothed || (c >= n && !s.has_dq)) continue;
-      sum_[c] += (raw[k] - smooth[k]) * (raw[k] - smooth[k]);
-      count_[c] += 1.0;
-    }
-  }
-}
-
-void Roughness::add_steps(const Stretch& s) {
-  for (int j = 0; j < s.joints(); ++j)
-    for (int k = 0; k < s.rows(); ++k) {
-      if (s.outlier(j, k)) continue;
-      const double x = s.q(j, k) - first_[j];
-      samples_[j] += 1.0;
-      mean_[j] += x;
-      square_[j] += x * x;
-      if (k == 0 || s.outlier(j, k - 1)) continue;
-      steps_[j] += 1.0;
-      step_square_[j] += (s.q(j, k) - s.q(j, k - 1)) * (s.q(j, k) - s.q(j, k - 1));
-    }
-}
-
-bool Roughness::still(int j, double least) const {
-  if (high_[j] - low_[j] < least) return true;
-  const double mean = mean_[j] / samples_[j], variance = square_[j] / samples_[j] - mean * mean;
-  return steps_[j] > 0.0 && step_square_[j] / steps_[j] > variance;  // 2 for noise, near 0 for motion
-}
-
-Eigen::VectorXd Roughness::std() const {
-  // A quadratic through 13 points leaves some 0.83 of white noise's variance; 0.8 stands for other lengths
-  // too.
-  constexpr double kLeft = 0.8;
-  Eigen::VectorXd out = Eigen::VectorXd::Constant(sum_.size(), std::numeric_limits<double>::quiet_NaN());
-  for (Eigen::Index c = 0; c < sum_.size(); ++c)
-    if (count_[c] > 0.0) out[c] = std::sqrt(sum_[c] / count_[c] / kLeft);
   return out;
 }
 

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/motion/raw_stretch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kSmallestStretch = 4;
+constexpr double kGap = 1.6;         // periods: in a longer step rows were lost
+constexpr double kBridged = 5.5;     // periods: up to here, and
+constexpr double kBridged_s = 0.05;  // s, lost rows are put in again, without a measurement; longer steps cut
+constexpr double kTooSoon = 0.4;     // periods: a row that comes earlier is left out
+constexpr double kAbsurd = 1e9;      // rad, m, N m: no joint has such values
+
+/// Gathers rows and cuts them into stretches.
+class StretchCutter {
+ public:
+  StretchCutter(int joints, RepeatedRows repeated, const std::function<void(const RawStretch&)>& visit)
+      : joints_(joints), repeated_(repeated), visit_(visit) {}
+
+  void add(const Log& segment) {
+    for (int k = 0; k < segment.rows(); ++k) add_row(segment, k);
+  }
+  StretchSummary finish() {
+    flush();
+    return {rows_, period_};
+  }
+
+ private:
+  bool usable(const Log& s, int k) const {
+    bool finite = true;
+    for (int j = 0; j < joints_; ++j)
+      finite = finite && std::abs(s.q[j][k]) < kAbsurd && std::abs(s.tau[j][k]) < kAbsurd &&
+               (s.dq.empty() || std::abs(s.dq[j][k]) < kAbsurd);
+    return finite;
+  }
+
+  /// Whether row k says the same as the row taken last.
+  bool repeats(const Log& s, int k) const {
+    if (repeated_ == RepeatedRows::none || time_.empty()) return false;
+    const double* last = values_.data() + values_.size() - 3 * static_cast<std::size_t>(joints_);
+    for (int j = 0; j < joints_; ++j, last += 3)
+      if (s.q[j][k] != last[0] || s.tau[j][k] != last[2] || (has_dq_ && s.dq[j][k] != last[1])) return false;
+    return true;
+  }
+
+  void add_row(const Log& s, int k) {
+    ++rows_;
+    has_dq_ = !s.dq.empty();
+    if (!usable(s, k)) return;
+    const bool repeated = repeats(s, k);
+    if (repeated && repeated_ == RepeatedRows::extra) {
+      skipped_s_ += s.time[k] - last_time_;
+      last_time_ = s.time[k];
+      return;
+    }
+    last_time_ = s.time[k];
+    time_.push_back(s.time[k] - skipped_s_);
+    stale_.push_back(repeated ? 1 : 0);
+    for (int j = 0; j < joints_; ++j) {
+      values_.push_back(s.q[j][k]);
+      values_.push_back(has_dq_ ? s.dq[j][k] : 0.0);
+      values_.push_back(s.tau[j][k]);
+    }
+    if (static_cast<int>(time_.size()) >= kStretchRows) flush();
+  }
+
+  /// The first rows of a log tell its period.
+  void measure_period() {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < time_.size(); ++k) steps.push_back(time_[k] - time_[k - 1]);
+    if (steps.size() >= 3) period_ = upper_median_of(steps);
+  }
+
+  void flush() {
+    if (period_ == 0.0) measure_period();
+    if (static_cast<int>(time_.size()) >= kSmallestStretch && period_ > 0.0) visit_pieces();
+    time_.clear();
+    stale_.clear();
+    values_.clear();
+  }
+
+  /// Rows up to a gap too long to be bridged, without those that come too soon.
+  void visit_pieces() {
+    std::vector<int> piece;
+    for (int k = 0; k < static_cast<int>(time_.size()); ++k) {
+      const double step = piece.empty() ? period_ : time_[k] - time_[piece.back()];
+      if (step < kTooSoon * period_) continue;
+      if (step > kGap * period_ && step > std::min(kBridged * period_, kBridged_s)) visit_piece(piece);
+      piece.push_back(k);
+    }
+    visit_piece(piece);
+  }
+
+  /// Hands out the rows of a piece, with a stale row for each that was lost in it, and empties it.
+  void visit_piece(std::vector<int>& piece) {
+    if (static_cast<int>(piece.size()) >= kSmallestStretch) {
+      RawStretch s = filled(piece);
+      bridge_stale_torque(s);
+      visit_(s);
+    }
+    piece.clear();
+  }
+
+  RawStretch filled(const std::vector<int>& piece) const {
+    std::vector<double> time;
+    std::vector<int> row, lost;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const double t = time_[piece[i]], step = i > 0 ? t - time.back() : 0.0;
+      const int missing = step > kGap * period_ ? static_cast<int>(std::lround(step / period_)) - 1 : 0;
+      for (int m = missing; m > 0; --m) {
+        time.push_back(t - step * m / (missing + 1));
+        row.push_back(piece[i - 1]);
+        lost.push_back(1);
+      }
+      time.push_back(t);
+      row.push_back(piece[i]);
+      lost.push_back(stale_[piece[i]]);
+    }
+    const int n = static_cast<int>(time.size());
+    RawStretch s;
+    s.time = Eigen::Map<const Eigen::VectorXd>(time.data(), n);
+    s.stale = Eigen::Map<const Eigen::VectorXi>(lost.data(), n);
+    s.q.resize(joints_, n);
+    s.tau.resize(joints_, n);
+    if (has_dq_) s.dq.resize(joints_, n);
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < joints_; ++j) {
+        const double* v = values_.data() + 3 * (static_cast<std::ptrdiff_t>(row[k]) * joints_ + j);
+        s.q(j, k) = v[0];
+        if (has_dq_) s.dq(j, k) = v[1];
+        s.tau(j, k) = v[2];
+      }
+    return s;
+  }
+
+  /// A straight line over the rows whose torque is old.
+  static void bridge_stale_torque(RawStretch& s) {
+    for (int k = 1; k + 1 < s.rows(); ++k) {
+      if (!s.stale[k]) continue;
+      int next = k + 1;
+      while (next + 1 < s.rows() && s.stale[next]) ++next;
+      const double x = (s.time[k] - s.time[k - 1]) / (s.time[next] - s.time[k - 1]);
+      s.tau.col(k) = (1.0 - x) * s.tau.col(k - 1) + x * s.tau.col(next);
+    }
+  }
+
+  int joints_;
+  RepeatedRows repeated_;
+  const std::function<void(const RawStretch&)>& visit_;
+  bool has_dq_ = false;
+  double period_ = 0.0, skipped_s_ = 0.0, last_time_ = 0.0;
+  std::int64_t rows_ = 0;
+  std::vector<double> time_, values_;
+  std::vector<int> stale_;
+};
+
+void check_channels(const LogSource& source, const Log& segment, int joints) {
+  const auto fail = [&](const std::string& message) {
+    throw Error(ErrorCode::input, source.identity().path, message);
+  };
+  if (segment.joints() != joints)
+    fail(fmt::format("has {} joints, the robot {}; give the logs of this robot", segment.joints(), joints));
+  if (static_cast<int>(segment.tau.size()) != joints)
+    fail(
+        "has no torque of every joint; identification needs tau1.. or [log.columns] that say which columns "
+        "they are");
+}
+
+}  // namespace
+
+StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows repeated,
+                                    const std::function<void(const RawStretch&)>& visit) {
+  source.rewind();
+  StretchCutter cutter(joints, repeated, visit);
+  Log segment;
+  while (source.next(segment)) {
+    check_channels(source, segment, joints);
+    cutter.add(segment);
+  }
+  return cutter.finish();
+}
+
+}  // namespace faultline

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/shooting_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "lib/identify/feasible.hpp"
+#include "lib/identify/parameter_table.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kWidthDoubt = 1.15;        // of ln(width): a factor of about 3
+constexpr std::size_t kTrialExcerpts = 40;  // looked at first
+constexpr int kTrialRounds = 2;
+constexpr int kTrialIterations = 12;
+constexpr double kRegular = 0.7;  // correlation of neighbouring residuals that is no noise
+constexpr double kFarAboveNoise = 3.0;
+constexpr double kWorseTorque = 1.15;  // torque residual against that of the torque fit, and
+constexpr double kTorqueLost = 2e-4;   // of the mean square torque: less is not worth a word
+constexpr double kWork = 4e8;          // rows x joints^2 x (2 joints + free): some seconds
+constexpr int kFewestRows = 4000;
+
+/// Facts with doubt about parameters of the space, and a wide one about every friction width.
+std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& robot) {
+  std::vector<ParameterPrior> priors;
+  for (int p = 0; p < space.timing(); ++p) {
+    std::string name = space.name(p);
+    std::erase(name, '_');
+    const auto it = robot.known.find(name);
+    if (it != robot.known.end() && it->second.std > 0.0)
+      priors.push_back({p, it->second.value, it->second.std});
+  }
+  for (int j = 0; j < space.joints(); ++j)
+    priors.push_back({space.log_width(j), std::log(robot.chain.friction[j].width), kWidthDoubt});
+  return priors;
+}
+
+std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
+                                 const IdentifyOptions& options) {
+  const ParameterSpace& space = id.space;
+  const bool is_fast = has_fast_log(id);
+  std::vector<int> free;
+  for (int p = 0; p < space.linear(); ++p)
+    if (weak.free[p]) free.push_back(p);
+  for (int j = 0; j < space.joints(); ++j)
+    if (options.estimate_width && is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
+  return free;
+}
+
+int thread_count(const IdentifyOptions& options) {
+  return options.threads > 0 ? options.threads
+                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Rows that shooting can afford: the work grows with the cube of the joints.
+int affordable_rows(const ParameterSpace& space, std::size_t free, int most) {
+  const double n = space.joints(), each = n * n * (2.0 * n + static_cast<double>(free));
+  return std::clamp(static_cast<int>(kWork / each / 10.0), kFewestRows, std::max(most, kFewestRows));
+}
+
+/// What is left after shooting is motion the model lacks, not noise: neighbours alike and far above it.
+bool model_error_dominates(const ShootingFit& shot, const Eigen::VectorXd& noise) {
+  for (Eigen::Index c = 0; c < noise.size(); ++c)
+    if (shot.correlation[c] > kRegular && shot.noise[c] > kFarAboveNoise * noise[c]) return true;
+  return false;
+}
+
+std::vector<Excerpt> some_of(const std::vector<Excerpt>& all) {
+  std::vector<Excerpt> out;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kTrialExcerpts);
+  for (std::size_t i = 0; i < all.size(); i += stride) out.push_back(all[i]);
+  return out;
+}
+
+/// How much more of some joint's torque `parameters` leave than the torque fit does: the share of its mean
+/// square by which they are worse, where they are clearly worse.
+double torque_lost(const TorqueFit& torque, const ParameterSpace& space, const Eigen::VectorXd& parameters) {
+  const Eigen::VectorXd left = torque.system.y - torque.system.a * parameters.head(space.linear());
+  Eigen::VectorXd with = Eigen::VectorXd::Zero(space.joints()), without = with, all = with;
+  for (Eigen::Index k = 0; k < left.size(); ++k) {
+    const int j = torque.system.joint[k];
+    with[j] += torque.fit.weight[k] * left[k] * left[k];
+    without[j] += torque.fit.weight[k] * torque.fit.residual[k] * torque.fit.residual[k];
+    all[j] += torque.fit.weight[k] * torque.system.y[k] * torque.system.y[k];
+  }
+  double worst = 0.0;
+  for (int j = 0; j < space.joints(); ++j)
+    if (with[j] > kWorseTorque * kWorseTorque * without[j] && all[j] > 0.0)
+      worst = std::max(worst, (with[j] - without[j]) / all[j]);
+  return worst;
+}
+
+std::string refusal(const ShootingFit& shot, const Gathered& gathered, const TorqueFit& torque,
+                    const Identification& id) {
+  const Measurements& m = gathered.measurements;
+  if (model_error_dominates(shot, m.noise()))
+    return "the motion keeps a regular error that no parameters of this model remove";
+  if (!shot.converged) return "the fit of the motion did not converge";
+  const std::string wrong = infeasibility(id.space, shot.parameters, shot.covariance, m.q_low(), m.q_high());
+  if (!wrong.empty()) return "in the fit of the motion " + wrong;
+  if (!has_fast_log(id)) return "";  // windows of so few samples know the torque no better
+  const double lost = torque_lost(torque, id.space, shot.parameters);
+  if (lost > kTorqueLost)
+    return fmt::format("the fit of the motion explains {:.2g} % less of some joint's torque", 100.0 * lost);
+  return "";
+}
+
+}  // namespace
+
+bool has_fast_log(const Identification& id) {
+  return std::any_of(id.logs.begin(), id.logs.end(),
+                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsFriction_s; });
+}
+
+ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered, const TorqueFit& torque,
+                      const Identification& id, const IdentifyOptions& options, const Progress& progress) {
+  const std::vector<int> free = free_parameters(torque.fit, id, options);
+  const int rows = affordable_rows(id.space, free.size(), options.max_rows);
+  const std::vector<Excerpt> excerpts = gather_excerpts(
+      logs, gathered, torque.shift, Excerpts(options.segment_s, options.min_segment_rows, rows));
+  ShootingOutcome out;
+  if (excerpts.empty()) {
+    out.refused = "no stretch of the logs is long enough to fit its motion";
+    return out;
+  }
+  const std::vector<Excerpt> few = some_of(excerpts);
+  ShootingOptions shooting;
+  shooting.max_iterations = kTrialIterations;
+  shooting.max_rounds = kTrialRounds;
+  shooting.threads = thread_count(options);
+  ShootingProblem problem{.space = id.space,
+                          .excerpts = few,
+                          .start = torque.fit.parameters,
+                          .free = free,
+                          .priors = priors_of(id.space, id.robot),
+                          .noise = gathered.measurements.noise(),
+                          .floor = gathered.measurements.floor()};
+  const ShootingFit trial = fit_shooting(problem, shooting, {});
+  if (options.method == IdentifyMethod::automatic &&
+      model_error_dominates(trial, gathered.measurements.noise())) {
+    out.refused = "the motion keeps a regular error that no parameters of this model remove";
+    return out;
+  }
+  shooting.max_iterations = options.max_iterations;
+  shooting.max_rounds = ShootingOptions{}.max_rounds;
+  out.fit = fit_shooting(
+      {problem.space, excerpts, problem.start, problem.free, problem.priors, problem.noise, problem.floor},
+      shooting, progress);
+  out.refused = refusal(out.fit, gathered, torque, id);
+  return out;
+}
+
+}  // namespace faultline

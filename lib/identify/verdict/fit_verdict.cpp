@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/verdict/fit_verdict.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg, of what hangs on a sliding axis
+
+/// Sums over the rows of one joint (and log) that count.
+struct Sums {
+  double rows = 0.0, left = 0.0, torque = 0.0, square = 0.0;
+
+  void add(double y, double residual) {
+    rows += 1.0;
+    left += residual * residual;
+    torque += y;
+    square += y * y;
+  }
+  double rms() const { return std::sqrt(left / std::max(rows, 1.0)); }
+  double r2() const {
+    const double spread = square - torque * torque / std::max(rows, 1.0);
+    return spread > 0.0 ? 1.0 - left / spread : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// How late each joint's torque acts: whole samples go to the robot, with the timing between samples, against
+/// a straight line, to the result.
+void tell_delays(const ModelChoice& choice, const Gathered& gathered, Identification& id) {
+  double period = 0.0;
+  for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
+  std::vector<double> whole = id.robot.torque_delay_s;
+  whole.resize(choice.weak.shift.size(), 0.0);
+  for (std::size_t j = 0; j < whole.size(); ++j) {
+    whole[j] += choice.weak.shift[j] * period;
+    id.torque_delay_s.push_back(whole[j] + (0.5 - id.estimate[id.space.timing()]) * period);
+  }
+  const bool none = std::all_of(whole.begin(), whole.end(), [](double s) { return s == 0.0; });
+  id.robot.torque_delay_s = none ? std::vector<double>{} : whole;
+}
+
+void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+                 const Eigen::VectorXd& residual, Identification& id) {
+  id.joint_fits.assign(torque.system.joints, {});
+  Eigen::Index row = 0;
+  for (int j = 0; j < torque.system.joints; ++j)
+    for (const WeakWindow& w : gathered.windows.sets[choice.weak.set[j]].all()) {
+      JointFit& fit = id.joint_fits[j];
+      fit.log.push_back(w.log);
+      fit.time_s.push_back(w.time_s);
+      fit.q.push_back(w.q[j]);
+      fit.dq.push_back(w.dq[j]);
+      fit.measured.push_back(torque.system.y[row]);
+      fit.modelled.push_back(torque.system.y[row] - residual[row]);
+      ++row;
+    }
+}
+
+/// A mass that no arm of this kind has, and that nobody has said it has.
+void find_implausible(Identification& id) {
+  for (const auto& [name, fact] : id.robot.known)
+    if (name.starts_with("m")) return;
+  for (int p = 0; p < id.space.rigid(); ++p) {
+    const double mass = id.estimate[p];
+    if (!id.space.base[p].is_mass || !(id.covariance(p, p) > 0.0)) continue;
+    if (mass > kLightest && mass < kHeaviest) continue;
+    id.status = IdentificationStatus::unexplained;
+    id.reason += fmt::format(
+        "; {0} came out as {1:.4g} kg: if that is not what it weighs, the torque is in "
+        "another unit; if it is, state it as {0} under [known]",
+        id.space.name(p), mass);
+  }
+}
+
+void find_unexplained(const std::vector<int>& still, Identification& id) {
+  std::vector<int> joints;
+  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
+    if (!(id.fit_r2[j] >= kExplained) && std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
+      joints.push_back(static_cast<int>(j) + 1);
+  if (joints.empty()) return;
+  id.status = IdentificationStatus::unexplained;
+  id.reason += fmt::format("; the torque of joint {} is not what this robot needs for its motion",
+                           fmt::join(joints, ", "));
+}
+
+}  // namespace
+
+void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+               const std::vector<int>& still, Identification& id) {
+  const WeakSystem& s = torque.system;
+  const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
+  std::vector<Sums> joints(s.joints);
+  std::vector<std::vector<Sums>> by_log(id.logs.size(), std::vector<Sums>(s.joints));
+  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
+    if (s.use[k] == 0.0) continue;
+    joints[s.joint[k]].add(s.y[k], residual[k]);
+    by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
+  }
+  for (const Sums& sums : joints) {
+    id.residual_rms.push_back(sums.rms());
+    id.fit_r2.push_back(sums.r2());
+  }
+  for (std::size_t i = 0; i < by_log.size(); ++i)
+    for (const Sums& sums : by_log[i]) id.logs[i].fit_r2.push_back(sums.r2());
+  id.held_out_r2 = choice.held_out_r2;
+  id.terms = choice.terms;
+  tell_delays(choice, gathered, id);
+  keep_curves(torque, choice, gathered, residual, id);
+  find_unexplained(still, id);
+  find_implausible(id);
+}
+
+}  // namespace faultline

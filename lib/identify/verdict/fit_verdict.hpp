@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/identify/gathered.hpp"
+#include "lib/identify/shooting_stage.hpp"
+#include "lib/identify/weak_form/weak_choice.hpp"
+
+namespace faultline {
+
+/// Share of a joint's torque that a model must explain to be one of it.
+inline constexpr double kExplained = 0.5;
+
+/// Fills in how well `id.estimate` explains the torque: by joint, by log and held out, what each term was
+/// worth and how late each torque acts. A joint that is hardly explained makes the status `unexplained`.
+/// Joints that never move (`still`, from 1) are not judged.
+void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+               const std::vector<int>& still, Identification& id);
+
+}  // namespace faultline

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/verdict/log_agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kFewestLogs = 3;
+constexpr double kOdd = 2.5;  // times what other logs leave of their torque, in rms and as a share
+
+}  // namespace
+
+std::vector<int> odd_logs(const ModelChoice& choice) {
+  std::vector<int> odd;
+  const HeldOutError& e = choice.held_out;
+  const int logs = static_cast<int>(e.square.rows());
+  if (choice.spread.size() == 0 || logs < kFewestLogs) return odd;
+  for (int i = 0; i < logs; ++i)
+    for (int j = 0; j < static_cast<int>(e.square.cols()); ++j) {
+      std::vector<double> left, share;
+      for (int k = 0; k < logs; ++k)
+        if (k != i && e.rows(k, j) > 0.0) {
+          left.push_back(e.square(k, j));
+          share.push_back(e.square(k, j) / std::max(e.torque(k, j), 1e-300));
+        }
+      if (left.empty() || e.rows(i, j) == 0.0) continue;
+      const double own_share = e.square(i, j) / std::max(e.torque(i, j), 1e-300);
+      if (e.square(i, j) > kOdd * kOdd * upper_median(left) &&
+          own_share > kOdd * kOdd * upper_median(share)) {
+        odd.push_back(i);
+        break;
+      }
+    }
+  if (2 * odd.size() >= static_cast<std::size_t>(logs)) odd.clear();
+  return odd;
+}
+
+void tell_spread(const ModelChoice& choice, Identification& id) {
+  id.between_logs_std.assign(id.space.count(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<int> used;
+  for (int log = 0; log < static_cast<int>(choice.spread.cols()); ++log)
+    if (!id.logs[log].left_out) used.push_back(log);
+  if (used.size() < kFewestLogs) return;
+  for (int p = 0; p < id.space.timing(); ++p) {
+    if (!choice.wanted[p]) continue;
+    const Eigen::ArrayXd values = choice.spread.row(p)(used);
+    id.between_logs_std[p] =
+        std::sqrt((values - values.mean()).square().sum() / static_cast<double>(used.size() - 1));
+  }
+}
+
+}  // namespace faultline

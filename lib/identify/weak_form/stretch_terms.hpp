@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lib/identify/motion/stretch.hpp"
+#include "lib/identify/parameter_space.hpp"
+
+namespace faultline {
+
+/// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth.
+inline constexpr int kWidths = 7;
+inline constexpr int kNominalWidth = 4;
+double weak_width(const ParameterSpace& space, int joint, int k);
+
+/// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample
+/// (from row k to row k + 1), joint after joint within a group of rows.
+struct StretchTerms {
+  Eigen::MatrixXd base;  ///< (base parameters x joints) rows, base after base: p_k+1 - p_k - dt (dT/dq - G)
+  Eigen::MatrixXd viscous;  ///< joints rows: q_k+1 - q_k
+  Eigen::MatrixXd coulomb;  ///< (kWidths x joints) rows: integral of tanh(dq / width)
+  Eigen::MatrixXd rotor;    ///< joints rows: momentum of rotors that are no base parameter
+  Eigen::VectorXd step_s;   ///< duration
+};
+
+StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& stretch);
+
+}  // namespace faultline

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/weak_form/weak_moments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr int kFolds = 5;
+constexpr int kLogsForFolds = 3;       // with as many, whole logs are held out,
+constexpr int kMostFolds = 10;         // each on its own up to here
+constexpr double kFoldBlock_s = 2.0;   // else blocks of a log in turn
+constexpr double kYardstick_s = 0.16;  // the window length nearest to it judges
+constexpr double kRank = 1e-8;         // of the largest eigenvalue of the scaled moments
+
+int log_count(const WeakWindows& windows) {
+  int count = 0;
+  for (const WeakWindow& w : windows.all()) count = std::max(count, w.log + 1);
+  return count;
+}
+
+/// Which fold a window belongs to: one of `logs` folds of logs, or blocks of time in turn when that is 0.
+int fold_of(const WeakWindow& w, int logs) {
+  return logs > 0 ? w.log % logs : static_cast<int>(std::floor(w.time_s / kFoldBlock_s)) % kFolds;
+}
+
+int nearest_set(const std::vector<WeakWindows>& sets, double length_s) {
+  int best = 0;
+  for (std::size_t i = 1; i < sets.size(); ++i)
+    if (std::abs(std::log(sets[i].length_s() / length_s)) <
+        std::abs(std::log(sets[best].length_s() / length_s)))
+      best = static_cast<int>(i);
+  return best;
+}
+
+/// Solves n x = r for columns of any scale, without the directions that the data do not tell.
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r) {
+  if (r.size() == 0) return r;
+  const Eigen::VectorXd scale = n.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * n * scale.asDiagonal());
+  const double least = kRank * std::max(eigen.eigenvalues().maxCoeff(), 1e-300);
+  Eigen::VectorXd part = eigen.eigenvectors().transpose() * scale.cwiseProduct(r);
+  for (Eigen::Index i = 0; i < part.size(); ++i)
+    part[i] = eigen.eigenvalues()[i] > least ? part[i] / eigen.eigenvalues()[i] : 0.0;
+  return scale.cwiseProduct(eigen.eigenvectors() * part);
+}
+
+}  // namespace
+
+Eigen::VectorXd HeldOutError::rms() const {
+  const Eigen::RowVectorXd count = rows.colwise().sum().cwiseMax(1.0);
+  return square.cwiseProduct(rows).colwise().sum().cwiseQuotient(count).cwiseSqrt().transpose();
+}
+
+WeakMoments::WeakMoments(const WeakSets& windows, double phi)
+    : space_(windows.space), shifts_(windows.shifts), joints_(windows.space.joints()) {
+  yardstick_ = nearest_set(windows.sets, kYardstick_s);
+  const int logs = log_count(windows.sets[0]);
+  const int by_log = logs >= kLogsForFolds ? std::min(logs, kMostFolds) : 0;
+  folds_ = by_log > 0 ? by_log : kFolds;
+  folds_are_logs_ = by_log == logs;
+  const int rigid = space_.rigid(), width = rigid + 2 + kWidths, count = width + shifts_.count();
+  moments_.resize(windows.sets.size() * folds_ * joints_);
+  for (Moments& m : moments_) m.sum.setZero(count, count);
+  Eigen::VectorXd row(count);
+  for (std::size_t set = 0; set < windows.sets.size(); ++set)
+    for (int j = 0; j < joints_; ++j) {
+      const std::vector<bool> moving = moving_windows(windows.sets[set], j);
+      const auto& all = windows.sets[set].all();
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!moving[k]) continue;
+        const WeakWindow& w = all[k];
+        row.head(rigid) = w.base.row(j);
+        row[rigid] = w.viscous[j];
+        row[rigid + 1] = 1.0;
+        row.segment(rigid + 2, kWidths) = w.coulomb.row(j);
+        for (int i = 0; i < shifts_.count(); ++i)
+          row[width + i] = (1.0 - phi) * w.torque(j, i) + phi * w.torque(j, std::max(i - 1, 0));
+        Moments& m = moments_[(set * folds_ + fold_of(w, by_log)) * joints_ + j];
+        m.sum.selfadjointView<Eigen::Lower>().rankUpdate(row);
+        m.rows += 1.0;
+      }
+    }
+  for (Moments& m : moments_) m.sum.triangularView<Eigen::StrictlyUpper>() = m.sum.transpose();
+}
+
+/// Columns of a joint's moments in the order of its parameters, then its torque.
+std::vector<int> WeakMoments::columns(const WeakChoice& choice, int j) const {
+  const int rigid = space_.rigid();
+  std::vector<int> out;
+  for (int p = 0; p < rigid; ++p) out.push_back(p);
+  out.push_back(rigid);
+  out.push_back(rigid + 2 + choice.width[j]);
+  out.push_back(rigid + 1);
+  out.push_back(rigid + 2 + kWidths + choice.shift[j] - shifts_.first);
+  return out;
+}
+
+/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset.
+std::vector<int> WeakMoments::parameters_of(int j) const {
+  std::vector<int> out;
+  for (int p = 0; p < space_.rigid(); ++p) out.push_back(p);
+  out.push_back(space_.viscous(j));
+  out.push_back(space_.coulomb(j));
+  out.push_back(space_.offset(j));
+  return out;
+}
+
+Eigen::VectorXd WeakMoments::fit(const WeakChoice& choice, const std::vector<bool>& wanted,
+                                 const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const {
+  return fit_folds(choice, wanted, start, scale, std::vector<bool>(folds_, true));
+}
+
+Eigen::VectorXd WeakMoments::fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
+                                     const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
+                                     int fold) const {
+  std::vector<bool> used(folds_, false);
+  used[fold] = true;
+  return fit_folds(choice, wanted, start, scale, used);
+}
+
+Eigen::VectorXd WeakMoments::fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
+                                       const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
+                                       const std::vector<bool>& used) const {
+  const int linear = space_.timing();
+  Eigen::MatrixXd n = Eigen::MatrixXd::Zero(linear, linear);
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(linear);
+  for (int j = 0; j < joints_; ++j) {
+    const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
+    const double weight = 1.0 / (scale[j] * scale[j]);
+    for (int fold = 0; fold < folds_; ++fold) {
+      if (!used[fold]) continue;
+      const Eigen::MatrixXd& m = at(choice.set[j], fold, j).sum;
+      for (std::size_t a = 0; a < parameter.size(); ++a) {
+        r[parameter[a]] += weight * m(column[a], column.back());
+        for (std::size_t b = 0; b < parameter.size(); ++b)
+          n(parameter[a], parameter[b]) += weight * m(column[a], column[b]);
+      }
+    }
+  }
+  std::vector<int> free;
+  Eigen::VectorXd x = start;
+  for (int p = 0; p < linear; ++p)
+    if (wanted[p] && n(p, p) > 0.0) free.push_back(p), x[p] = 0.0;
+  r -= n * x.head(linear);
+  const Eigen::VectorXd solved = solve_scaled(n(free, free), r(free));
+  for (std::size_t i = 0; i < free.size(); ++i) x[free[i]] = solved[i];
+  return x;
+}
+
+double WeakMoments::square_left(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
+                                int j) const {
+  const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
+  Eigen::VectorXd v(column.size());
+  for (std::size_t a = 0; a < parameter.size(); ++a) v[a] = -parameters[parameter[a]];
+  v[v.size() - 1] = 1.0;
+  return std::max(v.dot(m.sum(column, column) * v), 0.0);
+}
+
+Eigen::VectorXd WeakMoments::residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const {
+  Eigen::VectorXd out(joints_);
+  for (int j = 0; j < joints_; ++j) {
+    double square = 0.0, rows = 0.0;
+    for (int fold = 0; fold < folds_; ++fold) {
+      square += square_left(at(choice.set[j], fold, j), choice, parameters, j);
+      rows += at(choice.set[j], fold, j).rows;
+    }
+    out[j] = std::sqrt(square / std::max(rows, 1.0));
+  }
+  return out;
+}
+
+Eigen::VectorXd WeakMoments::torque_rms(const WeakChoice& choice) const {
+  return residual_rms(choice, Eigen::VectorXd::Zero(space_.count()));
+}
+
+Eigen::VectorXd WeakMoments::torque_std(const WeakChoice& choice) const {
+  Eigen::VectorXd out(joints_);
+  for (int j = 0; j < joints_; ++j) {
+    const int y = columns(choice, j).back(), one = space_.rigid() + 1;
+    double rows = 0.0, sum = 0.0, square = 0.0;
+    for (int fold = 0; fold < folds_; ++fold) {
+      const Moments& m = at(choice.set[j], fold, j);
+      rows += m.rows;
+      sum += m.sum(y, one);
+      square += m.sum(y, y);
+    }
+    rows = std::max(rows, 1.0);
+    out[j] = std::sqrt(std::max(square / rows - std::pow(sum / rows, 2), 0.0));
+  }
+  return out;
+}
+
+HeldOutError WeakMoments::held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
+                                   const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const {
+  WeakChoice judged = choice;
+  judged.set.assign(joints_, yardstick_);
+  HeldOutError out;
+  out.square.setZero(folds_, joints_);
+  out.rows.setZero(folds_, joints_);
+  out.torque.setZero(folds_, joints_);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(space_.count());
+  for (int fold = 0; fold < folds_; ++fold) {
+    std::vector<bool> used(folds_, true);
+    used[fold] = false;
+    const Eigen::VectorXd parameters = fit_folds(choice, wanted, start, scale, used);
+    for (int j = 0; j < joints_; ++j) {
+      const Moments& m = at(yardstick_, fold, j);
+      out.rows(fold, j) = m.rows;
+      out.square(fold, j) = square_left(m, judged, parameters, j) / std::max(m.rows, 1.0);
+      out.torque(fold, j) = square_left(m, judged, none, j) / std::max(m.rows, 1.0);
+    }
+  }
+  return out;
+}
+
+}  // namespace faultline

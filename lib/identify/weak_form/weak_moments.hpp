@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/identify/weak_form/weak_system.hpp"
+
+namespace faultline {
+
+/// Mean square of what is left of every joint's torque in each fold, by a fit to the other folds.
+struct HeldOutError {
+  Eigen::MatrixXd square;  ///< folds x joints, (N m)^2 or N^2
+  Eigen::MatrixXd rows;    ///< folds x joints: how many windows it is a mean of
+  Eigen::MatrixXd torque;  ///< folds x joints: mean square torque in them
+  Eigen::VectorXd rms() const;
+};
+
+/// Second moments of the windows' balances by fold, from which a fit for any choice of windows, torque shift,
+/// friction width and parameters is a matter of solving, not of going through the windows again.
+class WeakMoments {
+ public:
+  /// `phi` is how the torque is taken to run between samples while shifts are compared.
+  WeakMoments(const WeakSets& windows, double phi);
+
+  int folds() const { return folds_; }
+  /// Whether every fold is one log, in their order.
+  bool folds_are_logs() const { return folds_are_logs_; }
+  /// Set whose windows every choice is measured on.
+  int yardstick() const { return yardstick_; }
+
+  /// Fit to all folds; joint j weighs 1 / scale_j^2.
+  Eigen::VectorXd fit(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& start,
+                      const Eigen::VectorXd& scale) const;
+  /// Fit to one fold alone.
+  Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
+                          const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold) const;
+  /// Root mean square of what `parameters` leave of every joint's torque in the chosen windows, all folds.
+  Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
+  /// Root mean square torque of every joint.
+  Eigen::VectorXd torque_rms(const WeakChoice& choice) const;
+  /// Standard deviation of every joint's torque.
+  Eigen::VectorXd torque_std(const WeakChoice& choice) const;
+  /// What fits to the other folds leave of each fold, on the windows of the yardstick.
+  HeldOutError held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
+                        const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const;
+
+ private:
+  /// Moments of one joint's rows: base, viscous, offset, Coulomb of every width, torque of every shift.
+  struct Moments {
+    Eigen::MatrixXd sum;
+    double rows = 0.0;
+  };
+
+  const Moments& at(int set, int fold, int joint) const {
+    return moments_[(set * folds_ + fold) * joints_ + joint];
+  }
+  std::vector<int> columns(const WeakChoice& choice, int joint) const;
+  std::vector<int> parameters_of(int joint) const;
+  Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
+                            const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
+                            const std::vector<bool>& used) const;
+  double square_left(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
+                     int joint) const;
+
+  const ParameterSpace& space_;
+  ShiftRange shifts_;
+  int folds_ = 0, joints_ = 0, yardstick_ = 0;
+  bool folds_are_logs_ = false;
+  std::vector<Moments> moments_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lib/identify/motion/stretch.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/identify/weak_form/stretch_terms.hpp"
+
+namespace faultline {
+
+/// Samples by which the torque may act later (positive) or earlier than it is logged: first ... last.
+struct ShiftRange {
+  int first = -1;
+  int last = 1;
+
+  int count() const { return last - first + 1; }
+};
+
+/// One window: the momentum balance of every joint, weighted over the window so that no acceleration is
+/// needed,
+///   sum w (p_k+1 - p_k) = sum w dt (tau - F + dT/dq - G),   sum w dt = 1.
+/// Row j reads base * beta + viscous fv_j + coulomb fc_j + offset_j = torque.
+struct WeakWindow {
+  int log = 0;
+  double time_s = 0.0;      ///< its start
+  Eigen::MatrixXd base;     ///< joints x base parameters
+  Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column a friction width
+  Eigen::VectorXd viscous;
+  Eigen::MatrixXd torque;  ///< joints x shifts: the mean of tau_k-shift; less the momentum of known rotors
+  Eigen::VectorXd q, dq;   ///< in the middle of it, by joint
+  Eigen::VectorXd speed;   ///< mean |dq| of each joint in it, rad/s or m/s
+};
+
+/// Windows of one length over all logs, bounded in number: when there are too many, every other one goes and
+/// from then on only every other one comes.
+class WeakWindows {
+ public:
+  WeakWindows(double length_s, int max_windows)
+      : length_s_(length_s), max_windows_(static_cast<std::size_t>(max_windows)) {}
+
+  /// Windows of a stretch, each half over the last. Those that hold more empty than measured rows are left
+  /// out.
+  void add(const Stretch& stretch, const StretchTerms& terms, const ShiftRange& shifts);
+
+  /// Drops the windows of those logs.
+  void leave_out(const std::vector<bool>& logs);
+
+  double length_s() const { return length_s_; }
+  const std::vector<WeakWindow>& all() const { return windows_; }
+  std::int64_t rows_used(int log) const;
+
+ private:
+  void keep(WeakWindow window);
+
+  double length_s_;
+  std::size_t max_windows_;
+  std::int64_t seen_ = 0, stride_ = 1;
+  std::vector<WeakWindow> windows_;
+  std::vector<std::int64_t> rows_;
+};
+
+/// Windows of several lengths, short to long, of the same logs.
+struct WeakSets {
+  ParameterSpace space;
+  ShiftRange shifts;
+  std::vector<WeakWindows> sets;
+
+  void add(const Stretch& stretch);
+};
+
+/// Window lengths to choose from, s; on slow logs those that differ in samples.
+std::vector<double> window_lengths(double shortest_s, double period_s);
+/// What torque shifts can be told at a sample period.
+ShiftRange shift_range(double period_s);
+
+}  // namespace faultline
