@@ -90,7 +90,7 @@ void add_identify(CLI::App& app, Program& program) {
   CLI::App* command =
       app.add_subcommand("identify", "Identify a robot's parameters from logs of healthy runs");
   command->add_option("LOG", arguments->logs, "Logs of healthy runs of one robot")->required();
-  command->add_option("--robot", arguments->robot, "Robot file: axes and what is known")->required();
+  command->add_option("--robot", arguments->robot, "Robot file, or the axes alone, such as RRP")->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "Write the identified robot file here; - is standard output")

@@ -17,6 +17,7 @@ double carried_mass(const MotionModel& model) {
     if (model.chain.geometry[j].kind == AxisKind::prismatic) return model.inertia_scale[j];
   double reach = 0.0;
   for (const double l : model.chain.length) reach += l;
+  for (int j = 1; j < model.joints(); ++j) reach += model.chain.geometry[j].offset.norm();
   return model.inertia_scale[0] / std::max(reach * reach, kLeastReach_m2);
 }
 

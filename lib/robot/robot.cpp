@@ -4,35 +4,45 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "lib/core/error.hpp"
 
 namespace faultline {
 
+namespace {
+
+/// A last R right on a P, behind an arm of two R or more, turns a tool and reaches nowhere: RRPR.
+bool ends_in_wrist(const std::string& axes) {
+  return axes.ends_with("PR") && std::count(axes.begin(), axes.end(), 'R') > 2;
+}
+
+}  // namespace
+
+bool is_order_of_axes(const std::string& text) {
+  return !text.empty() && text.size() <= kMaxJoints && text.find_first_not_of("RP") == std::string::npos;
+}
+
 Robot preset_robot(const std::string& axes) {
-  static const std::array<const char*, 6> presets = {"RRP", "RRPR", "RPRR", "RR", "R", "P"};
-  if (std::find(presets.begin(), presets.end(), axes) == presets.end())
+  if (!is_order_of_axes(axes))
     throw Error(
         ErrorCode::usage, "axes",
-        fmt::format("\"{}\" is none of the presets RRP, RRPR, RPRR, RR, R, P (base to tip); give another "
+        fmt::format("\"{}\" is no order of parallel axes; expected 1 to {} letters R (turns about z) and "
+                    "P (slides along z) from base to tip, such as RRP, RRPR, RPRR or RR; give another "
                     "chain axis by axis",
-                    axes));
+                    axes, kMaxJoints));
   Robot robot;
   robot.name = axes;
   robot.axes = axes;
   const auto count = axes.size();
-  std::size_t last_revolute = axes.find_last_of('R');
   for (std::size_t i = 0; i < count; ++i) {
     JointGeometry joint;
     joint.kind = axes[i] == 'R' ? AxisKind::revolute : AxisKind::prismatic;
     // A prismatic axis carries the next joint on its own line; the tool's wrist (a last R after P) too.
     if (i == 0 || axes[i - 1] == 'P') joint.direction.setZero();
     robot.chain.geometry.push_back(joint);
-    const bool is_tool_wrist = axes == "RRPR" && i == last_revolute;
-    robot.shapes.push_back(is_tool_wrist    ? LinkShape::general
-                           : axes[i] == 'R' ? LinkShape::rod
-                                            : LinkShape::point);
+    robot.shapes.push_back(i + 1 == count && ends_in_wrist(axes) ? LinkShape::general
+                           : axes[i] == 'R'                      ? LinkShape::rod
+                                                                 : LinkShape::point);
   }
   robot.chain.links.resize(count);
   robot.chain.friction.resize(count);

@@ -38,7 +38,7 @@ struct LogMeaning {
 /// A robot as its file describes it: geometry and whatever of its parameters is known so far.
 struct Robot {
   std::string name;
-  std::string axes;  ///< "RRP", base to tip; "" for a chain given axis by axis
+  std::string axes;  ///< parallel axes such as "RRP", base to tip; "" for a chain given axis by axis
   Chain<double> chain;
   std::vector<LinkShape> shapes;
   /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
@@ -59,9 +59,14 @@ struct Robot {
   int joints() const { return chain.joints(); }
 };
 
-/// A preset order of axes, base to tip: "RRP", "RRPR", "RPRR", "RR", "R", "P". Lengths 1 m, masses 1 kg, no
-/// friction, gravity along -z; parallel vertical axes. "RR" moves in a vertical plane when the gravity given
-/// lies in that plane. Throws Error(usage) naming the presets for any other order.
+/// Whether the text is 1 to kMaxJoints letters R and P.
+bool is_order_of_axes(const std::string& text);
+
+/// Parallel axes in any order, base to tip, such as "RRP", "RPRR" or "R": R turns about z, P slides along z.
+/// An R link reaches along x to the next joint, a P link carries the next joint on its own line. R links are
+/// rods, P links points; a last R right behind P, with two or more R before it, is a tool's wrist of general
+/// shape. Lengths 1 m, masses 1 kg, no friction, gravity along -z; the arm moves in a vertical plane when the
+/// gravity given lies in that plane. Throws Error(usage) when the text is no order of axes.
 Robot preset_robot(const std::string& axes);
 
 /// Unit vector along link i in its own frame: towards the next joint, or along x for a link that says

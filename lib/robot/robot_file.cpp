@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/chain_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
@@ -109,7 +108,7 @@ Robot robot_from_table(const TomlTable& table) {
     try {
       robot = preset_robot(axes);
     } catch (const Error& error) {
-      table.fail("axes", error.message() + " in [[joint]] tables with kind, axis, offset and direction");
+      table.fail("axes", error.message() + " in [[joint]] tables");
     }
     if (!joints.empty() && static_cast<int>(joints.size()) != robot.joints())
       table.fail("joint",
@@ -135,7 +134,5 @@ Robot robot_from_toml(const std::string& text, const std::string& where) {
   table.finish();
   return robot;
 }
-
-Robot load_robot_file(const std::string& path) { return robot_from_toml(read_file(path), path); }
 
 }  // namespace faultline

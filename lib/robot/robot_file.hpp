@@ -9,11 +9,13 @@
 
 namespace faultline {
 
-/// Reads a robot file (TOML, docs/robot-file.md). Throws Error(usage) naming file, line, key, what was found
-/// and what was expected; Error(input) when the file cannot be read.
-Robot load_robot_file(const std::string& path);
+/// Reads a robot file (TOML, docs/robot-file.md); a relative path counts from `folder`. Where there is no
+/// file of that name, an order of axes such as "RRP" stands for the robot whose file says only that. Throws
+/// Error(usage) naming file, line, key, what was found and what was expected; Error(input) when the file
+/// cannot be read.
+Robot load_robot_file(const std::string& name, const std::string& folder = "");
 
-/// The same from text; `where` names it in errors.
+/// A robot file from its text; `where` names it in errors.
 Robot robot_from_toml(const std::string& text, const std::string& where);
 
 /// The same from a table inside another option file, such as [robot] of a simulation spec.
