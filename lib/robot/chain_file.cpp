@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "lib/robot/dh_file.hpp"
 #include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml_values.hpp"
 
@@ -50,11 +51,14 @@ Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& jo
   for (const TomlTable& joint : joints) {
     JointGeometry geometry;
     geometry.kind = joint.choice_of("kind", {AxisKind::revolute, AxisKind::prismatic});
-    const bool on_last_axis = robot.chain.geometry.empty() || joint.has("offset") ||
+    const bool dh = has_dh_row(joint);
+    const bool on_last_axis = dh || robot.chain.geometry.empty() || joint.has("offset") ||
                               robot.chain.geometry.back().kind == AxisKind::prismatic;
     if (on_last_axis) geometry.direction.setZero();
     robot.chain.geometry.push_back(geometry);
-    robot.shapes.push_back(geometry.kind == AxisKind::revolute ? LinkShape::rod : LinkShape::point);
+    robot.shapes.push_back(dh                                    ? LinkShape::general
+                           : geometry.kind == AxisKind::revolute ? LinkShape::rod
+                                                                 : LinkShape::point);
   }
   const std::size_t n = joints.size();
   robot.chain.links.resize(n);

@@ -63,6 +63,18 @@ Eigen::Vector3d link_direction(const Robot& robot, int i) {
   return direction.isZero() ? Eigen::Vector3d::UnitX() : direction;
 }
 
+void set_tip(Robot& robot, const Eigen::Vector3d& tip) {
+  const double reach = tip.norm();
+  JointGeometry& last = robot.chain.geometry.back();
+  if (reach == 0.0 || last.kind == AxisKind::prismatic) return;
+  const Eigen::Vector3d direction = tip / reach;
+  if (robot.joints() > 1)
+    last.direction = direction;  // the link before has no length: the joint stays where it is
+  else if (direction != Eigen::Vector3d::UnitX())
+    return;
+  robot.chain.length.back() = reach;
+}
+
 void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
                             const std::vector<double>& lengths) {
   for (int i = 0; i < robot.joints(); ++i) {

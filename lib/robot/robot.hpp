@@ -73,6 +73,11 @@ Robot preset_robot(const std::string& axes);
 /// nothing.
 Eigen::Vector3d link_direction(const Robot& robot, int i);
 
+/// Puts the tip at `tip` (m, in the last link's frame at q = 0) of a chain whose joints sit by their offsets
+/// alone, all lengths 0. A chain tells only of tips beyond a last joint that turns and, with a single joint,
+/// along x; any other leaves the tip on the last joint.
+void set_tip(Robot& robot, const Eigen::Vector3d& tip);
+
 /// Sets the links of `robot` whose shape is rod or point from masses (kg) and lengths (m), one each a joint.
 void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
                             const std::vector<double>& lengths);

@@ -7,6 +7,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/robot/chain_file.hpp"
+#include "lib/robot/dh_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_words.hpp"
@@ -123,6 +124,7 @@ Robot robot_from_table(const TomlTable& table) {
   read_links(robot, table);
   read_friction(robot, table, joints);
   read_known(robot, table);
+  read_dh(robot, table, joints);
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   read_identified(robot, table);
   return robot;
