@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "formats/open_log.hpp"
+#include "lib/log/coupled_source.hpp"
 #include "lib/log/delayed_torque_source.hpp"
 
 namespace faultline {
@@ -12,7 +13,7 @@ std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& 
   OpenLogOptions options;
   options.columns = robot.log.columns;
   options.keep_extra = false;
-  std::unique_ptr<LogSource> log = open_log(path, options);
+  std::unique_ptr<LogSource> log = coupled(open_log(path, options), robot.log.coupling);
   if (robot.torque_delay_s.empty()) return log;
   return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s);
 }

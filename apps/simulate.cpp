@@ -14,6 +14,7 @@
 #include "apps/progress.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/log/coupled_source.hpp"
 #include "lib/simulate/run_labels.hpp"
 #include "lib/simulate/spec_file.hpp"
 
@@ -66,7 +67,8 @@ int simulate_file(const SimulateArguments& arguments, ColorChoice color) {
       if (progress)
         progress("simulate " + spec.name, static_cast<double>(i) / static_cast<double>(file.runs.size()));
       const SimulatedRun run = simulate(file.robot, spec.simulation, spec.seed);
-      write_log((folder / (spec.name + "." + file.format)).string(), run.log);
+      write_log((folder / (spec.name + "." + file.format)).string(),
+                uncoupled(run.log, file.robot.log.coupling));
       labels += label_lines(file, spec, run);
       runs.push_back(summary(file, spec, run));
     }

@@ -3,14 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kSingular = 1e-9;  ///< smallest to largest singular value
 
 ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
   ColumnSpec spec;
@@ -36,6 +40,22 @@ std::vector<std::string> channel_names(int joints) {
   return names;
 }
 
+Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
+  const auto rows = log.number_rows("coupling", joints);
+  if (static_cast<int>(rows.size()) != joints)
+    log.fail("coupling", fmt::format("expected {0} rows of {0} numbers, one each a joint, found {1}", joints,
+                                     counted(static_cast<long long>(rows.size()), "row")));
+  Eigen::MatrixXd matrix(joints, joints);
+  for (int i = 0; i < joints; ++i)
+    for (int k = 0; k < joints; ++k) matrix(i, k) = rows[i][k];
+  const Eigen::VectorXd stretches = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
+  if (stretches[joints - 1] <= kSingular * stretches[0])
+    log.fail(
+        "coupling",
+        "is singular: some motion of the drives moves no joint; expected the matrix C of q = C q_logged");
+  return matrix;
+}
+
 }  // namespace
 
 LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
@@ -46,6 +66,7 @@ LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
   if (log.has("torque_between_samples"))
     result.torque_between_samples = log.choice_of(
         "torque_between_samples", {TorqueTiming::held, TorqueTiming::linear, TorqueTiming::unknown});
+  if (log.has("coupling")) result.coupling = read_coupling(log, joints);
   const TomlTable columns = log.table("columns");
   const auto names = channel_names(joints);
   for (const std::string& channel : columns.keys()) {

@@ -33,6 +33,9 @@ struct LogMeaning {
   TorqueMeaning torque = TorqueMeaning::commanded;
   TorqueTiming torque_between_samples = TorqueTiming::unknown;
   ColumnMap columns;
+  /// C of drives that move more than one joint, n x n and regular: q = C q_logged (see coupled()); 0 x 0 when
+  /// each drive moves its own joint.
+  Eigen::MatrixXd coupling;
 };
 
 /// A robot as its file describes it: geometry and whatever of its parameters is known so far.

@@ -83,9 +83,17 @@ std::string column_text(const std::string& channel, const ColumnSpec& spec) {
                      number(spec.offset));
 }
 
+std::string coupling_text(const Eigen::MatrixXd& coupling) {
+  std::string text = "coupling = [";
+  for (int i = 0; i < coupling.rows(); ++i)
+    text += (i ? ", " : "") + numbers(Eigen::VectorXd(coupling.row(i).transpose()));
+  return text + "]\n";
+}
+
 std::string log_text(const LogMeaning& log) {
   std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
                                  to_string(log.torque), to_string(log.torque_between_samples));
+  if (log.coupling.size() > 0) text += coupling_text(log.coupling);
   if (!log.columns.empty()) text += "\n[log.columns]\n";
   for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);
   return text;

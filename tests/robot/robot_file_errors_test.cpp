@@ -60,6 +60,16 @@ TEST(RobotFileErrors, WrongValuesSayWhatWasExpected) {
   expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
 }
 
+TEST(RobotFileErrors, CouplingMustBeARegularMatrixOfAllJoints) {
+  const std::string log = "axes = \"RR\"\n[log]\n";
+  expect_error(log + "coupling = [[1, 0]]", {"line 3, key log.coupling", "2 rows of 2 numbers", "1 row"});
+  expect_error(log + "coupling = [[1, 0], [1, 0, 0]]", {"key log.coupling", "2 numbers"});
+  expect_error(log + "coupling = [[1, 2], [2, 4]]", {"key log.coupling", "singular"});
+  expect_error(log + "coupling = [[0, 0], [0, 0]]", {"key log.coupling", "singular"});
+  expect_error(log + "coupling = [[1, nan], [0, 1]]", {"key log.coupling", "finite"});
+  expect_error(log + "coupling = 2", {"key log.coupling"});
+}
+
 TEST(RobotFileErrors, BrokenTomlNamesThePlace) {
   expect_error("axes = \"RRP\"\n[known\n", {"r.toml, line 2", "not valid TOML"});
 }

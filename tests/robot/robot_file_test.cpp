@@ -113,6 +113,13 @@ TEST(RobotFile, IdentifiedRobotRoundTripsExactly) {
   expect_same_chain(robot.chain, again.chain);
 }
 
+TEST(RobotFile, CouplingRoundTripsExactly) {
+  Robot robot = preset_robot("RR");
+  robot.log.coupling.resize(2, 2);
+  robot.log.coupling << 1.0, 0.0, -1.0 / 3.0, 2.0;
+  EXPECT_EQ(robot_from_toml(robot_file_text(robot), "again").log.coupling, robot.log.coupling);
+}
+
 TEST(RobotFile, EveryPresetRoundTrips) {
   for (const char* axes : {"RRP", "RRPR", "RPRR", "RR", "R", "P"}) {
     const Robot robot = preset_robot(axes);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/coupled_source.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <utility>
+
+#include "lib/core/error.hpp"
+#include "lib/log/log_channels.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kDust = 1e-14;  ///< what rounding leaves of a zero, relative to the largest entry
+
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd inverse = matrix.inverse();
+  const double largest = inverse.cwiseAbs().maxCoeff();
+  return inverse.unaryExpr([&](double x) { return std::abs(x) < kDust * largest ? 0.0 : x; });
+}
+
+/// Sums of the signals of all joints, weighted by a row of `matrix` for each. A weight of 0 takes no part.
+void mix(JointSignals& signals, const Eigen::MatrixXd& matrix, JointSignals& mixed) {
+  mixed.resize(signals.size());
+  for (std::size_t j = 0; j < signals.size(); ++j) {
+    mixed[j].assign(signals[j].size(), 0.0);
+    for (std::size_t k = 0; k < signals.size(); ++k) {
+      const double weight = matrix(static_cast<int>(j), static_cast<int>(k));
+      if (weight == 0.0) continue;
+      for (std::size_t i = 0; i < mixed[j].size(); ++i) mixed[j][i] += weight * signals[k][i];
+    }
+  }
+  std::swap(signals, mixed);
+}
+
+void mix_all(Log& log, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& torque, JointSignals& mixed) {
+  for (const Quantity quantity : kJointQuantities)
+    mix(signals_of(log, quantity), quantity == Quantity::tau ? torque : motion, mixed);
+}
+
+class CoupledSource : public LogSource {
+ public:
+  CoupledSource(std::unique_ptr<LogSource> source, const Eigen::MatrixXd& coupling)
+      : source_(std::move(source)), motion_(coupling), torque_(inverse_of(coupling).transpose()) {}
+
+  bool next(Log& segment) override {
+    if (!source_->next(segment)) return false;
+    if (segment.joints() != motion_.rows())
+      throw Error(
+          ErrorCode::input, source_->identity().path,
+          fmt::format("has {} joints, the coupling of the robot is of {}; give the logs of this robot",
+                      segment.joints(), motion_.rows()));
+    mix_all(segment, motion_, torque_, mixed_);
+    return true;
+  }
+  void rewind() override { source_->rewind(); }
+  const LogIdentity& identity() const override { return source_->identity(); }
+  const Issues& issues() const override { return source_->issues(); }
+  double share_read() const override { return source_->share_read(); }
+
+ private:
+  std::unique_ptr<LogSource> source_;
+  Eigen::MatrixXd motion_, torque_;
+  JointSignals mixed_;  ///< storage that next() uses again
+};
+
+}  // namespace
+
+std::unique_ptr<LogSource> coupled(std::unique_ptr<LogSource> source, const Eigen::MatrixXd& coupling) {
+  if (coupling.size() == 0) return source;
+  return std::make_unique<CoupledSource>(std::move(source), coupling);
+}
+
+Log uncoupled(Log log, const Eigen::MatrixXd& coupling) {
+  JointSignals mixed;
+  if (coupling.size() > 0) mix_all(log, inverse_of(coupling), coupling.transpose(), mixed);
+  return log;
+}
+
+}  // namespace faultline
