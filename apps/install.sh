@@ -18,7 +18,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config
   # the program
   libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev
-  libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev libjs-dygraphs
+  libtinyxml2-dev libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev libjs-dygraphs
   # to configure the tests
   libgtest-dev
 )

@@ -34,4 +34,16 @@ LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
   return link;
 }
 
+LinkInertia<double> seen_from(const LinkInertia<double>& body, const Eigen::Matrix3d& rotation,
+                              const Eigen::Vector3d& position) {
+  const Eigen::Vector3d turned = rotation * body.first_moment, &p = position;
+  LinkInertia<double> seen;
+  seen.mass = body.mass;
+  seen.first_moment = turned + body.mass * p;
+  seen.inertia = rotation * body.inertia * rotation.transpose() + body.mass * point_inertia(p) +
+                 2.0 * p.dot(turned) * Eigen::Matrix3d::Identity() - p * turned.transpose() -
+                 turned * p.transpose();
+  return seen;
+}
+
 }  // namespace faultline

@@ -85,4 +85,8 @@ LinkInertia<double> point_mass(double mass);
 LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
                                  const Eigen::Matrix3d& inertia_at_centre);
 
+/// A body given in a frame of its own, seen from the frame in which that one stands so.
+LinkInertia<double> seen_from(const LinkInertia<double>& body, const Eigen::Matrix3d& rotation,
+                              const Eigen::Vector3d& position);
+
 }  // namespace faultline

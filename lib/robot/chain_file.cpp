@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "lib/robot/dh_file.hpp"
+#include "lib/robot/dh/dh_file.hpp"
 #include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml_values.hpp"
 

@@ -4,8 +4,18 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "lib/robot/urdf/urdf.hpp"
 
 namespace faultline {
+namespace {
+
+/// No TOML begins so.
+bool is_xml(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '<';
+}
+
+}  // namespace
 
 Robot load_robot_file(const std::string& name, const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / name).string();
@@ -17,7 +27,13 @@ Robot load_robot_file(const std::string& name, const std::string& folder) {
                   "is no file; expected a robot file, or the axes alone as letters R and P, base to tip, "
                   "such as RRP");
   }
-  return robot_from_toml(read_file(path), path);
+  if (has_urdf_name(path)) return load_urdf_file(path);
+  const std::string text = read_file(path);
+  return is_xml(text) ? robot_from_urdf(text, path) : robot_from_toml(text, path);
+}
+
+std::string robot_text_for(const std::string& path, const Robot& robot) {
+  return has_urdf_name(path) ? urdf_text(robot) : robot_file_text(robot);
 }
 
 }  // namespace faultline

@@ -7,9 +7,10 @@
 
 #include "lib/core/error.hpp"
 #include "lib/robot/chain_file.hpp"
-#include "lib/robot/dh_file.hpp"
+#include "lib/robot/dh/dh_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
 #include "lib/robot/nearest_word.hpp"
+#include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml_values.hpp"
 
@@ -52,28 +53,6 @@ KnownValue known_value(const TomlTable& table, const std::string& key) {
   return {fact.number("value"), not_negative(fact, "std", 0.0)};
 }
 
-void read_known(Robot& robot, const TomlTable& table) {
-  const TomlTable known = table.table("known");
-  const auto names = parameter_names(robot.joints());
-  for (const std::string& key : known.keys()) {
-    if (std::find(names.begin(), names.end(), key) == names.end()) {
-      const std::string near = nearest_word(key, names);
-      known.fail(
-          key,
-          fmt::format("is no parameter of this robot; expected m, l, fv, fc, fo or jr with a joint from 1 "
-                      "to {}{}",
-                      robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-    }
-    const KnownValue fact = known_value(known, key);
-    if (fact.value < 0.0 && key.substr(0, 2) != "fo")
-      known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
-    robot.known[key] = fact;
-    set_parameter(robot, key, fact.value);
-  }
-  const TomlTable payload = table.table("payload");
-  for (const std::string& key : payload.keys()) robot.payloads[key] = known_value(payload, key);
-}
-
 void read_identified(Robot& robot, const TomlTable& table) {
   robot.identified = table.has("identified");
   const TomlTable identified = table.table("identified");
@@ -100,6 +79,28 @@ void read_identified(Robot& robot, const TomlTable& table) {
 }
 
 }  // namespace
+
+void read_known(Robot& robot, const TomlTable& table) {
+  const TomlTable known = table.table("known");
+  const auto names = parameter_names(robot.joints());
+  for (const std::string& key : known.keys()) {
+    if (std::find(names.begin(), names.end(), key) == names.end()) {
+      const std::string near = nearest_word(key, names);
+      known.fail(
+          key,
+          fmt::format("is no parameter of this robot; expected m, l, fv, fc, fo or jr with a joint from 1 "
+                      "to {}{}",
+                      robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
+    const KnownValue fact = known_value(known, key);
+    if (fact.value < 0.0 && key.substr(0, 2) != "fo")
+      known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
+    robot.known[key] = fact;
+    set_parameter(robot, key, fact.value);
+  }
+  const TomlTable payload = table.table("payload");
+  for (const std::string& key : payload.keys()) robot.payloads[key] = known_value(payload, key);
+}
 
 Robot robot_from_table(const TomlTable& table) {
   const auto joints = table.tables("joint");

@@ -136,9 +136,9 @@ void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t s
 
 Robot read_robot(const TomlTable& table, const std::string& folder) {
   if (!table.has("robot"))
-    table.fail(
-        "",
-        "the key robot is missing; expected the path of a robot file, axes such as \"RRP\" or a [robot] table");
+    table.fail("",
+               "the key robot is missing; expected the path of a robot file, axes such as \"RRP\" or a "
+               "[robot] table");
   if (table.is_table("robot")) return robot_from_table(table.table("robot"));
   return load_robot_file(table.text("robot"), folder);
 }

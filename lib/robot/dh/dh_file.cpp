@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/dh_file.hpp"
+#include "lib/robot/dh/dh_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "lib/robot/denavit_hartenberg.hpp"
+#include "lib/robot/dh/denavit_hartenberg.hpp"
 
 namespace faultline {
 namespace {

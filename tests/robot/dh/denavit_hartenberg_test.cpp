@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/denavit_hartenberg.hpp"
+#include "lib/robot/dh/denavit_hartenberg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

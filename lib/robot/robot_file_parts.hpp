@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/robot/robot.hpp"
+#include "lib/robot/toml_table.hpp"
+
+/// Sections of a robot file that stand in other files, too, read and written.
+namespace faultline {
+
+/// [known] and [payload]; what is known is set in the chain.
+void read_known(Robot& robot, const TomlTable& table);
+
+/// [known] and [payload]; "" when nothing is known.
+std::string facts_text(const Robot& robot);
+/// [log].
+std::string log_text(const LogMeaning& log);
+
+}  // namespace faultline

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+#include "lib/robot/turns.hpp"
+#include "lib/robot/urdf/urdf_element.hpp"
+#include "lib/robot/urdf/urdf_model.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 32u << 20;  ///< a URDF with its meshes beside it has some 100 kB
+
+using Places = std::map<std::string, int>;  ///< of links by name
+
+/// "XML_ERROR_MISMATCHED_ELEMENT" as words.
+std::string words_of(tinyxml2::XMLError error) {
+  std::string words = tinyxml2::XMLDocument::ErrorIDToName(error);
+  for (const char* prefix : {"XML_ERROR_", "XML_"})
+    if (words.rfind(prefix, 0) == 0) words.erase(0, std::string(prefix).size());
+  std::transform(words.begin(), words.end(), words.begin(), [](char c) {
+    return c == '_' ? ' ' : static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  });
+  return words;
+}
+
+Eigen::Isometry3d origin_of(const UrdfElement& element) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const auto origin = element.child("origin");
+  if (!origin) return pose;
+  pose.linear() = turn_rpy(origin->vector("rpy", Eigen::Vector3d::Zero()));
+  pose.translation() = origin->vector("xyz", Eigen::Vector3d::Zero());
+  return pose;
+}
+
+UrdfLink link_of(const UrdfElement& element) {
+  UrdfLink link{element.text("name"), element.line(), {}};
+  const auto inertial = element.child("inertial");
+  if (!inertial) return link;
+  const UrdfElement inertia = inertial->required("inertia");
+  Eigen::Matrix3d tensor =
+      Eigen::Vector3d(inertia.number("ixx"), inertia.number("iyy"), inertia.number("izz")).asDiagonal();
+  tensor(0, 1) = tensor(1, 0) = inertia.number("ixy", 0.0);
+  tensor(0, 2) = tensor(2, 0) = inertia.number("ixz", 0.0);
+  tensor(1, 2) = tensor(2, 1) = inertia.number("iyz", 0.0);
+  const Eigen::Isometry3d pose = origin_of(*inertial);
+  const double mass = inertial->required("mass").number("value");
+  link.body =
+      seen_from(general_body(mass, Eigen::Vector3d::Zero(), tensor), pose.linear(), pose.translation());
+  return link;
+}
+
+UrdfJointType type_of(const UrdfElement& element) {
+  static const std::map<std::string, UrdfJointType> types = {
+      {"revolute", UrdfJointType::revolute},   {"continuous", UrdfJointType::continuous},
+      {"prismatic", UrdfJointType::prismatic}, {"fixed", UrdfJointType::fixed},
+      {"floating", UrdfJointType::floating},   {"planar", UrdfJointType::planar}};
+  const auto found = types.find(element.text("type"));
+  if (found == types.end())
+    element.fail(
+        fmt::format("has the type \"{}\"; expected revolute, continuous, prismatic, fixed, floating or "
+                    "planar",
+                    printable(element.text("type"))));
+  return found->second;
+}
+
+int link_named_in(const UrdfElement& joint, const char* end, const Places& places) {
+  const std::string name = joint.required(end).text("link");
+  const auto found = places.find(name);
+  if (found == places.end())
+    joint.fail(
+        fmt::format("has as its {} the link \"{}\", which the file does not have", end, printable(name)));
+  return found->second;
+}
+
+UrdfJoint joint_of(const UrdfElement& element, const Places& places) {
+  UrdfJoint joint;
+  joint.name = element.text("name");
+  joint.line = element.line();
+  joint.type = type_of(element);
+  joint.parent = link_named_in(element, "parent", places);
+  joint.child = link_named_in(element, "child", places);
+  joint.origin = origin_of(element);
+  joint.mimics = element.child("mimic").has_value();
+  const auto axis = element.child("axis");
+  if (axis) joint.axis = axis->vector("xyz", joint.axis);
+  const double length = joint.axis.norm();
+  if (joint.type != UrdfJointType::fixed && !(length > 1e-9 && std::isfinite(length)))
+    element.fail("has an axis without direction; expected a vector that is not zero");
+  if (std::abs(length - 1.0) > 1e-12) joint.axis /= length;
+  if (const auto dynamics = element.child("dynamics")) {
+    joint.damping = dynamics->number("damping", 0.0);
+    joint.friction = dynamics->number("friction", 0.0);
+  }
+  return joint;
+}
+
+/// Refuses a name that another element of the kind has.
+void take_name(Places& places, const std::string& name, const UrdfElement& element) {
+  const auto number = static_cast<int>(places.size());
+  if (!places.emplace(name, number).second) element.fail("has the name of another one; names are given once");
+}
+
+UrdfModel model_of(const UrdfElement& root, const std::string& file) {
+  if (root.tag() != "robot")
+    root.fail(fmt::format("is the outermost element; a URDF file begins with <robot>{}",
+                          root.tag() == "sdf" ? ". This is SDF; export the robot as URDF" : ""));
+  UrdfModel model;
+  model.file = file;
+  model.name = root.has("name") ? root.text("name") : "robot";
+  Places links, joints;
+  const auto children = root.children();
+  for (const UrdfElement& element : children) {
+    if (element.tag().rfind("xacro:", 0) == 0)
+      element.fail("is of xacro; expand the file first: xacro FILE > robot.urdf");
+    if (element.tag() != "link") continue;
+    model.links.push_back(link_of(element));
+    take_name(links, model.links.back().name, element);
+  }
+  for (const UrdfElement& element : children) {
+    if (element.tag() != "joint") continue;
+    model.joints.push_back(joint_of(element, links));
+    take_name(joints, model.joints.back().name, element);
+  }
+  if (const auto more = root.child("faultline")) model.more = more->content();
+  return model;
+}
+
+}  // namespace
+
+void check_urdf_size(std::uintmax_t bytes, const std::string& file) {
+  if (bytes > kMostBytes)
+    throw Error(ErrorCode::input, file,
+                fmt::format("has {} MB; expected a URDF of at most {} MB, its meshes in files of their own",
+                            bytes >> 20, kMostBytes >> 20));
+}
+
+UrdfModel parse_urdf(const std::string& text, const std::string& file) {
+  check_urdf_size(text.size(), file);
+  if (text.find('\0') != std::string::npos)
+    throw Error(ErrorCode::input, file, "holds zero bytes, which are no XML; is it a URDF file?");
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
+    throw Error(
+        ErrorCode::input, fmt::format("{}, line {}", file, document.ErrorLineNum()),
+        fmt::format("is not valid XML ({}); a URDF file is complete XML", words_of(document.ErrorID())));
+  if (!document.RootElement())
+    throw Error(ErrorCode::input, file, "holds no element; a URDF begins with <robot>");
+  return model_of(UrdfElement(*document.RootElement(), file), file);
+}
+
+}  // namespace faultline

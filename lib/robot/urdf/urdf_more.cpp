@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/urdf/urdf_more.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/text.hpp"
+#include "lib/robot/log_meaning_file.hpp"
+#include "lib/robot/robot_file_parts.hpp"
+#include "lib/robot/robot_words.hpp"
+#include "lib/robot/toml_text.hpp"
+#include "lib/robot/toml_values.hpp"
+
+namespace faultline {
+namespace {
+
+const double kWidth = Friction<double>{}.width;
+constexpr double kSameBody = 1e-13;  ///< relative
+
+template <typename Of>
+std::string each_joint(const Robot& robot, const char* key, Of of) {
+  Eigen::VectorXd values(robot.joints());
+  for (int i = 0; i < robot.joints(); ++i) values[i] = of(i);
+  return fmt::format("{} = {}\n", key, toml_numbers(values));
+}
+
+std::string link_text(const Robot& robot, int i) {
+  const LinkInertia<double>& link = robot.chain.links[i];
+  std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\nlength = {}\n", to_string(robot.shapes[i]),
+                                 toml_number(robot.chain.length[i]));
+  const Eigen::Vector3d& direction = robot.chain.geometry[i].direction;
+  if (!direction.isZero()) text += fmt::format("direction = {}\n", toml_numbers(direction));
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d inertia;
+  if (!about_centre(link, centre, inertia))
+    text += fmt::format("first_moment = {}\ninertia_at_joint = {}\n", toml_numbers(link.first_moment),
+                        toml_tensor(link.inertia));
+  return text;
+}
+
+/// Negative rotor inertias may be identified: one choice among those that move alike.
+void read_drives(Robot& robot, const TomlTable& table) {
+  const int n = robot.joints();
+  if (table.has("rotor_inertia")) robot.chain.rotor_inertia = table.each("rotor_inertia", n);
+  if (!robot.identified) check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
+  const TomlTable friction = table.table("friction");
+  const auto offset = friction.has("offset") ? friction.each("offset", n) : std::vector<double>(n, 0.0);
+  const auto width = friction.has("width") ? friction.each("width", n) : std::vector<double>(n, kWidth);
+  check_signs(friction, "width", width, false);
+  for (int i = 0; i < n; ++i) {
+    robot.chain.friction[i].offset = offset[i];
+    robot.chain.friction[i].width = width[i];
+  }
+}
+
+void read_axes(Robot& robot, const TomlTable& table) {
+  robot.axes = table.text("axes", "");
+  std::string kinds;
+  for (const JointGeometry& joint : robot.chain.geometry)
+    kinds += joint.kind == AxisKind::revolute ? 'R' : 'P';
+  if (!robot.axes.empty() && robot.axes != kinds)
+    table.fail("axes", fmt::format("expected \"{}\", as the joints of the file are, found \"{}\"", kinds,
+                                   printable(robot.axes)));
+}
+
+/// Lengths and directions move a part of the joints' offsets into lengths; the joints stay where they are.
+void read_links(Robot& robot, const TomlTable& table) {
+  const auto links = table.tables("link");
+  if (static_cast<int>(links.size()) != robot.joints())
+    table.fail("link",
+               fmt::format("expected one [[link]] for each of the {} moving joints of the file, found {}; "
+                           "were joints added or removed? Then leave out <faultline>",
+                           robot.joints(), links.size()));
+  for (int i = 0; i < robot.joints(); ++i) {
+    const TomlTable& link = links[i];
+    robot.shapes[i] = link.choice_of("shape", {LinkShape::rod, LinkShape::point, LinkShape::general});
+    robot.chain.length[i] = link.number("length", 0.0);
+    JointGeometry& joint = robot.chain.geometry[i];
+    joint.direction.setZero();
+    if (link.has("direction") && i > 0) {
+      joint.direction = unit_vector(link, "direction", {0, 0, 0});
+      joint.offset -= robot.chain.length[i - 1] * joint.direction;
+    }
+    if (!link.has("first_moment")) continue;
+    robot.chain.links[i].first_moment = vector3(link, "first_moment", {0, 0, 0});
+    robot.chain.links[i].inertia = inertia_tensor(link, "inertia_at_joint");
+  }
+}
+
+}  // namespace
+
+bool about_centre(const LinkInertia<double>& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia) {
+  centre.setZero();
+  inertia = link.inertia;
+  if (link.mass == 0.0) return link.first_moment.isZero(0.0);
+  centre = link.first_moment / link.mass;
+  inertia = link.inertia - general_body(link.mass, centre, Eigen::Matrix3d::Zero()).inertia;
+  const LinkInertia<double> again = general_body(link.mass, centre, inertia);
+  const bool same = (again.inertia - link.inertia).norm() <= kSameBody * link.inertia.norm() &&
+                    (again.first_moment - link.first_moment).norm() <= kSameBody * link.first_moment.norm();
+  if (same && centre.allFinite() && inertia.allFinite()) return true;
+  centre.setZero();
+  inertia = link.inertia;
+  return false;
+}
+
+std::string urdf_more_text(const Robot& robot) {
+  const Chain<double>& chain = robot.chain;
+  std::string text = fmt::format("name = {}\n", toml_quoted(robot.name));
+  if (!robot.axes.empty()) text += fmt::format("axes = {}\n", toml_quoted(robot.axes));
+  text += fmt::format("gravity = {}\n", toml_numbers(chain.gravity));
+  text += each_joint(robot, "rotor_inertia", [&](int i) { return chain.rotor_inertia[i]; });
+  text += fmt::format("identified = {}\n", robot.identified);
+  if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
+  if (!robot.torque_delay_s.empty())
+    text += fmt::format("torque_delay_s = {}\n", toml_numbers(robot.torque_delay_s));
+  text += "\n[friction]\n";
+  text += each_joint(robot, "offset", [&](int i) { return chain.friction[i].offset; });
+  text += each_joint(robot, "width", [&](int i) { return chain.friction[i].width; });
+  for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
+  return text + facts_text(robot) + log_text(robot.log);
+}
+
+void read_urdf_more(Robot& robot, const std::string& text, const std::string& where) {
+  const TomlTable table = TomlTable::parse(text, where);
+  robot.name = table.text("name", robot.name);
+  robot.chain.gravity = vector3(table, "gravity", robot.chain.gravity);
+  robot.identified = table.flag("identified", false);
+  read_drives(robot, table);
+  if (table.has("torque_phi")) robot.torque_phi = table.number("torque_phi");
+  if (table.has("torque_delay_s")) robot.torque_delay_s = table.each("torque_delay_s", robot.joints());
+  read_axes(robot, table);
+  read_links(robot, table);
+  const Chain<double> chain = robot.chain;
+  read_known(robot, table);
+  if (robot.identified) robot.chain = chain;  // what was identified stands above what was known
+  robot.log = log_meaning_from_table(table.table("log"), robot.joints());
+  table.finish();
+}
+
+}  // namespace faultline

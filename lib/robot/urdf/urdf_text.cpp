@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "lib/core/text.hpp"
+#include "lib/robot/urdf/urdf.hpp"
+#include "lib/robot/urdf/urdf_more.hpp"
+
+namespace faultline {
+namespace {
+
+/// Characters that mean something in XML, as references; between tags and in an attribute.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string triple(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+
+std::string link_text(const Robot& robot, int i) {
+  const LinkInertia<double>& link = robot.chain.links[i];
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d inertia;
+  about_centre(link, centre, inertia);
+  return fmt::format(
+      "  <link name=\"link{}\">\n"
+      "    <inertial>\n"
+      "      <origin xyz=\"{}\"/>\n"
+      "      <mass value=\"{}\"/>\n"
+      "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n"
+      "    </inertial>\n"
+      "  </link>\n",
+      i + 1, triple(centre), link.mass, inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1),
+      inertia(1, 2), inertia(2, 2));
+}
+
+/// URDF wants limits of a slide; none are known.
+std::string joint_text(const Robot& robot, int i) {
+  const JointGeometry& joint = robot.chain.geometry[i];
+  const Friction<double>& friction = robot.chain.friction[i];
+  Eigen::Vector3d origin = joint.offset;
+  if (i > 0) origin += robot.chain.length[i - 1] * joint.direction;
+  const bool turns = joint.kind == AxisKind::revolute;
+  return fmt::format(
+      "  <joint name=\"joint{}\" type=\"{}\">\n"
+      "    <parent link=\"{}\"/>\n"
+      "    <child link=\"link{}\"/>\n"
+      "    <origin xyz=\"{}\"/>\n"
+      "    <axis xyz=\"{}\"/>\n"
+      "    <dynamics damping=\"{}\" friction=\"{}\"/>\n"
+      "{}"
+      "  </joint>\n",
+      i + 1, turns ? "continuous" : "prismatic", i ? fmt::format("link{}", i) : "base", i + 1, triple(origin),
+      triple(joint.axis), friction.viscous, friction.coulomb,
+      turns ? "" : "    <limit lower=\"-1000\" upper=\"1000\" effort=\"1e9\" velocity=\"1000\"/>\n");
+}
+
+/// The end of the last link as a frame of its own, where a chain has one.
+std::string tip_text(const Robot& robot) {
+  const int last = robot.joints() - 1;
+  const double reach = robot.chain.length[last];
+  if (reach == 0.0 || robot.chain.geometry[last].kind == AxisKind::prismatic) return "";
+  return fmt::format(
+      "  <link name=\"tip\"/>\n"
+      "  <joint name=\"to_tip\" type=\"fixed\">\n"
+      "    <parent link=\"link{}\"/>\n"
+      "    <child link=\"tip\"/>\n"
+      "    <origin xyz=\"{}\"/>\n"
+      "  </joint>\n",
+      last + 1, triple(reach * link_direction(robot, last)));
+}
+
+}  // namespace
+
+std::string urdf_text(const Robot& robot) {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<!-- Written by faultline. Frames are parallel to the base frame at zero. Limits are not known. -->\n"
+      "<robot name=\"{}\">\n"
+      "  <link name=\"base\"/>\n",
+      escaped(printable(robot.name)));
+  for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i) + link_text(robot, i);
+  text += tip_text(robot);
+  return text + "  <faultline>\n" + escaped(urdf_more_text(robot)) + "  </faultline>\n</robot>\n";
+}
+
+}  // namespace faultline
