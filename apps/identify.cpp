@@ -77,7 +77,7 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
   }
   ProgressBar bar(color);
   const Identification id = identify(logs, robot, arguments.options, bar.callback());
-  if (!arguments.output.empty()) write_file(arguments.output, robot_file_text(id.robot));
+  if (!arguments.output.empty()) write_file(arguments.output, robot_text_for(arguments.output, id.robot));
   if (!arguments.json.empty()) write_file(arguments.json, to_json(id).dump(2) + "\n");
   if (arguments.json != "-" && arguments.output != "-") print(table(id));
   return kNothingFound;
@@ -90,10 +90,11 @@ void add_identify(CLI::App& app, Program& program) {
   CLI::App* command =
       app.add_subcommand("identify", "Identify a robot's parameters from logs of healthy runs");
   command->add_option("LOG", arguments->logs, "Logs of healthy runs of one robot")->required();
-  command->add_option("--robot", arguments->robot, "Robot file, or the axes alone, such as RRP")->required();
+  command->add_option("--robot", arguments->robot, "Robot file, TOML or URDF, or the axes alone, such as RRP")
+      ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Write the identified robot file here; - is standard output")
+                   "Write the identified robot file here, URDF for .urdf; - is standard output")
       ->required();
   command->add_option("--json", arguments->json, "Write the identification as JSON; - is standard output");
   add_choice_option(*command, "--method", arguments->options.method, kMethods,

@@ -107,7 +107,7 @@ void add_learn(CLI::App& app, Program& program) {
       ->add_option("LOG", arguments->logs,
                    "Logs of healthy runs, and labelled ones of faults if there are any")
       ->required();
-  command->add_option("--robot", arguments->robot, "Robot file, or the axes alone, such as RRP")
+  command->add_option("--robot", arguments->robot, "Robot file, TOML or URDF, or the axes alone, such as RRP")
       ->required()
       ->type_name("ROBOT");
   command->add_option("--labels", arguments->labels, "Which logs show which fault: file,fault,joint,onset_s")
