@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// Characters that mean something in XML, as references; between tags and in an attribute.
+/// Characters that mean something between tags, as references.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -18,11 +18,16 @@ std::string escaped(const std::string& text) {
       out += "&lt;";
     else if (c == '>')
       out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
     else
       out += c;
   }
+  return out;
+}
+
+/// The same inside quotes.
+std::string attribute(const std::string& text) {
+  std::string out;
+  for (const char c : escaped(text)) out += c == '"' ? std::string("&quot;") : std::string(1, c);
   return out;
 }
 
@@ -89,7 +94,7 @@ std::string urdf_text(const Robot& robot) {
       "<!-- Written by faultline. Frames are parallel to the base frame at zero. Limits are not known. -->\n"
       "<robot name=\"{}\">\n"
       "  <link name=\"base\"/>\n",
-      escaped(printable(robot.name)));
+      attribute(printable(robot.name)));
   for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i) + link_text(robot, i);
   text += tip_text(robot);
   return text + "  <faultline>\n" + escaped(urdf_more_text(robot)) + "  </faultline>\n</robot>\n";
