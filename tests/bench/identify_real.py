@@ -5,13 +5,15 @@
     apt-get install python3-numpy python3-scipy
     bash tests/bench/identify_real.sh [ROBOT...]
 
-The peer is what is usually done with numpy: positions through a zero-phase Butterworth filter, central differences, a
-regressor of ten inertial numbers a link, rotor inertia, viscous and Coulomb friction and offset, base parameters by
-pivoted QR, torque and regressor through one low-pass and decimated (parallel filtering), least squares weighted by
-joint. Its filters, the source of velocity, the width of Coulomb friction, the torque's delay of each joint and
-whether parameters known worse than 30 % are left out are chosen by cross-validation on the logs it is fitted to.
-Both results are numbers of the same model, and one evaluator judges both on held-out logs: model torque of smoothed
-motion against logged torque, the same low-pass over both. Processor time is user and system, with reading the logs.
+The peer is what is usually done with numpy: positions through a zero-phase Butterworth filter, central
+differences, a regressor of ten inertial numbers a link, rotor inertia, viscous and Coulomb friction and
+offset, base parameters by pivoted QR, torque and regressor through one low-pass and decimated (parallel
+filtering), least squares weighted by joint. Its filters, the source of velocity, the width of Coulomb
+friction, the torque's delay of each joint and whether parameters known worse than 30 % are left out are
+chosen on the logs it is fitted to, by cross-validation under the evaluator's own filters: an advantage that
+faultline does not have. Both results are numbers of the same model, and one evaluator judges both on
+held-out logs: model torque of smoothed motion against logged torque, the same low-pass over both. Processor
+time is user and system, reading included.
 """
 import argparse
 import json
@@ -52,7 +54,8 @@ class Robot:
             known = file.get("known", {})
             for i, kind in enumerate(file["axes"]):
                 offset = [known.get(f"l{i}", 0.0) if i else 0.0, 0.0, 0.0]
-                joints.append({"kind": "revolute" if kind == "R" else "prismatic", "axis": [0, 0, 1], "offset": offset})
+                kind = "revolute" if kind == "R" else "prismatic"
+                joints.append({"kind": kind, "axis": [0, 0, 1], "offset": offset})
         self.n = len(joints)
         self.revolute = [j["kind"] == "revolute" for j in joints]
         self.axis = [np.array(j["axis"], float) for j in joints]
@@ -90,7 +93,7 @@ def turned(matrix, v):
 
 
 def regressor(robot, q, dq, ddq):
-    """Joint torque by the links' numbers (mass, first moment, inertia about the joint): samples x joints x 10 links."""
+    """Joint torque by the links' numbers (mass, first moment, inertia about the joint)."""
     rows, n = q.shape
     out = np.zeros((rows, n, 10 * n))
     w, dw = np.zeros((rows, 3)), np.zeros((rows, 3))
@@ -127,8 +130,8 @@ def regressor(robot, q, dq, ddq):
 
 
 def full_regressor(robot, motion, width, coupled=None):
-    """With rotor inertia, viscous and Coulomb friction and offset of each joint. `coupled`: two joints (from 0) whose
-    sum turns one motor, which adds three numbers: inertia, viscous and Coulomb friction of it."""
+    """With rotor inertia, viscous and Coulomb friction and offset of each joint. `coupled`: two joints (from
+    0) whose sum turns one motor, which adds its inertia, viscous and Coulomb friction."""
     q, dq, ddq = motion
     rows, n = q.shape
     width = np.broadcast_to(width, n)
@@ -208,7 +211,8 @@ def judge(robot, logs, model, name):
     motion_hz, torque_hz, speed = JUDGE[name]
     model_torque, logged, moving = [], [], []
     for log in logs:
-        w, t, at, tau, dq = judged_part(robot, log, motion_hz, torque_hz, model["width"], model.get("coupled"))
+        w, t, at, tau, dq = judged_part(robot, log, motion_hz, torque_hz, model["width"],
+                                        model.get("coupled"))
         model_torque.append(w @ np.array(model["numbers"]))
         logged.append(np.stack([np.interp(t[at] - d, t, c) for d, c in zip(model["delay"], tau.T)], 1))
         moving.append(np.abs(dq) > speed)
@@ -251,7 +255,8 @@ class Peer:
             at = kept_samples(log, torque_hz)
             w = low_pass(w.reshape(len(t), -1), torque_hz, rate).reshape(w.shape)[at]
             tau = low_pass(log[3], torque_hz, rate)
-            delayed = np.stack([[np.interp(t[at] - d, t, c) for d in DELAYS] for c in tau.T])  # joint, delay, sample
+            # joint, delay, sample
+            delayed = np.stack([[np.interp(t[at] - d, t, c) for d in DELAYS] for c in tau.T])
             for rows in np.array_split(np.arange(len(at)), 5 if len(logs) == 1 else 1):
                 out.append({"a": [w[rows, j].T @ w[rows, j] for j in range(self.robot.n)],
                             "b": [w[rows, j].T @ delayed[j][:, rows].T for j in range(self.robot.n)],
@@ -312,8 +317,8 @@ class Peer:
                 "coupled": self.coupled}
 
     def cross_validated(self, blocks, judged, width, essential):
-        """Share of torque variance that is left in blocks not fitted to, mean over joints; judged by the evaluator's
-        filters, so that candidates with other filters compare."""
+        """Share of torque variance that is left in blocks not fitted to, mean over joints; judged by the
+        evaluator's filters, so that candidates with other filters compare."""
         _, delay, _ = self.solve(blocks, essential=False)
         n = self.robot.n
         left, total = np.zeros(n), np.zeros(n)
@@ -404,11 +409,13 @@ def prepare(name, data, folder):
         names = [c.strip() for c in open(path).readline().split(",")]
         table = np.loadtxt(path, delimiter=",", skiprows=1)
         early = table[:, 0] < 50.0
-        return [write(folder / "fit.csv", names, table[early])], [write(folder / "held.csv", names, table[~early])]
+        return ([write(folder / "fit.csv", names, table[early])],
+                [write(folder / "held.csv", names, table[~early])])
     if name == "emps":
         path = data / "emps" / "DATA_EMPS.csv"
         return [path], [path]
-    # Positions are the motors', in rad, and currents are torque before the gears; motor 6 turns with axes 5 and 6.
+    # Positions are the motors', in rad, and currents count as torque before the gears; motor 6 turns with
+    # axes 5 and 6.
     load = lambda file: np.loadtxt(data / "staubli-tx40" / file, delimiter=",", skiprows=1)
     gears = np.diag([32.0, 32.0, 45.0, -48.0, 45.0, 32.0])
     gears[5, 4] = 32.0
@@ -419,7 +426,8 @@ def prepare(name, data, folder):
     table = np.column_stack([t, q, tau])
     names = ["t"] + [f"{kind}{j + 1}" for kind in ("q", "tau") for j in range(6)]
     cut = lambda a, b: table[(t >= a) & (t < b)]
-    return [write(folder / "fit.csv", names, cut(0.1, 3.8))], [write(folder / "held.csv", names, cut(3.8, 7.5))]
+    return ([write(folder / "fit.csv", names, cut(0.1, 3.8))],
+            [write(folder / "held.csv", names, cut(3.8, 7.5))])
 
 
 # ---------------------------------------------------------------- runs and tables
@@ -460,8 +468,8 @@ def table(name, robot, models, judged, seconds):
     held = "all samples, none held out" if name == "emps" else "held out"
     print(f"\n### {name} ({held})\n")
     labels = list(models)
-    units = [u for what in ("R2", "R2 moving", "rms left", "delay ms") for u in [f"{what}, {l}" for l in labels]]
-    print("| joint | " + " | ".join(units) + " |\n|---" * 1 + "|---" * len(units) + "|")
+    units = [f"{what}, {l}" for what in ("R2", "R2 moving", "rms left", "delay ms") for l in labels]
+    print("| joint | " + " | ".join(units) + " |\n|---" + "|---" * len(units) + "|")
     for j in range(robot.n):
         row = [f"{judged[l][key][j]:.4f}" for key in ("all", "moving", "rms") for l in labels]
         row += [f"{1000 * models[l]['delay'][j]:.1f}" for l in labels]
@@ -470,9 +478,11 @@ def table(name, robot, models, judged, seconds):
     for label, model in models.items():
         if "chosen" in model:
             chosen = model["chosen"]
-            print(f"{label}: motion below {chosen['motion_hz']:g} Hz, torque below {chosen['torque_hz']:g} Hz, "
-                  f"velocity {'logged' if chosen['logged_velocity'] else 'from positions'}, Coulomb width "
-                  f"{chosen['width']:.2g}, {'essential' if chosen['essential'] else 'all base'} parameters")
+            velocity = "logged" if chosen["logged_velocity"] else "from positions"
+            print(f"{label}: motion below {chosen['motion_hz']:g} Hz, torque below "
+                  f"{chosen['torque_hz']:g} Hz, "
+                  f"velocity {velocity}, Coulomb width {chosen['width']:.2g}, "
+                  f"{'essential' if chosen['essential'] else 'all base'} parameters")
     if name == "emps":
         published = [95.1089, 203.5034, 20.3935, -3.1648]
         print("\n| | M | Fv | Fc | offset |\n|---|---|---|---|---|")
