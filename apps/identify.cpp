@@ -80,7 +80,7 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
   if (!arguments.output.empty()) write_file(arguments.output, robot_text_for(arguments.output, id.robot));
   if (!arguments.json.empty()) write_file(arguments.json, to_json(id).dump(2) + "\n");
   if (arguments.json != "-" && arguments.output != "-") print(table(id));
-  return kNothingFound;
+  return id.status == IdentificationStatus::unexplained ? kFindings : kNothingFound;
 }
 
 }  // namespace
@@ -105,6 +105,7 @@ void add_identify(CLI::App& app, Program& program) {
                    "Threads; 0 is one a core. The result does not depend on it")
       ->check(CLI::NonNegativeNumber);
   command->footer(
+      "Exit status 0: identified, 1: the logs are not what this robot needs for its motion (unexplained).\n"
       "Example: faultline identify healthy1.csv healthy2.csv --robot robot.toml -o identified.toml");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_identify(*arguments, program.color); };

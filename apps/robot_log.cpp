@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "formats/open_log.hpp"
-#include "lib/log/coupled_source.hpp"
-#include "lib/log/delayed_torque_source.hpp"
+#include "lib/log/transformed/coupled_source.hpp"
+#include "lib/log/transformed/delayed_torque_source.hpp"
 
 namespace faultline {
 

@@ -14,7 +14,7 @@
 #include "apps/progress.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/log/coupled_source.hpp"
+#include "lib/log/transformed/coupled_source.hpp"
 #include "lib/simulate/run_labels.hpp"
 #include "lib/simulate/spec_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lib/core/progress.hpp"
-#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/identification.hpp"
+#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/motion/log_survey.hpp"
 #include "lib/identify/motion/measurements.hpp"
 #include "lib/identify/weak_form/weak_windows.hpp"

@@ -7,6 +7,7 @@
 #include "lib/identify/fit_alike.hpp"
 #include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
+#include "lib/identify/quiet_solver.hpp"
 
 namespace faultline {
 namespace {
@@ -65,6 +66,7 @@ void IdentifyOptions::check() const {
 Identification identify(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
                         const Progress& progress) {
   options.check();
+  quiet_solver();
   std::vector<PayloadGroup> groups = group_by_payload(logs, robot);
   if (groups.empty()) groups.emplace_back();
   AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);

@@ -7,8 +7,8 @@
 
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
-#include "lib/log/delayed_torque_source.hpp"
 #include "lib/log/remembered_source.hpp"
+#include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/identified_model.hpp"
 #include "lib/pipeline/learn_samples.hpp"

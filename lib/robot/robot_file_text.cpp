@@ -57,7 +57,8 @@ std::string identified_text(const Robot& robot) {
   std::string text = "\n[identified]\n";
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
   if (!robot.torque_delay_s.empty())
-    text += fmt::format("torque_delay_s = {}\n", toml_numbers(robot.torque_delay_s));
+    text += fmt::format("torque_delay_s = {}\n", toml_numbers(Eigen::Map<const Eigen::VectorXd>(
+                                                     robot.torque_delay_s.data(), robot.joints())));
   for (int i = 0; i < robot.joints(); ++i) {
     const LinkInertia<double>& link = robot.chain.links[i];
     const Friction<double>& f = robot.chain.friction[i];

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/coupled_source.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/log/transformed/coupled_source.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/urdf/urdf.hpp"
 #include "tests/identify/closed_form_scara.hpp"

@@ -23,8 +23,9 @@ constexpr int kRows = 5000;         // of the beginning of a log
 constexpr std::size_t kLogs = 2;    // looked at
 constexpr double kWindow_s = 0.16;  // long enough for any noise
 constexpr int kWindows = 2000;
-constexpr double kRight = 0.8;        // share of each joint's torque that the right reading must explain
-constexpr double kClearlyLess = 0.5;  // of what the reading as it is leaves, by joint in the mean
+constexpr double kRight = 0.8;         // share of each joint's torque that the right reading must explain
+constexpr double kSurelyRight = 0.95;  // the same where what is read now fits no robot that can be
+constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, by joint in the mean
 
 struct Reading {
   std::string what, cure;
@@ -173,9 +174,8 @@ Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot)
     std::vector<Log> read = beginnings;
     for (Log& log : read) reading.apply(log);
     const Explained then = explain(read, robot);
-    if (!then.feasible || then.worst() < kRight) continue;
-    if (now.feasible && then.left() >= least) continue;
-    if (!best.what.empty() && then.left() >= least) continue;
+    if (!then.feasible || then.worst() < (now.feasible ? kRight : kSurelyRight)) continue;
+    if ((now.feasible || !best.what.empty()) && then.left() >= least) continue;
     least = then.left();
     best = {reading.what, reading.cure, now.worst(), then.worst()};
   }

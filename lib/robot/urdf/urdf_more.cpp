@@ -114,7 +114,8 @@ std::string urdf_more_text(const Robot& robot) {
   text += fmt::format("identified = {}\n", robot.identified);
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
   if (!robot.torque_delay_s.empty())
-    text += fmt::format("torque_delay_s = {}\n", toml_numbers(robot.torque_delay_s));
+    text += fmt::format("torque_delay_s = {}\n", toml_numbers(Eigen::Map<const Eigen::VectorXd>(
+                                                     robot.torque_delay_s.data(), robot.joints())));
   text += "\n[friction]\n";
   text += each_joint(robot, "offset", [&](int i) { return chain.friction[i].offset; });
   text += each_joint(robot, "width", [&](int i) { return chain.friction[i].width; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/delayed_torque_source.hpp"
+#include "lib/log/transformed/delayed_torque_source.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/coupled_source.hpp"
+#include "lib/log/transformed/coupled_source.hpp"
 
 #include <fmt/format.h>
 
