@@ -5,27 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "lib/identify/feasible.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
+#include "lib/identify/torque_fit.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/verdict/log_agreement.hpp"
 #include "lib/identify/verdict/misreading.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
-#include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kGood = 0.97;            // of a joint's torque explained: below, columns are questioned
-constexpr double kWorthShooting = 0.95;   // of every joint's torque: below, the motion has nothing to add
-constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
-constexpr double kClearlyThere = 4.0;     // standard deviations above zero that a rotor must have
-constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
+constexpr double kGood = 0.97;           // of a joint's torque explained: below, columns are questioned
+constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion has nothing to add
 
 double nominal_timing(const Robot& robot) {
   if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
@@ -45,70 +40,6 @@ std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() 
 void take_noise(const Eigen::VectorXd& noise, bool has_dq, Identification& id) {
   id.q_noise = list(noise.head(id.space.joints()));
   if (has_dq) id.dq_noise = list(noise.tail(id.space.joints()));
-}
-
-/// Whether no robot has this parameter below zero.
-bool is_not_negative(const ParameterSpace& space, int p) {
-  return p < space.rigid() ? space.base[p].is_rotor : p < space.offset(0);
-}
-
-/// An inertia that next to that of its joint nobody would miss.
-double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) {
-  const Chain<double> chain = chain_from(space, torque.fit.parameters);
-  const int joint = space.base[p].name.back() - '1';
-  return kSmallRotor *
-         std::abs(inertia_matrix(chain, JointVector<double>::Zero(space.joints()).eval())(joint, joint));
-}
-
-/// Friction and rotors that come out a little below zero are none, and so are rotors that are not told from
-/// zero: they are held there and the rest is fitted again.
-void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit& torque) {
-  std::vector<bool> moving = torque.wanted;
-  std::vector<std::pair<int, double>> held;
-  for (bool more = true; more;) {
-    more = false;
-    for (int p = 0; p < space.offset(0); ++p) {
-      if (!moving[p] || !is_not_negative(space, p)) continue;
-      const double std = std::sqrt(torque.fit.covariance(p, p)), value = torque.fit.parameters[p];
-      const double least = p < space.rigid() ? kClearlyThere * std : 0.0;
-      const double doubt =
-          std::max(kClearlyNegative * std, p < space.rigid() ? small_rotor(space, torque, p) : 0.0);
-      if (value >= least || value < -doubt) continue;
-      moving[p] = false;
-      start[p] = 0.0;
-      held.emplace_back(p, std * std);
-      more = true;
-    }
-    if (more) torque.fit = fit_weak_form(torque.system, space, start, moving);
-  }
-  for (const auto& [p, variance] : held) {
-    if (p < space.rigid()) {
-      torque.wanted[p] = false;
-      continue;
-    }
-    torque.fit.covariance(p, p) = variance;
-    torque.fit.free[p] = true;
-    torque.fit.confounded[p] = false;
-  }
-}
-
-/// The fit of the torque balance, brought to a robot that can be.
-TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
-                     Identification& id) {
-  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift};
-  out.fit = fit_weak_form(out.system, id.space, nominal, out.wanted);
-  hold_at_zero(id.space, nominal, out);
-  const Measurements& m = gathered.measurements;
-  const std::string wrong =
-      infeasibility(id.space, out.fit.parameters, out.fit.covariance, m.q_low(), m.q_high());
-  if (wrong.empty()) return out;
-  out.fit.parameters.head(id.space.linear()) =
-      nearest_feasible(id.space, id.robot, out.system, out.fit, out.wanted).head(id.space.linear());
-  out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(id.space.linear());
-  id.issues.add(note("infeasible", Severity::warning,
-                     wrong + "; the nearest robot that can be was taken instead: values next to that bound "
-                             "are not told by these logs"));
-  return out;
 }
 
 void take_torque_fit(const TorqueFit& torque, const Gathered& gathered, Identification& id) {
@@ -258,6 +189,10 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   question_columns(logs, still, id.issues.find("infeasible") != nullptr, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(nominal, id.space, id.estimate);
   list_base_parameters(torque.fit, {torque.wanted, still, has_fast_log(id)}, id);
+  if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
+    id.status = IdentificationStatus::poorly_excited;
+    id.reason += "; what fits best is no robot that can be";
+  }
   if (!all_told(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; " + not_excited(still);

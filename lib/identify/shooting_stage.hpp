@@ -8,18 +8,9 @@
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/identify/shooting/shooting.hpp"
-#include "lib/identify/weak_form/weak_choice.hpp"
-#include "lib/identify/weak_form/weak_form.hpp"
+#include "lib/identify/torque_fit.hpp"
 
 namespace faultline {
-
-/// What the torque balance says before the motion is fitted.
-struct TorqueFit {
-  WeakSystem system;
-  WeakFit fit;
-  std::vector<bool> wanted;
-  std::vector<int> shift;
-};
 
 /// Output error by shooting, and why it does not stand when it does not.
 struct ShootingOutcome {

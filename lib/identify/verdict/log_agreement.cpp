@@ -11,7 +11,8 @@ namespace faultline {
 namespace {
 
 constexpr int kFewestLogs = 3;
-constexpr double kOdd = 2.5;  // times what other logs leave of their torque, in rms and as a share
+constexpr double kOdd = 4.0;        // times what other logs leave of their torque, in rms and as a share,
+constexpr double kOddShare = 0.01;  // and at least this share of its mean square: days of a robot differ too
 
 }  // namespace
 
@@ -30,7 +31,7 @@ std::vector<int> odd_logs(const ModelChoice& choice) {
         }
       if (left.empty() || e.rows(i, j) == 0.0) continue;
       const double own_share = e.square(i, j) / std::max(e.torque(i, j), 1e-300);
-      if (e.square(i, j) > kOdd * kOdd * upper_median(left) &&
+      if (e.square(i, j) > kOdd * kOdd * upper_median(left) && own_share > kOddShare &&
           own_share > kOdd * kOdd * upper_median(share)) {
         odd.push_back(i);
         break;

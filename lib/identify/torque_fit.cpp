@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/torque_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lib/identify/feasible.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
+constexpr double kClearlyThere = 4.0;     // standard deviations above zero that a rotor must have
+constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
+
+/// Whether no robot has this parameter below zero.
+bool is_not_negative(const ParameterSpace& space, int p) {
+  return p < space.rigid() ? space.base[p].is_rotor : p < space.offset(0);
+}
+
+/// An inertia that next to that of its joint nobody would miss.
+double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) {
+  const Chain<double> chain = chain_from(space, torque.fit.parameters);
+  const int joint = space.base[p].name.back() - '1';
+  return kSmallRotor *
+         std::abs(inertia_matrix(chain, JointVector<double>::Zero(space.joints()).eval())(joint, joint));
+}
+
+/// Friction and rotors that come out a little below zero are none, and so are rotors that are not told from
+/// zero: they are held there and the rest is fitted again.
+void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit& torque) {
+  std::vector<bool> moving = torque.wanted;
+  std::vector<std::pair<int, double>> held;
+  for (bool more = true; more;) {
+    more = false;
+    for (int p = 0; p < space.offset(0); ++p) {
+      if (!moving[p] || !is_not_negative(space, p)) continue;
+      const double std = std::sqrt(torque.fit.covariance(p, p)), value = torque.fit.parameters[p];
+      const double least = p < space.rigid() ? kClearlyThere * std : 0.0;
+      const double doubt =
+          std::max(kClearlyNegative * std, p < space.rigid() ? small_rotor(space, torque, p) : 0.0);
+      if (value >= least || value < -doubt) continue;
+      moving[p] = false;
+      start[p] = 0.0;
+      held.emplace_back(p, std * std);
+      more = true;
+    }
+    if (more) torque.fit = fit_weak_form(torque.system, space, start, moving);
+  }
+  for (const auto& [p, variance] : held) {
+    if (p < space.rigid()) {
+      torque.wanted[p] = false;
+      continue;
+    }
+    torque.fit.covariance(p, p) = variance;
+    torque.fit.free[p] = true;
+    torque.fit.confounded[p] = false;
+  }
+}
+
+std::string what_is_wrong(const TorqueFit& torque, const Gathered& gathered, const ParameterSpace& space) {
+  const Measurements& m = gathered.measurements;
+  return infeasibility(space, torque.fit.parameters, torque.fit.covariance, m.q_low(), m.q_high());
+}
+
+/// The same fit with every rotor the robot may have: links without them can come out lighter than nothing.
+TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, const Robot& robot,
+                      const Eigen::VectorXd& nominal) {
+  TorqueFit out = torque;
+  for (int p = 0; p < space.rigid(); ++p)
+    if (space.base[p].is_rotor && robot.known.count(space.base[p].name) == 0) out.wanted[p] = true;
+  out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
+  hold_at_zero(space, nominal, out);
+  return out;
+}
+
+Issue bound_issue(const std::string& wrong) {
+  Issue issue;
+  issue.code = "infeasible";
+  issue.severity = Severity::warning;
+  issue.message = wrong +
+                  "; the nearest robot that can be was taken instead: values next to that bound are not told "
+                  "by these logs";
+  return issue;
+}
+
+}  // namespace
+
+TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
+                     Identification& id) {
+  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift};
+  out.fit = fit_weak_form(out.system, id.space, nominal, out.wanted);
+  hold_at_zero(id.space, nominal, out);
+  const std::string wrong = what_is_wrong(out, gathered, id.space);
+  if (wrong.empty()) return out;
+  TorqueFit rotors = with_rotors(out, id.space, id.robot, nominal);
+  if (what_is_wrong(rotors, gathered, id.space).empty()) return rotors;
+  out.fit.parameters.head(id.space.linear()) =
+      nearest_feasible(id.space, id.robot, out.system, out.fit, out.wanted).head(id.space.linear());
+  out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(id.space.linear());
+  id.issues.add(bound_issue(wrong));
+  return out;
+}
+
+}  // namespace faultline
