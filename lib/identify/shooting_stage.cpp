@@ -99,7 +99,8 @@ std::string refusal(const ShootingFit& shot, const Gathered& gathered, const Tor
   const Measurements& m = gathered.measurements;
   if (model_error_dominates(shot, m.noise()))
     return "the motion keeps a regular error that no parameters of this model remove";
-  if (!shot.converged) return "the fit of the motion did not converge";
+  // On slow logs a fit that was only stopped early is still nearer than windows of a few samples.
+  if (!shot.converged && has_fast_log(id)) return "the fit of the motion did not converge";
   const std::string wrong = infeasibility(id.space, shot.parameters, shot.covariance, m.q_low(), m.q_high());
   if (!wrong.empty()) return "in the fit of the motion " + wrong;
   if (!has_fast_log(id)) return "";  // windows of so few samples know the torque no better
