@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
@@ -25,14 +26,6 @@ constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the 
 double nominal_timing(const Robot& robot) {
   if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
   return robot.torque_phi.value_or(0.5);
-}
-
-Issue note(const char* code, Severity severity, std::string message) {
-  Issue issue;
-  issue.code = code;
-  issue.severity = severity;
-  issue.message = std::move(message);
-  return issue;
 }
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
@@ -88,13 +81,13 @@ void name_odd_logs(const std::vector<int>& odd, bool kept, Identification& id) {
   for (const int log : odd) {
     id.logs[log].left_out = !kept;
     id.issues.add(
-        note(fmt::format("odd_log_{}", log + 1).c_str(), Severity::warning,
-             fmt::format("{} disagrees with the other logs: a fit to them leaves far more of its "
-                         "torque unexplained than of theirs; {}",
-                         id.logs[log].path,
-                         kept ? "it was kept as asked"
-                              : "it was left out (--keep-all keeps it). Is it another robot, another "
-                                "load, or a fault?")));
+        make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
+                   fmt::format("{} disagrees with the other logs: a fit to them leaves far more of its "
+                               "torque unexplained than of theirs; {}",
+                               id.logs[log].path,
+                               kept ? "it was kept as asked"
+                                    : "it was left out (--keep-all keeps it). Is it another robot, another "
+                                      "load, or a fault?")));
   }
 }
 
@@ -116,13 +109,13 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
   id.status = IdentificationStatus::unexplained;
   id.reason += fmt::format("; it looks as if {}", found.what);
   id.issues.add(
-      note("misread_columns", Severity::severe,
-           fmt::format("it looks as if {}: then the robot explains at least {:.1f} % of every joint's "
-                       "torque, as the logs are read now {}; write {} into [log.columns]",
-                       found.what, 100.0 * found.r2_after,
-                       found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
-                                             : std::string("it does not"),
-                       found.cure)));
+      make_issue("misread_columns", Severity::severe,
+                 fmt::format("it looks as if {}: then the robot explains at least {:.1f} % of every joint's "
+                             "torque, as the logs are read now {}; write {} into [log.columns]",
+                             found.what, 100.0 * found.r2_after,
+                             found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
+                                                   : std::string("it does not"),
+                             found.cure)));
 }
 
 /// The motion's fit where it helps, else the torque balance's.
@@ -132,10 +125,10 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
   const double worst = *std::min_element(torque.fit.r2.begin(), torque.fit.r2.end());
   if (options.method == IdentifyMethod::automatic && worst < kWorthShooting && still.empty()) {
     id.issues.add(
-        note("torque_unexplained", Severity::note,
-             fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
-                         "fitted",
-                         100.0 * std::max(worst, 0.0))));
+        make_issue("torque_unexplained", Severity::note,
+                   fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
+                               "fitted",
+                               100.0 * std::max(worst, 0.0))));
   } else if (options.method != IdentifyMethod::weak_form) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
@@ -146,9 +139,10 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
       take_shooting(shot.fit, gathered, id);
       return;
     }
-    id.issues.add(note("model_error", Severity::note,
-                       shot.refused + "; values and intervals come from the momentum balance over short "
-                                      "windows instead of the output error"));
+    id.issues.add(make_issue("model_error", Severity::note,
+                             shot.refused +
+                                 "; values and intervals come from the momentum balance over short "
+                                 "windows instead of the output error"));
   }
   take_torque_fit(torque, gathered, id);
 }

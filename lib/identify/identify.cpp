@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "lib/core/error.hpp"
+#include "lib/core/make_issue.hpp"
 #include "lib/identify/fit_alike.hpp"
 #include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
@@ -38,12 +39,9 @@ void take_logs(const Identification& from, const PayloadGroup& group, Identifica
 }
 
 Issue payload_issue(const Identification& loaded, double payload) {
-  Issue issue;
-  issue.code = "payload_logs";
-  issue.severity = Severity::note;
-  issue.message = fmt::format("the logs with {:g} kg at the tip are {}: {}", payload,
-                              to_string(loaded.status), loaded.reason);
-  return issue;
+  return make_issue("payload_logs", Severity::note,
+                    fmt::format("the logs with {:g} kg at the tip are {}: {}", payload,
+                                to_string(loaded.status), loaded.reason));
 }
 
 }  // namespace

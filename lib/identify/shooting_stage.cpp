@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "lib/identify/feasible.hpp"
 #include "lib/identify/parameter_table.hpp"
@@ -49,11 +48,6 @@ std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
   for (int j = 0; j < space.joints(); ++j)
     if (options.estimate_width && is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
   return free;
-}
-
-int thread_count(const IdentifyOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 /// Rows that shooting can afford: the work grows with the cube of the joints.
@@ -132,7 +126,7 @@ ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered
   ShootingOptions shooting;
   shooting.max_iterations = kTrialIterations;
   shooting.max_rounds = kTrialRounds;
-  shooting.threads = thread_count(options);
+  shooting.threads = options.threads;
   ShootingProblem problem{.space = id.space,
                           .excerpts = few,
                           .start = torque.fit.parameters,

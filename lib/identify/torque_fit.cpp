@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/identify/feasible.hpp"
 #include "lib/robot/dynamics.hpp"
 
@@ -77,16 +78,6 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
   return out;
 }
 
-Issue bound_issue(const std::string& wrong) {
-  Issue issue;
-  issue.code = "infeasible";
-  issue.severity = Severity::warning;
-  issue.message = wrong +
-                  "; the nearest robot that can be was taken instead: values next to that bound are not told "
-                  "by these logs";
-  return issue;
-}
-
 }  // namespace
 
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
@@ -101,7 +92,10 @@ TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const 
   out.fit.parameters.head(id.space.linear()) =
       nearest_feasible(id.space, id.robot, out.system, out.fit, out.wanted).head(id.space.linear());
   out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(id.space.linear());
-  id.issues.add(bound_issue(wrong));
+  id.issues.add(make_issue(
+      "infeasible", Severity::warning,
+      wrong +
+          "; the nearest robot that can be was taken instead: values next to that bound are not told by these logs"));
   return out;
 }
 

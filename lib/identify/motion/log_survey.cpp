@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
 
@@ -153,11 +154,7 @@ LogSurvey survey_log(LogSource& source, int joints) {
 Issues survey_issues(const LogSurvey& survey) {
   Issues issues = survey.torque_limits.issues();
   const auto note = [&](std::string code, Severity severity, std::string message) {
-    Issue issue;
-    issue.code = std::move(code);
-    issue.severity = severity;
-    issue.message = std::move(message);
-    issues.add(std::move(issue));
+    issues.add(make_issue(std::move(code), severity, std::move(message)));
   };
   if (survey.repeated_rows != RepeatedRows::none)
     note(

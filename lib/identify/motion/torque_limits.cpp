@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "lib/core/make_issue.hpp"
 
 namespace faultline {
 namespace {
@@ -13,14 +16,7 @@ namespace {
 constexpr double kSame = 1e-9;        // of the value: the same number
 constexpr double kLimitShare = 0.04;  // of the rows at one value that nothing goes beyond
 
-Issue torque_issue(const char* code, int joint, std::string message) {
-  Issue issue;
-  issue.code = code;
-  issue.channel = fmt::format("tau{}", joint + 1);
-  issue.severity = Severity::warning;
-  issue.message = std::move(message);
-  return issue;
-}
+std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
 
 }  // namespace
 
@@ -51,19 +47,21 @@ Issues TorqueLimits::issues() const {
   for (std::size_t j = 0; j < high_.size(); ++j) {
     const int joint = static_cast<int>(j);
     if (high_[j].value == -low_[j].value) {
-      out.add(torque_issue("constant_torque", joint,
-                           fmt::format("tau{} never changes: is it the right column?", joint + 1)));
+      out.add(make_issue("constant_torque", Severity::warning,
+                         fmt::format("tau{} never changes: is it the right column?", joint + 1),
+                         channel(joint)));
       continue;
     }
     for (const auto& [extreme, sign] : {std::pair{high_[j], 1.0}, std::pair{low_[j], -1.0}})
       if (static_cast<double>(extreme.rows) > kLimitShare * static_cast<double>(rows_) &&
           extreme.value != 0.0)
-        out.add(torque_issue(
-            "torque_limit", joint,
-            fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque "
-                        "cut off by the drive or by the log is not what moved the robot",
-                        joint + 1, sign * extreme.value,
-                        100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_))));
+        out.add(
+            make_issue("torque_limit", Severity::warning,
+                       fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque "
+                                   "cut off by the drive or by the log is not what moved the robot",
+                                   joint + 1, sign * extreme.value,
+                                   100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
+                       channel(joint)));
   }
   return out;
 }

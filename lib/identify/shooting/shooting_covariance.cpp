@@ -5,21 +5,19 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/identify/residual_blocks.hpp"
+
 namespace faultline {
 namespace {
 
-constexpr double kBlock_s = 1.0;
-constexpr double kBlocksPerParameter = 5.0;
-constexpr double kShortestBlock_s = 0.1;
 constexpr double kFreeBlocks = 0.5;  // share of the blocks that at least counts as free
 constexpr double kWhite =
     1.5;  // mean ratio of the sandwich's variances to the white ones: chance, not correlation
 
-/// A second, on short logs less: a covariance from fewer blocks than parameters is none.
-double block_length(const std::vector<Excerpt>& excerpts, double parameters) {
-  double total_s = 0.0;
-  for (const Excerpt& e : excerpts) total_s += e.time[e.rows() - 1] - e.time[0];
-  return std::clamp(total_s / (kBlocksPerParameter * parameters), kShortestBlock_s, kBlock_s);
+double total_s(const std::vector<Excerpt>& excerpts) {
+  double sum = 0.0;
+  for (const Excerpt& e : excerpts) sum += e.time[e.rows() - 1] - e.time[0];
+  return sum;
 }
 
 }  // namespace
@@ -43,7 +41,7 @@ bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eig
 Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
                          const Eigen::MatrixXd& white) {
   const Eigen::Index m = white.rows();
-  const double block_s = block_length(excerpts, static_cast<double>(m));
+  const double block_s = residual_block_s(total_s(excerpts), static_cast<double>(m));
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
   double blocks = 0.0;

@@ -10,7 +10,6 @@ namespace faultline {
 
 /// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth.
 inline constexpr int kWidths = 7;
-inline constexpr int kNominalWidth = 4;
 double weak_width(const ParameterSpace& space, int joint, int k);
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample

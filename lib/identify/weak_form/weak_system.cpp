@@ -4,22 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
+
+#include "lib/identify/residual_blocks.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kBlock_s = 1.0;          // over which residuals may be alike; on short logs less, for
-constexpr double kBlocksPerColumn = 5.0;  // a covariance from fewer blocks is none
-constexpr double kShortestBlock_s = 0.1;
 constexpr double kResting = 0.03;  // of a joint's fastest window
 
-/// Length of the blocks, s.
-double block_length(const WeakWindows& windows, int columns) {
-  std::map<std::pair<int, long>, int> seconds;
-  for (const WeakWindow& w : windows.all()) ++seconds[{w.log, static_cast<long>(std::floor(w.time_s))}];
-  return std::clamp(static_cast<double>(seconds.size()) / (kBlocksPerColumn * columns), kShortestBlock_s,
-                    kBlock_s);
+/// Seconds of the logs in which a window begins.
+double seconds_covered(const WeakWindows& windows) {
+  std::set<std::pair<int, long>> seconds;
+  for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));
+  return static_cast<double>(seconds.size());
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
   s.a.setZero(rows, space.linear());
   s.y.resize(rows);
   s.use.setOnes(rows);
-  const double block_s = block_length(windows.sets[0], space.linear());
+  const double block_s = residual_block_s(seconds_covered(windows.sets[0]), space.linear());
   std::map<std::pair<int, long>, int> blocks;
   Eigen::Index row = 0;
   for (int j = 0; j < s.joints; ++j) {
