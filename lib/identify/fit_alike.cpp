@@ -11,6 +11,7 @@
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/doubtful_parameters.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/verdict/log_agreement.hpp"
 #include "lib/identify/verdict/misreading.hpp"
@@ -59,21 +60,6 @@ void smooth_friction(const Eigen::VectorXd& nominal, const ParameterSpace& space
   for (int j = 0; j < space.joints(); ++j) {
     double& width = parameters[space.log_width(j)];
     width = std::max(width, nominal[space.log_width(j)]);
-  }
-}
-
-/// A mass or inertia that only joints at rest show is confounded with their stiction.
-void doubt_still_joints(const TorqueFit& torque, const ParameterSpace& space, const std::vector<int>& still,
-                        std::vector<bool>& confounded) {
-  constexpr double kShown = 1e-6;  // share of the squared column that moving joints must carry
-  for (int p = 0; p < space.rigid(); ++p) {
-    double all = 0.0, shown = 0.0;
-    for (Eigen::Index k = 0; k < torque.system.a.rows(); ++k) {
-      const double square = torque.system.a(k, p) * torque.system.a(k, p);
-      all += square;
-      if (std::count(still.begin(), still.end(), torque.system.joint[k] + 1) == 0) shown += square;
-    }
-    if (shown <= kShown * all) confounded[p] = true;
   }
 }
 
@@ -157,7 +143,8 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.space = parameter_space(robot);
   Gathered gathered = gather(logs, options.window_s, options.max_windows, progress, id);
   const std::vector<int> still = still_joints(gathered.measurements, id.space.joints());
-  const Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
+  Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
+  nominal.segment(id.space.bend(0), 2 * id.space.joints()).setZero();
   const WantedParameters wanted =
       wanted_parameters(id.space, robot, still, options.estimate_offset && has_fast_log(id));
   const auto choose = [&] {
@@ -174,22 +161,25 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
     }
   }
   TorqueFit torque = fit_torque(gathered, choice, nominal, id);
+  choice.weak.shift = torque.shift;
   settle_method(logs, gathered, torque, still, nominal, options, progress, id);
 
-  doubt_still_joints(torque, id.space, still, torque.fit.confounded);
+  const std::vector<int> undriven = undriven_joints(id.space, torque);
+  doubt_still_joints(id.space, still, torque);
+  doubt_undriven_joints(id.space, undriven, torque);
   id.condition_number = torque.fit.condition_number;
   judge_fit(torque, choice, gathered, still, id);
   tell_spread(choice, id);
   question_columns(logs, still, id.issues.find("infeasible") != nullptr, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(nominal, id.space, id.estimate);
-  list_base_parameters(torque.fit, {torque.wanted, still, has_fast_log(id)}, id);
+  list_base_parameters(torque.fit, {torque.wanted, still, undriven, has_fast_log(id)}, id);
   if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; what fits best is no robot that can be";
   }
   if (!all_told(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; " + not_excited(still);
+    id.reason += "; " + (still.empty() && !undriven.empty() ? not_driven(undriven) : not_excited(still));
   }
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);

@@ -119,14 +119,29 @@ Identification read_summary(const Json& j, const std::string& where) {
   return id;
 }
 
+/// What was identified before friction could bend: zeros in its place.
+void add_bends(const ParameterSpace& space, std::vector<double>& estimate, std::vector<double>& covariance) {
+  const Eigen::Index at = space.bend(0), more = 2 * space.joints(), rest = space.count() - at - more;
+  const auto old = static_cast<Eigen::Index>(estimate.size());
+  if (static_cast<Eigen::Index>(covariance.size()) != old * old) return;
+  const Eigen::MatrixXd before = Eigen::Map<const Eigen::MatrixXd>(covariance.data(), old, old);
+  Eigen::MatrixXd after = Eigen::MatrixXd::Zero(space.count(), space.count());
+  after.topLeftCorner(at, at) = before.topLeftCorner(at, at);
+  after.topRightCorner(at, rest) = before.topRightCorner(at, rest);
+  after.bottomLeftCorner(rest, at) = before.bottomLeftCorner(rest, at);
+  after.bottomRightCorner(rest, rest) = before.bottomRightCorner(rest, rest);
+  covariance.assign(after.data(), after.data() + after.size());
+  estimate.insert(estimate.begin() + at, static_cast<std::size_t>(more), 0.0);
+}
+
 Identification read(const Json& j, const std::string& where) {
   Identification id = read_summary(j, where);
   const Json& state = j.at("state");
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
-  const auto estimate = numbers_or_nan(state.at("estimate")),
-             covariance = numbers_or_nan(state.at("covariance"));
+  auto estimate = numbers_or_nan(state.at("estimate")), covariance = numbers_or_nan(state.at("covariance"));
   const auto count = static_cast<std::size_t>(id.space.count());
+  if (estimate.size() + 2 * id.space.joints() == count) add_bends(id.space, estimate, covariance);
   if (estimate.size() != count || covariance.size() != count * count)
     throw Error(ErrorCode::input, where,
                 fmt::format("holds {} parameters, its robot has {}; identify again", estimate.size(), count));

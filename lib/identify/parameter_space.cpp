@@ -62,8 +62,8 @@ std::string ParameterSpace::name(int p) const {
   if (p < rigid()) return base[p].name;
   if (p == timing()) return "phi";
   if (p > timing()) return fmt::format("width{}", p - timing());
-  const int k = (p - rigid()) / n;
-  return fmt::format("{}{}", k == 0 ? "fv_" : k == 1 ? "fc_" : "offset_", (p - rigid()) % n + 1);
+  constexpr const char* kFriction[] = {"fv_", "fc_", "offset_", "fb_", "fs_"};
+  return fmt::format("{}{}", kFriction[(p - rigid()) / n], (p - rigid()) % n + 1);
 }
 
 std::string ParameterSpace::unit(int p) const {
@@ -73,7 +73,7 @@ std::string ParameterSpace::unit(int p) const {
   const int joint = is_width ? p - timing() - 1 : (p - rigid()) % joints();
   const AxisKind axis = chain.geometry[joint].kind;
   if (is_width) return velocity_unit(axis);
-  if ((p - rigid()) / joints() == 0) return viscous_unit(axis);
+  if (p < coulomb(0) || p >= skew(0)) return viscous_unit(axis);
   return torque_unit(axis);
 }
 
@@ -117,8 +117,13 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
   for (int i = 0; i < n; ++i) {
     chain.links[i] = link_from(numbers.segment<kLinkParameters>(i * kLinkParameters));
     chain.rotor_inertia[i] += numbers[n * kLinkParameters + i];
-    chain.friction[i] = {p[space.viscous(i)], p[space.coulomb(i)], p[space.offset(i)],
-                         std::exp(p[space.log_width(i)])};
+    chain.friction[i] = {p[space.viscous(i)],
+                         p[space.coulomb(i)],
+                         p[space.offset(i)],
+                         std::exp(p[space.log_width(i)]),
+                         p[space.bend(i)],
+                         p[space.skew(i)],
+                         space.chain.friction[i].bend_width};
   }
   return chain;
 }
@@ -139,6 +144,8 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
     p[space.viscous(i)] = chain.friction[i].viscous;
     p[space.coulomb(i)] = chain.friction[i].coulomb;
     p[space.offset(i)] = chain.friction[i].offset;
+    p[space.bend(i)] = chain.friction[i].bend;
+    p[space.skew(i)] = chain.friction[i].skew;
     p[space.log_width(i)] = std::log(chain.friction[i].width);
   }
   p[space.timing()] = phi;

@@ -21,11 +21,11 @@ struct BaseParameter {
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
-/// joint fv, fc, offset, then phi (torque timing), then ln(friction width) of every joint. Torques are linear
-/// in all but the widths.
+/// joint fv, fc, offset, bend, skew, then phi (torque timing), then ln(friction width) of every joint.
+/// Torques are linear in all but the widths.
 struct ParameterSpace {
-  Chain<double> chain;  ///< geometry, lengths, gravity and rotor inertia that is no base parameter; its links
-                        ///< and friction do not count
+  Chain<double> chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter and the width
+                        ///< of bent friction; its links and other friction do not count
   std::vector<BaseParameter> base;
   /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
   /// parameters.
@@ -36,7 +36,9 @@ struct ParameterSpace {
   int viscous(int joint) const { return rigid() + joint; }
   int coulomb(int joint) const { return rigid() + joints() + joint; }
   int offset(int joint) const { return rigid() + 2 * joints() + joint; }
-  int timing() const { return rigid() + 3 * joints(); }
+  int bend(int joint) const { return rigid() + 3 * joints() + joint; }
+  int skew(int joint) const { return rigid() + 4 * joints() + joint; }
+  int timing() const { return rigid() + 5 * joints(); }
   int log_width(int joint) const { return timing() + 1 + joint; }
   int count() const { return timing() + 1 + joints(); }
   /// Those in which torques are linear: all before the widths.

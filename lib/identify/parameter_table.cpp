@@ -52,6 +52,7 @@ std::string why_not(const Identification& id, int p, const TableFacts& facts) {
     return fmt::format("left at {:g}: it does not pay on data that were not fitted", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
     return fmt::format("left at {:g}: the robot file says how torque runs between samples", id.estimate[p]);
+  if (p < id.space.rigid() && !facts.undriven.empty()) return not_driven(facts.undriven);
   return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
 }
 
@@ -80,8 +81,19 @@ std::string not_excited(const std::vector<int>& still) {
                      fmt::join(still, ", "));
 }
 
+std::string not_driven(const std::vector<int>& undriven) {
+  return fmt::format(
+      "joint {} is hardly driven, and the other joints tell something else; give a log in which "
+      "it is driven",
+      fmt::join(undriven, ", "));
+}
+
 void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id) {
-  for (int p = 0; p < id.space.count(); ++p) id.base_parameters.push_back(entry(weak, facts, id, p));
+  for (int p = 0; p < id.space.count(); ++p) {
+    const bool is_rare = p >= id.space.bend(0) && p < id.space.timing();
+    if (is_rare && id.estimate[p] == 0.0) continue;
+    id.base_parameters.push_back(entry(weak, facts, id, p));
+  }
 }
 
 bool all_told(const Identification& id) {

@@ -14,13 +14,16 @@ inline constexpr double kShowsFriction_s = 0.03;
 
 /// Why parameters were left out of the estimate.
 struct TableFacts {
-  std::vector<bool> asked;  ///< by parameter: the weak form was to estimate it
-  std::vector<int> still;   ///< joints that never move, from 1
-  bool fast = true;         ///< some log is faster than kShowsFriction_s
+  std::vector<bool> asked;    ///< by parameter: the weak form was to estimate it
+  std::vector<int> still;     ///< joints that never move, from 1
+  std::vector<int> undriven;  ///< joints with next to no torque, from 1
+  bool fast = true;           ///< some log is faster than kShowsFriction_s
 };
 
 /// What to record so that the motion tells a parameter.
 std::string not_excited(const std::vector<int>& still);
+/// The same for what a joint with next to no torque carries.
+std::string not_driven(const std::vector<int>& undriven);
 
 /// Fills id.base_parameters from id.estimate and id.covariance: every parameter of the space, those that
 /// were not identified with the reason.

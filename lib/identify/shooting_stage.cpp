@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/identify/feasible.hpp"
+#include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/parameter_table.hpp"
 
 namespace faultline {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lib/core/make_issue.hpp"
-#include "lib/identify/feasible.hpp"
+#include "lib/identify/feasible/feasible.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -16,6 +16,7 @@ namespace {
 constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
 constexpr double kClearlyThere = 4.0;     // standard deviations above zero that a rotor must have
 constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
+constexpr int kTimingRounds = 3;
 
 /// Whether no robot has this parameter below zero.
 bool is_not_negative(const ParameterSpace& space, int p) {
@@ -62,6 +63,20 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
   }
 }
 
+/// Friction that drives its joint is none: bends that outdo the Coulomb friction and skews that outdo the
+/// viscous go.
+void drop_driving_friction(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+  for (int j = 0; j < space.joints(); ++j) {
+    const Eigen::VectorXd& p = torque.fit.parameters;
+    const bool bend = p[space.bend(j)] < -p[space.coulomb(j)];
+    const bool skew = std::abs(p[space.skew(j)]) > p[space.viscous(j)];
+    if (!(bend && torque.wanted[space.bend(j)]) && !(skew && torque.wanted[space.skew(j)])) continue;
+    if (bend) torque.wanted[space.bend(j)] = false;
+    if (skew) torque.wanted[space.skew(j)] = false;
+    torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
+  }
+}
+
 std::string what_is_wrong(const TorqueFit& torque, const Gathered& gathered, const ParameterSpace& space) {
   const Measurements& m = gathered.measurements;
   return infeasibility(space, torque.fit.parameters, torque.fit.covariance, m.q_low(), m.q_high());
@@ -78,12 +93,32 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
   return out;
 }
 
+/// Torque that runs between samples lies between two of them: what the timing says beyond is whole samples of
+/// delay, of all joints.
+void settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
+                   WeakChoice choice, TorqueFit& torque) {
+  const int earliest = windows.shifts.first + 1, latest = windows.shifts.last;
+  for (int round = 0; round < kTimingRounds && torque.fit.free[space.timing()]; ++round) {
+    const int later = -static_cast<int>(std::floor(torque.fit.parameters[space.timing()]));
+    const std::vector<int> before = choice.shift;
+    for (int& shift : choice.shift) shift = std::clamp(shift + later, earliest, latest);
+    if (choice.shift == before) return;
+    torque.system = assemble(windows, choice);
+    torque.shift = choice.shift;
+    torque.fit = fit_weak_form(torque.system, space, nominal, torque.wanted);
+  }
+}
+
 }  // namespace
 
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
                      Identification& id) {
+  for (int j = 0; j < id.space.joints(); ++j)
+    id.space.chain.friction[j].bend_width = weak_width(id.space, j, choice.weak.bend[j]);
   TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift};
   out.fit = fit_weak_form(out.system, id.space, nominal, out.wanted);
+  settle_timing(gathered.windows, id.space, nominal, choice.weak, out);
+  drop_driving_friction(id.space, nominal, out);
   hold_at_zero(id.space, nominal, out);
   const std::string wrong = what_is_wrong(out, gathered, id.space);
   if (wrong.empty()) return out;

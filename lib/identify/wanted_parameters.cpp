@@ -18,12 +18,18 @@ WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& rob
     const std::string number = std::to_string(j + 1);
     if (is_exact("fv" + number)) wanted.asked[space.viscous(j)] = false;
     if (is_exact("fc" + number)) wanted.asked[space.coulomb(j)] = false;
-    wanted.optional[space.offset(j)] = true;
-    if (!try_offsets || is_exact("fo" + number)) wanted.asked[space.offset(j)] = false;
+    for (const int p : {space.offset(j), space.bend(j), space.skew(j)}) {
+      wanted.optional[p] = true;
+      wanted.asked[p] = try_offsets;
+    }
+    if (is_exact("fo" + number)) wanted.asked[space.offset(j)] = false;
+    if (is_exact("fb" + number)) wanted.asked[space.bend(j)] = false;
+    if (is_exact("fs" + number)) wanted.asked[space.skew(j)] = false;
   }
   for (int joint : still)
-    wanted.asked[space.viscous(joint - 1)] = wanted.asked[space.coulomb(joint - 1)] =
-        wanted.asked[space.offset(joint - 1)] = false;
+    for (int p : {space.viscous(joint - 1), space.coulomb(joint - 1), space.offset(joint - 1),
+                  space.bend(joint - 1), space.skew(joint - 1)})
+      wanted.asked[p] = false;
   wanted.asked[space.timing()] = robot.log.torque_between_samples == TorqueTiming::unknown;
   return wanted;
 }

@@ -24,7 +24,7 @@ int substeps(const FastDynamics& robot, const JointState& start, double duration
   double rate = kStable / kLongest;
   for (int j = 0; j < robot.joints(); ++j) {
     const Friction<double>& f = robot.chain().friction[j];
-    rate = std::max(rate, inverse(j, j) * (f.viscous + f.coulomb / f.width));
+    rate = std::max(rate, inverse(j, j) * steepest(f));
   }
   return static_cast<int>(std::clamp(std::ceil(duration * rate / kStable), 1.0, kMost));
 }

@@ -38,14 +38,26 @@ struct LinkInertia {
   Matrix3<S> inertia = Matrix3<S>::Zero();       ///< about the frame's origin, kg m^2
 };
 
-/// F(dq) = viscous dq + coulomb tanh(dq / width) + offset.
+/// F(dq) = viscous dq + coulomb tanh(dq / width) + offset + bend tanh(dq / bend_width) + skew |dq|. A
+/// negative bend is friction that falls with speed (Stribeck; Makkar et al. 2005), a positive one friction
+/// that rises ever less; the skew is viscous friction that differs by direction.
 template <typename S>
 struct Friction {
-  S viscous = S(0.0);  ///< N m s/rad or N s/m
-  S coulomb = S(0.0);  ///< N m or N
-  S offset = S(0.0);   ///< N m or N: asymmetric friction, drive offset
-  S width = S(0.01);   ///< rad/s or m/s
+  S viscous = S(0.0);     ///< N m s/rad or N s/m
+  S coulomb = S(0.0);     ///< N m or N
+  S offset = S(0.0);      ///< N m or N: asymmetric friction, drive offset
+  S width = S(0.01);      ///< rad/s or m/s
+  S bend = S(0.0);        ///< N m or N
+  S skew = S(0.0);        ///< N m s/rad or N s/m
+  S bend_width = S(1.0);  ///< rad/s or m/s
 };
+
+/// Largest rise of F with dq, near rest.
+template <typename S>
+S steepest(const Friction<S>& f) {
+  using std::abs;
+  return f.viscous + abs(f.coulomb) / f.width + abs(f.bend) / f.bend_width + abs(f.skew);
+}
 
 /// Serial chain of revolute and prismatic axes with its parameters: all that dynamics needs.
 template <typename S>
@@ -73,7 +85,8 @@ Chain<T> cast_chain(const Chain<S>& chain) {
     out.links.push_back(
         {T(link.mass), link.first_moment.template cast<T>(), link.inertia.template cast<T>()});
   for (const auto& f : chain.friction)
-    out.friction.push_back({T(f.viscous), T(f.coulomb), T(f.offset), T(f.width)});
+    out.friction.push_back(
+        {T(f.viscous), T(f.coulomb), T(f.offset), T(f.width), T(f.bend), T(f.skew), T(f.bend_width)});
   return out;
 }
 

@@ -60,11 +60,12 @@ JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q,
 
 template <typename S>
 JointVector<S> friction_torque(const Chain<S>& chain, const JointVector<S>& dq) {
-  using std::tanh;
+  using std::abs, std::tanh;
   JointVector<S> torque(chain.joints());
   for (int i = 0; i < chain.joints(); ++i) {
     const Friction<S>& f = chain.friction[i];
-    torque[i] = f.viscous * dq[i] + f.coulomb * tanh(dq[i] / f.width) + f.offset;
+    torque[i] = f.viscous * dq[i] + f.coulomb * tanh(dq[i] / f.width) + f.offset +
+                f.bend * tanh(dq[i] / f.bend_width) + f.skew * abs(dq[i]);
   }
   return torque;
 }

@@ -101,6 +101,8 @@ void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& 
     const Friction<double>& f = chain_.friction[i];
     torque[i] = f.viscous * dq[i] + f.offset;
     if (f.coulomb != 0.0) torque[i] += f.coulomb * fast_tanh(dq[i] / f.width);
+    if (f.bend != 0.0) torque[i] += f.bend * fast_tanh(dq[i] / f.bend_width);
+    if (f.skew != 0.0) torque[i] += f.skew * std::abs(dq[i]);
   }
 }
 

@@ -7,7 +7,7 @@ namespace faultline {
 
 std::vector<std::string> parameter_names(int joints) {
   std::vector<std::string> names;
-  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "jr"})
+  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "fb", "fs", "jr"})
     for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
   return names;
 }
@@ -29,6 +29,10 @@ bool set_parameter(Robot& robot, const std::string& name, double value) {
     chain.friction[i].coulomb = value;
   else if (what == "fo")
     chain.friction[i].offset = value;
+  else if (what == "fb")
+    chain.friction[i].bend = value;
+  else if (what == "fs")
+    chain.friction[i].skew = value;
   else if (what == "jr")
     chain.rotor_inertia[i] = value;
   else if (what != "m" && what != "l")

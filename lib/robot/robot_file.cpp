@@ -24,7 +24,7 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
                        bool any_sign) {
     if (!from.has(key)) return;
     const auto values = from.each(key, n);
-    if (!any_sign) check_signs(from, key, values, std::string(key) != "width");
+    if (!any_sign) check_signs(from, key, values, !std::string(key).ends_with("width"));
     for (int i = 0; i < n; ++i) robot.chain.friction[i].*member = values[i];
   };
   set(table, "width", &Friction<double>::width, false);
@@ -32,6 +32,9 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
   set(friction, "coulomb", &Friction<double>::coulomb, false);
   set(friction, "offset", &Friction<double>::offset, true);
   set(friction, "width", &Friction<double>::width, false);
+  set(friction, "bend", &Friction<double>::bend, true);
+  set(friction, "bend_width", &Friction<double>::bend_width, false);
+  set(friction, "skew", &Friction<double>::skew, true);
   if (table.has("rotor_inertia")) {
     robot.chain.rotor_inertia = table.each("rotor_inertia", n);
     check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
@@ -43,6 +46,9 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
     f.coulomb = not_negative(own, "coulomb", f.coulomb);
     f.offset = own.number("offset", f.offset);
     f.width = positive(own, "width", f.width);
+    f.bend = own.number("bend", f.bend);
+    f.bend_width = positive(own, "bend_width", f.bend_width);
+    f.skew = own.number("skew", f.skew);
     robot.chain.rotor_inertia[i] = not_negative(joints[i], "rotor_inertia", robot.chain.rotor_inertia[i]);
   }
 }
@@ -72,8 +78,10 @@ void read_identified(Robot& robot, const TomlTable& table) {
     chain.links[i].mass = joint.number("mass");
     chain.links[i].first_moment = vector3(joint, "first_moment", {0, 0, 0});
     chain.links[i].inertia = inertia_tensor(joint, "inertia");
-    chain.friction[i] = {joint.number("viscous"), joint.number("coulomb"), joint.number("offset"),
-                         positive(joint, "width", 0.01)};
+    chain.friction[i] = {
+        joint.number("viscous"),           joint.number("coulomb"),   joint.number("offset"),
+        positive(joint, "width", 0.01),    joint.number("bend", 0.0), joint.number("skew", 0.0),
+        positive(joint, "bend_width", 1.0)};
     chain.rotor_inertia[i] = joint.number("rotor_inertia", 0.0);
   }
 }

@@ -9,6 +9,13 @@
 namespace faultline {
 namespace {
 
+/// The bent and lopsided part of friction, where a joint has it.
+std::string bend_text(const Friction<double>& f, const char* separator) {
+  if (f.bend == 0.0 && f.skew == 0.0) return "";
+  return fmt::format("{0}bend = {1}{0}bend_width = {2}{0}skew = {3}", separator, toml_number(f.bend),
+                     toml_number(f.bend_width), toml_number(f.skew));
+}
+
 std::string joint_text(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
   const Friction<double>& f = robot.chain.friction[i];
@@ -17,9 +24,9 @@ std::string joint_text(const Robot& robot, int i) {
   text += fmt::format("axis = {}\noffset = {}\n", toml_numbers(joint.axis), toml_numbers(joint.offset));
   if (!joint.direction.isZero()) text += fmt::format("direction = {}\n", toml_numbers(joint.direction));
   if (robot.identified) return text;  // [identified] has the rest
-  text += fmt::format("friction = {{viscous = {}, coulomb = {}, offset = {}, width = {}}}\n",
+  text += fmt::format("friction = {{viscous = {}, coulomb = {}, offset = {}, width = {}{}}}\n",
                       toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.offset),
-                      toml_number(f.width));
+                      toml_number(f.width), bend_text(f, ", "));
   return text + fmt::format("rotor_inertia = {}\n", toml_number(robot.chain.rotor_inertia[i]));
 }
 
@@ -64,10 +71,10 @@ std::string identified_text(const Robot& robot) {
     const Friction<double>& f = robot.chain.friction[i];
     text += fmt::format(
         "\n[[identified.joint]]\nlength = {}\nmass = {}\nfirst_moment = {}\ninertia = {}\nviscous = {}\n"
-        "coulomb = {}\noffset = {}\nwidth = {}\nrotor_inertia = {}\n",
+        "coulomb = {}\noffset = {}\nwidth = {}{}\nrotor_inertia = {}\n",
         toml_number(robot.chain.length[i]), toml_number(link.mass), toml_numbers(link.first_moment),
         toml_tensor(link.inertia), toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.offset),
-        toml_number(f.width), toml_number(robot.chain.rotor_inertia[i]));
+        toml_number(f.width), bend_text(f, "\n"), toml_number(robot.chain.rotor_inertia[i]));
   }
   return text;
 }

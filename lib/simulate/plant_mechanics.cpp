@@ -87,9 +87,9 @@ void Plant::choose_steps(Chain<double>& chain) {
   for (int i = 0; i < chain.joints(); ++i) {
     Friction<double>& f = chain.friction[i];
     f.width = std::max(f.width, most[i] * f.coulomb * max_step_ / (kRateTimesStep * kMostSubSteps));
-    sliding = std::max(sliding, most[i] * f.viscous);
+    sliding = std::max(sliding, most[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
     if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(most[i] * stop_stiffness_[i]));
-    near_rest = std::max(near_rest, most[i] * (f.viscous + f.coulomb / f.width));
+    near_rest = std::max(near_rest, most[i] * steepest(f));
   }
   const auto step_for = [&](double rate) {
     return rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;

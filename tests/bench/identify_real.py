@@ -197,13 +197,14 @@ def kept_samples(log, hz):
 
 # ---------------------------------------------------------------- the evaluator of both
 
-def judged_part(robot, log, motion_hz, torque_hz, width, coupled):
+def judged_part(robot, log, motion_hz, torque_hz, model):
     motion = motion_of(log, motion_hz)
     t, rate = log[0], 1 / (log[0][1] - log[0][0])
-    w = full_regressor(robot, motion, width, coupled)
+    torque = full_regressor(robot, motion, model["width"], model.get("coupled")) @ np.array(model["numbers"])
+    for j, (bend, width, skew) in enumerate(model.get("bends", [])):
+        torque[:, j] += bend * np.tanh(motion[1][:, j] / width) + skew * np.abs(motion[1][:, j])
     at = kept_samples(log, torque_hz)
-    w = low_pass(w.reshape(len(t), -1), torque_hz, rate).reshape(w.shape)[at]
-    return w, t, at, low_pass(log[3], torque_hz, rate), motion[1][at]
+    return low_pass(torque, torque_hz, rate)[at], t, at, low_pass(log[3], torque_hz, rate), motion[1][at]
 
 
 def judge(robot, logs, model, name):
@@ -211,9 +212,8 @@ def judge(robot, logs, model, name):
     motion_hz, torque_hz, speed = JUDGE[name]
     model_torque, logged, moving = [], [], []
     for log in logs:
-        w, t, at, tau, dq = judged_part(robot, log, motion_hz, torque_hz, model["width"],
-                                        model.get("coupled"))
-        model_torque.append(w @ np.array(model["numbers"]))
+        torque, t, at, tau, dq = judged_part(robot, log, motion_hz, torque_hz, model)
+        model_torque.append(torque)
         logged.append(np.stack([np.interp(t[at] - d, t, c) for d, c in zip(model["delay"], tau.T)], 1))
         moving.append(np.abs(dq) > speed)
     y, e = np.concatenate(logged), np.concatenate(logged) - np.concatenate(model_torque)
@@ -383,12 +383,14 @@ def identified_model(toml, report):
     joints = identified["joint"]
     links = [number for j in joints for number in [j["mass"], *j["first_moment"], *j["inertia"]]]
     own = [j[key] for key in ("rotor_inertia", "viscous", "coulomb", "offset") for j in joints]
-    delay = identified.get("torque_delay_s", report.get("torque_delay_s"))
+    bends = [(j.get("bend", 0.0), j.get("bend_width", 1.0), j.get("skew", 0.0)) for j in joints]
+    delay = report.get("torque_delay_s", identified.get("torque_delay_s"))
     if delay is None:
         period = max(log["sample_period_s"] for log in report["logs"])
         delay = (0.5 - identified.get("torque_phi", 0.5)) * period
     delay = delay if isinstance(delay, list) else [delay] * len(joints)
-    return {"numbers": links + own, "width": [j["width"] for j in joints], "delay": [d or 0.0 for d in delay]}
+    return {"numbers": links + own, "width": [j["width"] for j in joints], "bends": bends,
+            "delay": [d or 0.0 for d in delay]}
 
 
 # ---------------------------------------------------------------- what is fitted and what is held out

@@ -21,6 +21,9 @@ struct ClosedFormScara {
   double payload = 0.0;  ///< kg at the tip
   Triple fv = {0.5, 0.3, 2.0}, fc = {0.6, 0.4, 1.0};
   double width = 0.02;
+  Triple stribeck = {0, 0, 0};  ///< Coulomb friction near rest beyond fc, gone at a few stribeck_speed
+  double stribeck_speed = 0.3;
+  Triple skew = {0, 0, 0};  ///< friction that grows with speed in one direction and falls in the other
 
   double carried() const { return m3 + payload; }
   double a() const { return l1 * l1 * (m1 / 3 + m2 + carried()); }
@@ -30,7 +33,11 @@ struct ClosedFormScara {
   Triple acceleration(const State& x, const Triple& tau) const {
     const double cos2 = std::cos(x.q[1]), bend = c() * std::sin(x.q[1]);
     Triple force;
-    for (int j = 0; j < 3; ++j) force[j] = tau[j] - fv[j] * x.dq[j] - fc[j] * std::tanh(x.dq[j] / width);
+    for (int j = 0; j < 3; ++j) {
+      const double slow = std::exp(-std::pow(x.dq[j] / stribeck_speed, 2));
+      force[j] = tau[j] - fv[j] * x.dq[j] - (fc[j] + stribeck[j] * slow) * std::tanh(x.dq[j] / width) -
+                 skew[j] * std::abs(x.dq[j]);
+    }
     force[0] += bend * (2 * x.dq[0] * x.dq[1] + x.dq[1] * x.dq[1]);
     force[1] -= bend * x.dq[0] * x.dq[0];
     const double m11 = a() + b() + 2 * c() * cos2, m12 = b() + c() * cos2, m22 = b();

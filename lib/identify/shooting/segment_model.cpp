@@ -98,6 +98,9 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
     const Friction<double>& f = dynamics_.chain().friction[j];
     const double bent = std::tanh(w.dq[j] / f.width);
     w.rhs_state(j, n + j) -= f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
+    if (f.bend == 0.0 && f.skew == 0.0) continue;
+    const double wide = std::tanh(w.dq[j] / f.bend_width);
+    w.rhs_state(j, n + j) -= f.bend * (1.0 - wide * wide) / f.bend_width + std::copysign(f.skew, w.dq[j]);
   }
   w.by_state.noalias() = w.inverse_inertia.lazyProduct(w.rhs_state);
 }
@@ -118,6 +121,8 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
       const Friction<double>& f = dynamics_.chain().friction[joint];
       const double u = w.dq[joint] / f.width, bent = std::tanh(u);
       column[joint] = p >= space_.log_width(0) ? f.coulomb * (1.0 - bent * bent) * u
+                      : p >= space_.skew(0)    ? -std::abs(w.dq[joint])
+                      : p >= space_.bend(0)    ? -std::tanh(w.dq[joint] / f.bend_width)
                       : p >= space_.offset(0)  ? -1.0
                       : p >= space_.coulomb(0) ? -bent
                                                : -w.dq[joint];

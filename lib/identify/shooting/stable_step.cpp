@@ -15,8 +15,8 @@ double stable_step(const Chain<double>& chain, const JointVector<double>& q) {
       m.ldlt().solve(JointMatrix<double>::Identity(chain.joints(), chain.joints()));
   double rate = 1e-9;
   for (int j = 0; j < chain.joints(); ++j)
-    rate = std::max(rate,
-                    std::abs(inverse(j, j)) * std::abs(chain.friction[j].coulomb) / chain.friction[j].width);
+    rate =
+        std::max(rate, std::abs(inverse(j, j)) * (steepest(chain.friction[j]) - chain.friction[j].viscous));
   return 0.6 / rate;
 }
 

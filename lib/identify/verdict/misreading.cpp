@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
-#include "lib/identify/feasible.hpp"
+#include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
@@ -138,7 +138,8 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
     const WantedParameters wanted = wanted_parameters(id.space, robot, still, false);
     std::vector<bool> free = wanted.asked;
     for (std::size_t p = 0; p < free.size(); ++p) free[p] = free[p] && !wanted.optional[p];
-    const WeakChoice choice{std::vector<int>(n, 0), std::vector<int>(n, 0), std::vector<int>(n, 1)};
+    const WeakChoice choice{std::vector<int>(n, 0), std::vector<int>(n, 0), std::vector<int>(n, 1),
+                            std::vector<int>(n, 0)};
     const WeakFit fit = fit_weak_form(assemble(gathered.windows, choice), id.space,
                                       parameters_of(id.space, robot.chain, 0.5), free);
     const Measurements& m = gathered.measurements;

@@ -72,7 +72,7 @@ void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& 
 }  // namespace
 
 double weak_width(const ParameterSpace& space, int joint, int k) {
-  constexpr double kFactor[kWidths] = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+  constexpr double kFactor[kWidths] = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
   return kFactor[k] * space.chain.friction[joint].width;
 }
 
@@ -82,6 +82,8 @@ StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s) {
   out.base.resize(static_cast<Eigen::Index>(n) * space.rigid(), steps);
   out.coulomb.resize(n * kWidths, steps);
   out.step_s = s.time.tail(steps) - s.time.head(steps);
+  out.skew = 0.5 * (s.dq_smooth.rightCols(steps).cwiseAbs() + s.dq_smooth.leftCols(steps).cwiseAbs()) *
+             out.step_s.asDiagonal();
   out.viscous = s.q_smooth.rightCols(steps) - s.q_smooth.leftCols(steps);
   const Eigen::VectorXd rotor = Eigen::Map<const Eigen::VectorXd>(space.chain.rotor_inertia.data(), n);
   out.rotor = rotor.asDiagonal() * (s.dq_smooth.rightCols(steps) - s.dq_smooth.leftCols(steps));

@@ -8,8 +8,10 @@
 
 namespace faultline {
 
-/// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth.
-inline constexpr int kWidths = 7;
+/// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth. The
+/// widest serve bent friction alone.
+inline constexpr int kWidths = 10;
+inline constexpr int kCoulombWidths = 7;
 double weak_width(const ParameterSpace& space, int joint, int k);
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample
@@ -18,6 +20,7 @@ struct StretchTerms {
   Eigen::MatrixXd base;  ///< (base parameters x joints) rows, base after base: p_k+1 - p_k - dt (dT/dq - G)
   Eigen::MatrixXd viscous;  ///< joints rows: q_k+1 - q_k
   Eigen::MatrixXd coulomb;  ///< (kWidths x joints) rows: integral of tanh(dq / width)
+  Eigen::MatrixXd skew;     ///< joints rows: integral of |dq|
   Eigen::MatrixXd rotor;    ///< joints rows: momentum of rotors that are no base parameter
   Eigen::VectorXd step_s;   ///< duration
 };

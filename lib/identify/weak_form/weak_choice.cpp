@@ -9,13 +9,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kWorthIt = 0.01;        // of the held-out residual that a term must take away
-constexpr double kShiftWorthIt = 0.005;  // the same for a delay
-constexpr double kWorthOfTorque = 5e-4;  // of the joint's torque: less is of no use to anyone
-constexpr double kWidthWorthIt = 0.02;   // for friction that is smoother than the windows can tell
-constexpr double kWindowWorthIt = 0.01;  // less of the residual does not ask for a longer window
+constexpr double kWorthIt = 0.01;          // of the held-out residual that a term must take away
+constexpr double kShiftWorthIt = 0.005;    // the same for a delay of all joints
+constexpr double kOwnShiftWorthIt = 0.01;  // and of one: most logs are late by one and the same
+constexpr double kRareWorthIt = 0.05;  // friction that bends or differs by direction: it mimics much else,
+constexpr double kRareWorthOfTorque = 2e-3;     // and what is left beside a width between two of the bank,
+constexpr double kSure = 1.0, kRareSure = 2.0;  // standard errors over the folds
+constexpr double kWorthOfTorque = 5e-4;         // of the joint's torque: less is of no use to anyone
+constexpr double kWidthWorthIt = 0.02;          // for friction that is smoother than the windows can tell
+constexpr double kWindowWorthIt = 0.01;         // less of the residual does not ask for a longer window
 constexpr int kScaleRounds = 4;
 constexpr int kShiftSweeps = 3;
+constexpr int kBendsApart = 3;        // widths between Coulomb friction and its bend
 constexpr double kLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
 constexpr double kUndriven = 0.05;    // of the largest torque: such a joint asks for no mass at all
 
@@ -114,11 +119,12 @@ Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {
 }
 
 /// Whether joint `j` is told clearly better by `with`: by `share` of its residual, by a share of its torque,
-/// and by more than one standard error.
-bool pays(const HeldOutError& without, const HeldOutError& with, int j, double share, double torque) {
+/// and by more than chance does.
+bool pays(const HeldOutError& without, const HeldOutError& with, int j, double share, double torque,
+          double sure = kSure, double worth = kWorthOfTorque) {
   const Gain gain = gain_of(without, with, j);
   const double less = without.rms()[j] - with.rms()[j];
-  return less > share * without.rms()[j] && less > kWorthOfTorque * torque && gain.mean > gain.error;
+  return less > share * without.rms()[j] && less > worth * torque && gain.mean > sure * gain.error;
 }
 
 /// The shift that suits all joints together best: most logs are late by one and the same.
@@ -165,7 +171,7 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   const HeldOutError with = error_of(single);
   std::erase_if(c.terms, [](const ModelTerm& term) { return term.name.starts_with("delay_"); });
   for (int j = 0; j < joints; ++j) {
-    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, kShiftWorthIt, torque[j]);
+    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, kOwnShiftWorthIt, torque[j]);
     c.weak.shift[j] = own ? single.shift[j] : settled.shift[j];
     if (single.shift[j] == 0 && c.weak.shift[j] == 0) continue;
     c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],
@@ -173,11 +179,42 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   }
 }
 
+/// Without friction that is bent or lopsided: nothing else is chosen with it.
+std::vector<bool> plain(const ParameterSpace& space, std::vector<bool> wanted) {
+  std::fill(wanted.begin() + space.bend(0), wanted.begin() + space.timing(), false);
+  return wanted;
+}
+
+/// Bent friction of the width that leaves least of its joint, where it pays.
+void choose_bends(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
+                  ModelChoice& c) {
+  for (int j = 0; j < space.joints(); ++j) {
+    if (!asked[space.bend(j)]) continue;
+    const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
+    std::vector<bool> wanted = c.wanted;
+    wanted[space.bend(j)] = true;
+    HeldOutError best = without;
+    WeakChoice bent = c.weak;
+    for (int k = c.weak.width[j] + kBendsApart; k < kWidths; ++k) {
+      WeakChoice tried = c.weak;
+      tried.bend[j] = k;
+      const HeldOutError with = chooser.error(tried, wanted, chooser.scale(tried, wanted));
+      if (with.rms()[j] < best.rms()[j]) best = with, bent = tried;
+    }
+    const bool kept =
+        pays(without, best, j, kRareWorthIt, chooser.torque(c.weak)[j], kRareSure, kRareWorthOfTorque);
+    c.terms.push_back({space.name(space.bend(j)), j, kept, without.rms()[j], best.rms()[j]});
+    if (!kept) continue;
+    c.weak = bent;
+    c.wanted = wanted;
+  }
+}
+
 void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
   const Eigen::VectorXd torque = chooser.torque(c.weak);
   for (int j = 0; j < joints; ++j) {
     HeldOutError best = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
-    for (int k = 1; k < kWidths; ++k) {
+    for (int k = 1; k < kCoulombWidths; ++k) {
       WeakChoice tried = c.weak;
       tried.width[j] = k;
       const HeldOutError error = chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted));
@@ -198,13 +235,15 @@ int joint_of(const ParameterSpace& space, int p) {
 void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
                   const std::vector<bool>& optional, ModelChoice& c) {
   for (int p = 0; p < space.timing(); ++p) {
-    if (!asked[p] || !optional[p]) continue;
+    if (!asked[p] || !optional[p] || (p >= space.bend(0) && p < space.skew(0))) continue;
     std::vector<bool> wanted = c.wanted;
     wanted[p] = true;
     const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
     const HeldOutError with = chooser.error(c.weak, wanted, chooser.scale(c.weak, wanted));
     const int j = joint_of(space, p);
-    const bool kept = pays(without, with, j, kWorthIt, chooser.torque(c.weak)[j]);
+    const bool rare = p >= space.bend(0);
+    const bool kept = pays(without, with, j, rare ? kRareWorthIt : kWorthIt, chooser.torque(c.weak)[j],
+                           rare ? kRareSure : kSure, rare ? kRareWorthOfTorque : kWorthOfTorque);
     c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
     if (kept) c.wanted = wanted;
   }
@@ -237,11 +276,13 @@ ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space
   const int n = space.joints();
   const Chooser chooser(moments, space, start);
   ModelChoice c;
-  c.weak = {std::vector<int>(n, moments.yardstick()), std::vector<int>(n, 0), std::vector<int>(n, 0)};
+  c.weak = {std::vector<int>(n, moments.yardstick()), std::vector<int>(n, 0), std::vector<int>(n, 0),
+            std::vector<int>(n, kWidths - 1)};
   for (std::size_t p = 0; p < asked.size(); ++p) c.wanted.push_back(asked[p] && !optional[p]);
-  choose_shifts(chooser, shifts, n, asked, c);
+  choose_shifts(chooser, shifts, n, plain(space, asked), c);
   choose_widths(chooser, n, c);
   choose_terms(chooser, space, asked, optional, c);
+  choose_bends(chooser, space, asked, c);
   choose_shifts(chooser, shifts, n, c.wanted, c);
   choose_windows(chooser, sets, n, c);
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);

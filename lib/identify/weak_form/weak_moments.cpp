@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace faultline {
 namespace {
@@ -11,8 +13,11 @@ namespace {
 constexpr int kFolds = 5;
 constexpr int kLogsForFolds = 3;       // with as many, whole logs are held out,
 constexpr int kMostFolds = 10;         // each on its own up to here
-constexpr double kFoldBlock_s = 2.0;   // else blocks of a log in turn
+constexpr double kFoldBlock_s = 2.0;   // else blocks of a log in turn,
+constexpr int kBlocksAFold = 4;        // shorter ones where there would be fewer in a fold,
+constexpr double kLeastBlock_s = 0.2;  // but not shorter than this
 constexpr double kYardstick_s = 0.16;  // the window length nearest to it judges
+constexpr int kOthers = 3;             // columns behind the base: viscous, offset, skew
 constexpr double kRank = 1e-8;         // of the largest eigenvalue of the scaled moments
 
 int log_count(const WeakWindows& windows) {
@@ -21,9 +26,22 @@ int log_count(const WeakWindows& windows) {
   return count;
 }
 
+/// Length of the blocks of time that make folds.
+double fold_block_s(const WeakWindows& windows) {
+  std::map<int, std::pair<double, double>> spans;
+  for (const WeakWindow& w : windows.all()) {
+    auto& [first, last] = spans.emplace(w.log, std::pair{w.time_s, w.time_s}).first->second;
+    first = std::min(first, w.time_s);
+    last = std::max(last, w.time_s);
+  }
+  double seconds = 0.0;
+  for (const auto& [log, span] : spans) seconds += span.second - span.first;
+  return std::clamp(seconds / (kFolds * kBlocksAFold), kLeastBlock_s, kFoldBlock_s);
+}
+
 /// Which fold a window belongs to: one of `logs` folds of logs, or blocks of time in turn when that is 0.
-int fold_of(const WeakWindow& w, int logs) {
-  return logs > 0 ? w.log % logs : static_cast<int>(std::floor(w.time_s / kFoldBlock_s)) % kFolds;
+int fold_of(const WeakWindow& w, int logs, double block_s) {
+  return logs > 0 ? w.log % logs : static_cast<int>(std::floor(w.time_s / block_s)) % kFolds;
 }
 
 int nearest_set(const std::vector<WeakWindows>& sets, double length_s) {
@@ -61,7 +79,8 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
   const int by_log = logs >= kLogsForFolds ? std::min(logs, kMostFolds) : 0;
   folds_ = by_log > 0 ? by_log : kFolds;
   folds_are_logs_ = by_log == logs;
-  const int rigid = space_.rigid(), width = rigid + 2 + kWidths, count = width + shifts_.count();
+  const double block_s = fold_block_s(windows.sets[0]);
+  const int rigid = space_.rigid(), width = rigid + kOthers + kWidths, count = width + shifts_.count();
   moments_.resize(windows.sets.size() * folds_ * joints_);
   for (Moments& m : moments_) m.sum.setZero(count, count);
   Eigen::VectorXd row(count);
@@ -75,10 +94,11 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
         row.head(rigid) = w.base.row(j);
         row[rigid] = w.viscous[j];
         row[rigid + 1] = 1.0;
-        row.segment(rigid + 2, kWidths) = w.coulomb.row(j);
+        row[rigid + 2] = w.skew[j];
+        row.segment(rigid + kOthers, kWidths) = w.coulomb.row(j);
         for (int i = 0; i < shifts_.count(); ++i)
           row[width + i] = (1.0 - phi) * w.torque(j, i) + phi * w.torque(j, std::max(i - 1, 0));
-        Moments& m = moments_[(set * folds_ + fold_of(w, by_log)) * joints_ + j];
+        Moments& m = moments_[(set * folds_ + fold_of(w, by_log, block_s)) * joints_ + j];
         m.sum.selfadjointView<Eigen::Lower>().rankUpdate(row);
         m.rows += 1.0;
       }
@@ -92,19 +112,23 @@ std::vector<int> WeakMoments::columns(const WeakChoice& choice, int j) const {
   std::vector<int> out;
   for (int p = 0; p < rigid; ++p) out.push_back(p);
   out.push_back(rigid);
-  out.push_back(rigid + 2 + choice.width[j]);
+  out.push_back(rigid + kOthers + choice.width[j]);
   out.push_back(rigid + 1);
-  out.push_back(rigid + 2 + kWidths + choice.shift[j] - shifts_.first);
+  out.push_back(rigid + kOthers + choice.bend[j]);
+  out.push_back(rigid + 2);
+  out.push_back(rigid + kOthers + kWidths + choice.shift[j] - shifts_.first);
   return out;
 }
 
-/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset.
+/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset, bend, skew.
 std::vector<int> WeakMoments::parameters_of(int j) const {
   std::vector<int> out;
   for (int p = 0; p < space_.rigid(); ++p) out.push_back(p);
   out.push_back(space_.viscous(j));
   out.push_back(space_.coulomb(j));
   out.push_back(space_.offset(j));
+  out.push_back(space_.bend(j));
+  out.push_back(space_.skew(j));
   return out;
 }
 

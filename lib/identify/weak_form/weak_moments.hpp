@@ -46,7 +46,7 @@ class WeakMoments {
                         const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const;
 
  private:
-  /// Moments of one joint's rows: base, viscous, offset, Coulomb of every width, torque of every shift.
+  /// Moments of one joint's rows: base, viscous, offset, skew, Coulomb of every width, torque of every shift.
   struct Moments {
     Eigen::MatrixXd sum;
     double rows = 0.0;

@@ -13,6 +13,7 @@ struct WeakChoice {
   std::vector<int> set;    ///< by joint: index of its window length
   std::vector<int> shift;  ///< by joint: samples by which its torque acts later than logged
   std::vector<int> width;  ///< by joint: index of its friction width
+  std::vector<int> bend;   ///< by joint: index of the width of its bent friction
 };
 
 /// The chosen balances as one system in the linear parameters of the space, joint after joint.

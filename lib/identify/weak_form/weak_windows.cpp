@@ -44,6 +44,7 @@ WeakWindow window_at(const Stretch& s, const StretchTerms& terms, const ShiftRan
   out.coulomb = Eigen::Map<const Eigen::MatrixXd>(coulomb.data(), n, kWidths);
   out.viscous = terms.viscous.middleCols(begin, steps) * w;
   const Eigen::VectorXd rotor = terms.rotor.middleCols(begin, steps) * w;
+  out.skew = terms.skew.middleCols(begin, steps) * w;
   out.torque.resize(n, shifts.count());
   for (int i = 0; i < shifts.count(); ++i)
     out.torque.col(i) = s.tau.middleCols(begin - shifts.first - i, steps) * duration - rotor;

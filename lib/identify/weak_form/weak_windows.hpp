@@ -22,13 +22,14 @@ struct ShiftRange {
 /// One window: the momentum balance of every joint, weighted over the window so that no acceleration is
 /// needed,
 ///   sum w (p_k+1 - p_k) = sum w dt (tau - F + dT/dq - G),   sum w dt = 1.
-/// Row j reads base * beta + viscous fv_j + coulomb fc_j + offset_j = torque.
+/// Row j reads base * beta + viscous fv_j + coulomb fc_j + offset_j + another column of coulomb fb_j + skew
+/// fs_j = torque.
 struct WeakWindow {
   int log = 0;
   double time_s = 0.0;      ///< its start
   Eigen::MatrixXd base;     ///< joints x base parameters
   Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column a friction width
-  Eigen::VectorXd viscous;
+  Eigen::VectorXd viscous, skew;
   Eigen::MatrixXd torque;  ///< joints x shifts: the mean of tau_k-shift; less the momentum of known rotors
   Eigen::VectorXd q, dq;   ///< in the middle of it, by joint
   Eigen::VectorXd speed;   ///< mean |dq| of each joint in it, rad/s or m/s

@@ -52,6 +52,15 @@ void read_drives(Robot& robot, const TomlTable& table) {
     robot.chain.friction[i].offset = offset[i];
     robot.chain.friction[i].width = width[i];
   }
+  if (!friction.has("bend")) return;
+  const auto bend = friction.each("bend", n), skew = friction.each("skew", n),
+             bend_width = friction.each("bend_width", n);
+  check_signs(friction, "bend_width", bend_width, false);
+  for (int i = 0; i < n; ++i) {
+    robot.chain.friction[i].bend = bend[i];
+    robot.chain.friction[i].skew = skew[i];
+    robot.chain.friction[i].bend_width = bend_width[i];
+  }
 }
 
 void read_axes(Robot& robot, const TomlTable& table) {
@@ -119,6 +128,12 @@ std::string urdf_more_text(const Robot& robot) {
   text += "\n[friction]\n";
   text += each_joint(robot, "offset", [&](int i) { return chain.friction[i].offset; });
   text += each_joint(robot, "width", [&](int i) { return chain.friction[i].width; });
+  if (std::any_of(chain.friction.begin(), chain.friction.end(),
+                  [](const Friction<double>& f) { return f.bend != 0.0 || f.skew != 0.0; })) {
+    text += each_joint(robot, "bend", [&](int i) { return chain.friction[i].bend; });
+    text += each_joint(robot, "skew", [&](int i) { return chain.friction[i].skew; });
+    text += each_joint(robot, "bend_width", [&](int i) { return chain.friction[i].bend_width; });
+  }
   for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
   return text + facts_text(robot) + log_text(robot.log);
 }

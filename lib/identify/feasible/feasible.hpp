@@ -19,8 +19,9 @@ std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& pa
                           const Eigen::VectorXd& q_high);
 
 /// The parameters nearest to the weighted system that bodies of the robot's shapes can have: masses and
-/// friction positive, inertia that satisfies the triangle inequality (log-Cholesky of the pseudo-inertia;
-/// Wensing, Kim and Slotine 2018; Rucker and Wensing 2022). What the system does not tell stays near `robot`.
+/// friction positive, inertia that satisfies the triangle inequality (positive definite pseudo-inertia;
+/// Wensing, Kim and Slotine 2018). What the system does not tell stays near `robot`, made heavier or lighter
+/// as a whole.
 Eigen::VectorXd nearest_feasible(const ParameterSpace& space, const Robot& robot, const WeakSystem& system,
                                  const WeakFit& fit, const std::vector<bool>& wanted);
 

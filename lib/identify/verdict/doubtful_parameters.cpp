@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/verdict/doubtful_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr double kShown = 1e-6;      // share of the squared column that moving joints must carry
+constexpr double kUndriven = 0.05;   // of the largest torque of joints of the same kind
+constexpr double kOtherwise = 0.2;   // of a parameter: the driven joints tell another value,
+constexpr double kOtherwiseStd = 3;  // by so many standard deviations
+
+bool has(const std::vector<int>& joints, int joint) {
+  return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
+}
+
+}  // namespace
+
+void doubt_still_joints(const ParameterSpace& space, const std::vector<int>& still, TorqueFit& torque) {
+  for (int p = 0; p < space.rigid(); ++p) {
+    double all = 0.0, shown = 0.0;
+    for (Eigen::Index k = 0; k < torque.system.a.rows(); ++k) {
+      const double square = torque.system.a(k, p) * torque.system.a(k, p);
+      all += square;
+      if (!has(still, torque.system.joint[k])) shown += square;
+    }
+    if (shown <= kShown * all) torque.fit.confounded[p] = true;
+  }
+}
+
+std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque) {
+  const int n = space.joints();
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(n), rows = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < torque.system.y.size(); ++k)
+    if (torque.system.use[k] > 0.0) {
+      square[torque.system.joint[k]] += torque.system.y[k] * torque.system.y[k];
+      rows[torque.system.joint[k]] += 1.0;
+    }
+  const Eigen::VectorXd rms = square.cwiseQuotient(rows.cwiseMax(1.0)).cwiseSqrt();
+  std::vector<int> undriven;
+  for (int j = 0; j < n; ++j)
+    for (int other = 0; other < n; ++other)
+      if (space.chain.geometry[other].kind == space.chain.geometry[j].kind && rows[j] > 0.0 &&
+          rms[j] < kUndriven * rms[other]) {
+        undriven.push_back(j + 1);
+        break;
+      }
+  return undriven;
+}
+
+void doubt_undriven_joints(const ParameterSpace& space, const std::vector<int>& undriven, TorqueFit& torque) {
+  if (undriven.empty()) return;
+  WeakSystem driven = torque.system;
+  std::vector<bool> felt(space.rigid(), false);
+  for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
+    if (!has(undriven, driven.joint[k])) continue;
+    for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
+    driven.use[k] = 0.0;
+  }
+  const WeakFit alone = fit_weak_form(driven, space, torque.fit.parameters, torque.wanted);
+  for (int p = 0; p < space.rigid(); ++p) {
+    if (!felt[p] || !torque.fit.free[p] || !alone.free[p] || alone.confounded[p]) continue;
+    const double apart = std::abs(alone.parameters[p] - torque.fit.parameters[p]);
+    const double size = std::max(std::abs(alone.parameters[p]), std::abs(torque.fit.parameters[p]));
+    const double std = std::sqrt(alone.covariance(p, p) + torque.fit.covariance(p, p));
+    if (apart > kOtherwise * size && apart > kOtherwiseStd * std) torque.fit.confounded[p] = true;
+  }
+}
+
+}  // namespace faultline
