@@ -33,12 +33,12 @@ Identification identify_log(const Log& log) {
   return identify(logs, bare_robot(), options);
 }
 
-/// Joints 1 and 2 rest.
+/// Joint 3 rests.
 const Identification& poorly_excited() {
   static const Identification id = [] {
     testing::ClosedFormRun run;
     run.duration_s = 8.0;
-    run.reach[0] = run.reach[1] = 0.0;
+    run.reach[2] = 0.0;
     return identify_log(testing::simulate_closed_form({}, run));
   }();
   return id;
@@ -81,13 +81,13 @@ TEST(SuggestMotion, StaysWithinWhatTheLogsShowed) {
   Reference at;
   for (double t = 0.0; t < motion.simulation.duration_s; t += 0.003) {
     reference.at(t, at);
-    const JointExcitation& seen = poor.excitation.joints[2];
-    EXPECT_GT(at.q[2], seen.q_low - 0.01 * (seen.q_high - seen.q_low));
-    EXPECT_LT(at.q[2], seen.q_high + 0.01 * (seen.q_high - seen.q_low));
-    EXPECT_LT(std::abs(at.dq[2]), 1.01 * std::max(seen.fastest_forward, seen.fastest_back));
+    const JointExcitation& seen = poor.excitation.joints[0];
+    EXPECT_GT(at.q[0], seen.q_low - 0.01 * (seen.q_high - seen.q_low));
+    EXPECT_LT(at.q[0], seen.q_high + 0.01 * (seen.q_high - seen.q_low));
+    EXPECT_LT(std::abs(at.dq[0]), 1.01 * std::max(seen.fastest_forward, seen.fastest_back));
   }
-  EXPECT_TRUE(motion.joints[1].beyond_logs);
-  EXPECT_FALSE(motion.joints[2].beyond_logs);
+  EXPECT_TRUE(motion.joints[2].beyond_logs);
+  EXPECT_FALSE(motion.joints[0].beyond_logs);
 }
 
 TEST(SuggestMotion, ThreadsDoNotChangeAByte) {
@@ -98,14 +98,14 @@ TEST(SuggestMotion, ThreadsDoNotChangeAByte) {
   EXPECT_EQ(text(1), text(2));
 }
 
-TEST(Excitation, NamesTheJointsThatRestAndWhatDoesNotShow) {
+TEST(Excitation, NamesTheJointThatRestsAndWhatDoesNotShow) {
   const Excitation& e = poorly_excited().excitation;
-  EXPECT_EQ(e.joints[2].lacks, "");
-  EXPECT_NE(e.joints[1].lacks.find("never moves"), std::string::npos);
-  const auto a =
-      std::find_if(e.parameters.begin(), e.parameters.end(), [](const auto& p) { return p.name == "a"; });
-  ASSERT_NE(a, e.parameters.end());
-  EXPECT_TRUE(std::isnan(a->own));
+  EXPECT_EQ(e.joints[0].lacks, "");
+  EXPECT_NE(e.joints[2].lacks.find("never moves"), std::string::npos);
+  const auto m3 =
+      std::find_if(e.parameters.begin(), e.parameters.end(), [](const auto& p) { return p.name == "m3"; });
+  ASSERT_NE(m3, e.parameters.end());
+  EXPECT_TRUE(std::isnan(m3->own));
 }
 
 TEST(Excitation, SaysWhenAJointMovesOneWayOnly) {
