@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +17,11 @@
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/html/identification/identification_page.hpp"
+#include "lib/identify/excitation/suggest_motion.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/report/identification_text.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -27,47 +32,45 @@ struct IdentifyArguments {
   std::string robot;
   std::string output;
   std::string json;
+  std::string html;
+  std::string suggest;
+  std::string pictures;
   IdentifyOptions options;
 };
 
 constexpr std::array kMethods{IdentifyMethod::automatic, IdentifyMethod::weak_form,
                               IdentifyMethod::output_error};
 
-std::string row(const ParameterEstimate& e) {
-  if (!e.identifiable) return fmt::format("  {:<9} not identifiable: {}\n", e.name, e.why_not);
-  if (e.std == 0.0)
-    return fmt::format("  {:<9} {:>12.6g}                              {} (given)\n", e.name, e.value,
-                       e.unit);
-  return fmt::format("  {:<9} {:>12.6g}  [{:.6g}, {:.6g}]  {}{}\n", e.name, e.value, e.ci95[0], e.ci95[1],
-                     e.unit, e.meaning.empty() || e.meaning == e.name ? "" : "   = " + e.meaning);
+/// The identified robot as a spec file in `spec`'s folder is to name it.
+std::string robot_beside(const std::string& robot, const std::string& spec) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(spec).lexically_normal().parent_path();
+  return fs::absolute(robot).lexically_normal().lexically_relative(folder).generic_string();
 }
 
-std::string table(const Identification& id) {
-  std::string text =
-      fmt::format("{}: {} by {}; {}\n", id.robot.name, to_string(id.status), to_string(id.method), id.reason);
-  text += "base parameters and friction [95 % interval]\n";
-  for (const auto& e : id.base_parameters) text += row(e);
-  text += "masses and lengths\n";
-  for (const auto& e : id.physical_parameters) text += row(e);
-  text += "fit\n";
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
-    text += fmt::format(
-        "  joint {}   R2 {:.5f}, held out {:.5f}; torque left over {:.4g} rms, {:.2g} ms late; noise of q "
-        "{:.3g}{}\n",
-        j + 1, id.fit_r2[j], id.held_out_r2[j], id.residual_rms[j], 1e3 * id.torque_delay_s[j], id.q_noise[j],
-        id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
-  for (const ModelTerm& t : id.terms)
-    text += fmt::format("  {:<9} {}: held-out residual of joint {} {:.4g} without, {:.4g} with it\n", t.name,
-                        t.kept ? "pays" : "does not pay", t.joint + 1, t.error_before, t.error_after);
-  text += fmt::format("  condition number {:.3g}\n", id.condition_number);
-  for (const auto& log : id.logs)
-    text += fmt::format("log {}: {} rows, sample period {:.6g} s\n", log.path, log.rows, log.sample_period_s);
-  for (const auto& issue : id.issues.all())
-    text += fmt::format("{}: {} ({} times)\n", to_string(issue.severity), issue.message, issue.count);
-  return text;
+/// Writes the suggested motion; returns what there is to say of it.
+std::string suggest(const Identification& id, const IdentifyArguments& arguments) {
+  const SuggestedMotion motion = suggest_motion(id, {.threads = arguments.options.threads});
+  write_file(arguments.suggest, suggestion_text(motion, robot_beside(arguments.output, arguments.suggest)));
+  return fmt::format("suggested motion: condition number {:.3g}, that of the logs is {:.3g}\n",
+                     motion.condition, motion.condition_of_logs);
+}
+
+void write_pictures(const Identification& id, const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  for (const NamedPlot& plot : identification_figures(id))
+    write_file((std::filesystem::path(folder) / (plot.name + ".svg")).string(), render_svg(plot.plot));
+}
+
+void check_outputs(const IdentifyArguments& arguments) {
+  if (!arguments.suggest.empty() && arguments.output == "-")
+    throw Error(
+        ErrorCode::usage, "--suggest",
+        "the suggested motion names the identified robot's file, and -o is standard output; give -o a file");
 }
 
 int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
+  check_outputs(arguments);
   const Robot robot = load_robot_file(arguments.robot);
   std::vector<std::unique_ptr<LogSource>> sources;
   std::vector<LogSource*> logs;
@@ -79,7 +82,11 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
   const Identification id = identify(logs, robot, arguments.options, bar.callback());
   if (!arguments.output.empty()) write_file(arguments.output, robot_text_for(arguments.output, id.robot));
   if (!arguments.json.empty()) write_file(arguments.json, to_json(id).dump(2) + "\n");
-  if (arguments.json != "-" && arguments.output != "-") print(table(id));
+  if (!arguments.html.empty()) write_file(arguments.html, render_identification_html(id));
+  if (!arguments.pictures.empty()) write_pictures(id, arguments.pictures);
+  const std::string suggested = arguments.suggest.empty() ? "" : suggest(id, arguments);
+  if (arguments.json != "-" && arguments.output != "-" && arguments.html != "-" && arguments.suggest != "-")
+    print(identification_text(id) + suggested);
   return id.status == IdentificationStatus::unexplained ? kFindings : kNothingFound;
 }
 
@@ -97,6 +104,10 @@ void add_identify(CLI::App& app, Program& program) {
                    "Write the identified robot file here, URDF for .urdf; - is standard output")
       ->required();
   command->add_option("--json", arguments->json, "Write the identification as JSON; - is standard output");
+  add_file_option(*command, "--html", arguments->html, "Write a page with plots");
+  command->add_option("--pictures", arguments->pictures, "Write the page's plots into this folder, as SVG");
+  add_file_option(*command, "--suggest", arguments->suggest,
+                  "Write a motion that tells the parameters better, a spec for faultline simulate");
   add_choice_option(*command, "--method", arguments->options.method, kMethods,
                     "automatic, weak_form or output_error");
   command->add_flag("--keep-all", arguments->options.keep_all, "Also use logs that disagree with the others");

@@ -8,7 +8,11 @@
 
 #include "lib/core/issue.hpp"
 #include "lib/core/random.hpp"
+#include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/parameter_space.hpp"
+#include "lib/identify/verdict/joint_fit.hpp"
+#include "lib/identify/verdict/parameter_trend.hpp"
+#include "lib/identify/verdict/residual_pattern.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -63,14 +67,6 @@ struct ModelTerm {
   double error_after = 0.0;   ///< with it
 };
 
-/// What moved one joint and what the model says should have, window by window, for pictures.
-struct JointFit {
-  std::vector<int> log;                    ///< from 0
-  std::vector<double> time_s;              ///< start of the window
-  std::vector<double> q, dq;               ///< in its middle
-  std::vector<double> measured, modelled;  ///< mean torque, N m or N
-};
-
 /// What healthy logs tell about a robot.
 struct Identification {
   IdentificationStatus status = IdentificationStatus::not_run;
@@ -93,7 +89,10 @@ struct Identification {
                                        ///< samples
   std::vector<IdentifiedLog> logs;
   Issues issues;
-  std::vector<JointFit> joint_fits;  ///< by joint; not kept in JSON
+  std::vector<JointFit> joint_fits;                ///< by joint; not kept in JSON
+  std::vector<ResidualPattern> residual_patterns;  ///< by joint
+  Excitation excitation;
+  std::vector<ParameterTrend> trends;  ///< with three logs or more, by the torque balance of each alone
 
   ParameterSpace space;
   Eigen::VectorXd estimate;    ///< all parameters of `space`

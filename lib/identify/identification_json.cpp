@@ -8,6 +8,7 @@
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/identify/verdict/verdict_json.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -136,6 +137,7 @@ void add_bends(const ParameterSpace& space, std::vector<double>& estimate, std::
 
 Identification read(const Json& j, const std::string& where) {
   Identification id = read_summary(j, where);
+  read_verdicts(j, id);
   const Json& state = j.at("state");
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
@@ -173,6 +175,7 @@ nlohmann::ordered_json summary_to_json(const Identification& id) {
 
 nlohmann::ordered_json to_json(const Identification& id) {
   nlohmann::ordered_json json = summary_to_json(id);
+  add_verdicts(id, json);
   json["state"] = state_json(id);
   return json;
 }

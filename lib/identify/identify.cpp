@@ -38,6 +38,15 @@ void take_logs(const Identification& from, const PayloadGroup& group, Identifica
   }
 }
 
+/// Curves and trends name logs in the order of all of them, not of their payload's.
+void number_logs(const PayloadGroup& group, Identification& id) {
+  const auto number = [&](int& log) { log = static_cast<int>(group.index[log]); };
+  for (JointFit& fit : id.joint_fits)
+    for (int& log : fit.log) number(log);
+  for (ParameterTrend& trend : id.trends)
+    for (LogValue& value : trend.by_log) number(value.log);
+}
+
 Issue payload_issue(const Identification& loaded, double payload) {
   return make_issue("payload_logs", Severity::note,
                     fmt::format("the logs with {:g} kg at the tip are {}: {}", payload,
@@ -73,6 +82,7 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
   const Identification first = id;
   id.logs.resize(logs.size());
   take_logs(first, groups[0], id);
+  number_logs(groups[0], id);
   for (std::size_t g = 1; g < groups.size(); ++g) {
     const AlikeFit loaded = fit_alike(groups[g].logs, robot, options, progress);
     estimates.push_back({loaded.id.estimate, loaded.id.covariance, loaded.usable, groups[g].payload});

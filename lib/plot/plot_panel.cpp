@@ -9,48 +9,20 @@
 #include <vector>
 
 #include "lib/core/markup.hpp"
+#include "lib/plot/plot_series.hpp"
 
 namespace faultline {
 namespace {
 
-std::string stroke(const PlotPen& pen) {
-  const std::string dashes = *pen.dashes ? fmt::format(" stroke-dasharray=\"{}\"", pen.dashes) : "";
-  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}",
-                     pen.colour, dashes);
-}
-
-bool drawable(double value, const PlotAxis& axis) {
-  return std::isfinite(value) && (!axis.logarithmic || value > 0.0);
-}
-
-/// Far beyond the frame is as good as at some distance, and keeps numbers short.
-double near_frame(double px) { return std::clamp(px, -5000.0, 5000.0); }
-
-std::string path_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis& y) {
-  std::string path;
-  bool pen_down = false;
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!drawable(series.y[i], y) || !std::isfinite(series.x[i])) {
-      pen_down = false;
-      continue;
+/// Ends of the error bars, so that the axis holds them.
+std::vector<double> bar_ends(const PlotPanel& panel) {
+  std::vector<double> ends;
+  for (const PlotSeries& series : panel.series)
+    for (std::size_t i = 0; i < series.bar.size(); ++i) {
+      ends.push_back(series.y[i] - series.bar[i]);
+      ends.push_back(series.y[i] + series.bar[i]);
     }
-    const double px = near_frame(x.px(series.x[i])), py = near_frame(y.px(series.y[i]));
-    if (pen_down && series.stairs)
-      path += fmt::format("H{:.1f}V{:.1f}", px, py);
-    else
-      path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", px, py);
-    pen_down = true;
-  }
-  return path;
-}
-
-std::string points_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis& y, const PlotPen& pen) {
-  std::string svg;
-  for (std::size_t i = 0; i < series.x.size(); ++i)
-    if (drawable(series.y[i], y) && std::isfinite(series.x[i]))
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.2\" fill=\"{}\"/>",
-                         near_frame(x.px(series.x[i])), near_frame(y.px(series.y[i])), pen.colour);
-  return svg;
+  return ends;
 }
 
 std::string grid(const PlotFrame& f, const PlotAxis& x, const PlotAxis& y) {
@@ -77,11 +49,9 @@ std::string legend(const PlotPanel& panel, const PlotFrame& f) {
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const std::string& name = panel.series[i].name;
     if (name.empty()) continue;
-    svg += fmt::format(
-        "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" {}/><text x=\"{:.1f}\" y=\"{:.1f}\">{}"
-        "</text>\n",
-        at, at + 26.0, f.top - 8.0, f.top - 8.0, stroke(pen_of(panel, i)), at + 31.0, f.top - 4.0,
-        escaped_markup(name));
+    svg += key_sample(panel.series[i], pen_of(panel, i), at, f.top - 8.0) +
+           fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", at + 31.0, f.top - 4.0,
+                       escaped_markup(name));
     at += 46.0 + 6.6 * static_cast<double>(name.size());
   }
   return svg;
@@ -139,6 +109,8 @@ std::string render_panel(const LinePlot& plot, std::size_t number, const PlotFra
   const PlotPanel& panel = plot.panels[number];
   std::vector<const std::vector<double>*> values;
   for (const PlotSeries& series : panel.series) values.push_back(&series.y);
+  const std::vector<double> ends = bar_ends(panel);
+  values.push_back(&ends);
   PlotAxis y = axis_over(values, panel.log_y);
   if (panel.y_range) std::tie(y.low, y.high) = *panel.y_range;
   y.from_px = f.bottom;
@@ -149,10 +121,8 @@ std::string render_panel(const LinePlot& plot, std::size_t number, const PlotFra
       "<clipPath id=\"{5}panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
       "</clipPath>\n<g clip-path=\"url(#{5}panel{0})\">\n",
       number, f.left, f.top, f.right - f.left, f.bottom - f.top, plot.id);
-  for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    svg += fmt::format("<path d=\"{}\" {}/>\n", path_of(panel.series[i], x, y), stroke(pen_of(panel, i)));
-    if (panel.series[i].points) svg += points_of(panel.series[i], x, y, pen_of(panel, i)) + "\n";
-  }
+  for (std::size_t i = 0; i < panel.series.size(); ++i)
+    svg += render_series(panel.series[i], pen_of(panel, i), x, y);
   svg += "</g>\n" + marks(plot, f, x, number == 0);
   svg +=
       fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#666666\"/>\n",

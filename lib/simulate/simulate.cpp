@@ -147,10 +147,14 @@ void check_simulation(const Robot& robot, const SimulationSpec& spec) {
   const Plant plant(robot, spec.stops, {}, spec.max_step_s);
 }
 
+Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
+  return {robot, spec.motion, spec.duration_s, Random::stream(seed, motion_stream).bits()};
+}
+
 SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
   const int ticks = check(robot, spec);
   const std::vector<FaultEvent> faults = real_faults(robot, spec);
-  const Motion motion(robot, spec.motion, spec.duration_s, Random::stream(seed, motion_stream).bits());
+  const Motion motion = reference_motion(robot, spec, seed);
   const Controller controller(robot, spec.controller, spec.control_period_s);
   Sensors sensors(robot.joints(), spec.noise, faults, Random::stream(seed, noise_stream));
   Plant plant(robot, spec.stops, faults, spec.max_step_s);

@@ -56,6 +56,9 @@ struct SimulatedRun {
 /// Throws Error(usage) naming the key when the spec does not fit the robot.
 void check_simulation(const Robot& robot, const SimulationSpec& spec);
 
+/// The reference that simulate() follows with the same robot, spec and seed.
+Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed);
+
 /// Simulates one run. The log's torque is the commanded one, after the torque limit; its row k is the reading
 /// at k sample periods and the torque that acts from then on. The same robot, spec and seed give the same
 /// bytes; motion and noise draw from separate streams, so that adding a fault changes neither. Throws

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/identify/excitation/tell_excitation.hpp"
+#include "lib/identify/verdict/single_log_fits.hpp"
+
 namespace faultline {
 namespace {
 
@@ -49,17 +52,25 @@ void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathe
                  const Eigen::VectorXd& residual, Identification& id) {
   id.joint_fits.assign(torque.system.joints, {});
   Eigen::Index row = 0;
-  for (int j = 0; j < torque.system.joints; ++j)
-    for (const WeakWindow& w : gathered.windows.sets[choice.weak.set[j]].all()) {
-      JointFit& fit = id.joint_fits[j];
+  for (int j = 0; j < torque.system.joints; ++j) {
+    JointFit& fit = id.joint_fits[j];
+    const WeakWindows& set = gathered.windows.sets[choice.weak.set[j]];
+    fit.window_s = set.length_s();
+    for (const WeakWindow& w : set.all()) {
       fit.log.push_back(w.log);
       fit.time_s.push_back(w.time_s);
       fit.q.push_back(w.q[j]);
       fit.dq.push_back(w.dq[j]);
       fit.measured.push_back(torque.system.y[row]);
       fit.modelled.push_back(torque.system.y[row] - residual[row]);
+      const auto friction = [&](int p) { return torque.system.a(row, p) * id.estimate[p]; };
+      fit.friction.push_back(friction(id.space.viscous(j)) + friction(id.space.coulomb(j)) +
+                             friction(id.space.offset(j)));
+      fit.moving.push_back(torque.system.use[row] > 0.0);
       ++row;
     }
+    id.residual_patterns.push_back(residual_pattern(fit));
+  }
 }
 
 /// A mass that no arm of this kind has, and that nobody has said it has.
@@ -112,6 +123,8 @@ void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathere
   id.terms = choice.terms;
   tell_delays(choice, gathered, id);
   keep_curves(torque, choice, gathered, residual, id);
+  id.excitation = tell_excitation(torque, still, id);
+  id.trends = parameter_trends(torque, id);
   find_unexplained(still, id);
   find_implausible(id);
 }

@@ -11,8 +11,8 @@ namespace faultline {
 inline constexpr double kExplained = 0.5;
 
 /// Fills in how well `id.estimate` explains the torque: by joint, by log and held out, what each term was
-/// worth and how late each torque acts. A joint that is hardly explained makes the status `unexplained`.
-/// Joints that never move (`still`, from 1) are not judged.
+/// worth, how late each torque acts, what is left of it and how it changes from log to log. A joint that is
+/// hardly explained makes the status `unexplained`. Joints that never move (`still`, from 1) are not judged.
 void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
                const std::vector<int>& still, Identification& id);
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// How likely so large a value is by chance alone.
+namespace faultline {
+
+/// P(X > x) of a chi-square variable with so many degrees of freedom, at least 1; 1 for x <= 0.
+double chi_square_tail(double x, int degrees);
+
+/// P(|T| > |t|) of Student's t with so many degrees of freedom, at least 1.
+double student_tail(double t, int degrees);
+
+/// P(|Z| > |z|) of a standard normal variable.
+double normal_tail(double z);
+
+}  // namespace faultline

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/excitation/suggest_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/core/parallel.hpp"
+#include "lib/core/random.hpp"
+#include "lib/identify/excitation/motion_moments.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+/// What a joint that the logs hardly moved may do, by kind of axis.
+struct Modest {
+  double range, speed, least_range, least_speed;
+};
+constexpr Modest kTurning = {1.0, 1.0, 0.3, 0.2}, kSliding = {0.1, 0.1, 0.03, 0.02};
+
+constexpr std::array<double, 4> kPeriods_s = {5.0, 8.0, 12.0, 20.0};
+constexpr int kFewestHarmonics = 3, kMoreHarmonics = 5;
+constexpr double kLeast_s = 20.0;              // of the motion: whole periods, at least so long
+constexpr double kSlowestSample_s = 0.005;     // a log that slow or slower is suggested at this period
+constexpr double kLook_s = 0.01;               // steps at which speed and torque are looked at
+constexpr std::uint64_t kSeedsApart = 100000;  // candidates of one seed are no candidates of the next
+
+struct Candidate {
+  std::uint64_t seed = 0;
+  SimulationSpec simulation;
+  Eigen::MatrixXd moments;
+};
+
+std::vector<SuggestedJoint> allowed_joints(const Identification& id) {
+  std::vector<SuggestedJoint> joints;
+  for (int j = 0; j < id.space.joints(); ++j) {
+    const bool turns = id.space.chain.geometry[j].kind == AxisKind::revolute;
+    const Modest& modest = turns ? kTurning : kSliding;
+    const JointExcitation& seen = id.excitation.joints[j];
+    SuggestedJoint joint{id.space.chain.geometry[j].kind, seen.q_low, seen.q_high,
+                         std::max(seen.fastest_forward, seen.fastest_back)};
+    if (joint.high - joint.low < modest.least_range) {
+      const double middle = 0.5 * (joint.low + joint.high);
+      joint.low = middle - 0.5 * modest.range;
+      joint.high = middle + 0.5 * modest.range;
+      joint.beyond_logs = true;
+    }
+    if (joint.fastest < modest.least_speed) {
+      joint.fastest = modest.speed;
+      joint.beyond_logs = true;
+    }
+    joints.push_back(joint);
+  }
+  return joints;
+}
+
+/// The largest speed of each joint over a period.
+Eigen::VectorXd fastest_of(const Motion& motion, int joints, double period_s) {
+  Eigen::VectorXd fastest = Eigen::VectorXd::Zero(joints);
+  Reference at;
+  for (double t = 0.0; t < period_s; t += kLook_s) {
+    motion.at(t, at);
+    fastest = fastest.cwiseMax(at.dq.cwiseAbs());
+  }
+  return fastest;
+}
+
+void set_ranges(const std::vector<SuggestedJoint>& joints, const Eigen::VectorXd& share, MotionSpec& motion) {
+  motion.low.clear();
+  motion.high.clear();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const double middle = 0.5 * (joints[j].low + joints[j].high);
+    const double half = 0.5 * (joints[j].high - joints[j].low) * share[static_cast<Eigen::Index>(j)];
+    motion.low.push_back(middle - half);
+    motion.high.push_back(middle + half);
+  }
+}
+
+/// Random harmonics over the allowed ranges, those of a joint that would be too fast made smaller.
+Candidate draw_candidate(const Identification& id, const std::vector<SuggestedJoint>& joints,
+                         const SimulationSpec& common, std::uint64_t seed) {
+  Random random(seed);
+  Candidate out{seed, common, {}};
+  MotionSpec& motion = out.simulation.motion;
+  motion.profile = MotionProfile::fourier;
+  motion.fourier_period_s = kPeriods_s[random.bits() % kPeriods_s.size()];
+  motion.harmonics = kFewestHarmonics + static_cast<int>(random.bits() % kMoreHarmonics);
+  const double period_s = motion.fourier_period_s;
+  out.simulation.duration_s = period_s * std::ceil(kLeast_s / period_s);
+  Eigen::VectorXd share = Eigen::VectorXd::Ones(id.space.joints());
+  set_ranges(joints, share, motion);
+  const Eigen::VectorXd fastest =
+      fastest_of(reference_motion(id.robot, out.simulation, seed), id.space.joints(), period_s);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    share[i] = std::min(1.0, joints[j].fastest / std::max(fastest[i], 1e-12));
+  }
+  set_ranges(joints, share, motion);
+  out.moments =
+      motion_moments(id.space, id.excitation, reference_motion(id.robot, out.simulation, seed), period_s);
+  return out;
+}
+
+/// Sampling and noise as the logs had them.
+SimulationSpec common_of(const Identification& id) {
+  SimulationSpec spec;
+  double period_s = kSlowestSample_s;
+  for (const IdentifiedLog& log : id.logs)
+    if (log.sample_period_s > 0.0) period_s = std::min(period_s, log.sample_period_s);
+  spec.sample_period_s = spec.control_period_s = period_s;
+  spec.max_step_s = std::min(spec.max_step_s, period_s);
+  spec.noise.q = id.q_noise;
+  spec.noise.dq = id.dq_noise;
+  return spec;
+}
+
+void tell_joints(const Identification& id, const Candidate& best, SuggestedMotion& out) {
+  const Motion motion = reference_motion(id.robot, best.simulation, best.seed);
+  const double period_s = best.simulation.motion.fourier_period_s;
+  const Eigen::VectorXd fastest = fastest_of(motion, id.space.joints(), period_s);
+  Eigen::VectorXd torque = Eigen::VectorXd::Zero(id.space.joints());
+  Reference at;
+  for (double t = 0.0; t < period_s; t += kLook_s) {
+    motion.at(t, at);
+    torque = torque.cwiseMax(inverse_dynamics(id.robot.chain, at.q, at.dq, at.ddq).cwiseAbs());
+  }
+  for (std::size_t j = 0; j < out.joints.size(); ++j) {
+    SuggestedJoint& joint = out.joints[j];
+    joint.low = best.simulation.motion.low[j];
+    joint.high = best.simulation.motion.high[j];
+    joint.fastest = fastest[static_cast<Eigen::Index>(j)];
+    joint.torque = torque[static_cast<Eigen::Index>(j)];
+  }
+}
+
+}  // namespace
+
+SuggestedMotion suggest_motion(const Identification& id, const SuggestOptions& options) {
+  SuggestedMotion out;
+  out.joints = allowed_joints(id);
+  const SimulationSpec common = common_of(id);
+  std::vector<Candidate> candidates(options.candidates);
+  parallel_for(options.candidates, options.threads, [&](int i) {
+    candidates[i] =
+        draw_candidate(id, out.joints, common, options.seed * kSeedsApart + static_cast<std::uint64_t>(i));
+  });
+  const auto count = static_cast<Eigen::Index>(id.excitation.columns.size());
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(count);
+  for (const Candidate& c : candidates) square += c.moments.diagonal() / options.candidates;
+  const Eigen::VectorXd unit = square.cwiseSqrt();
+  std::size_t best = 0;
+  std::vector<double> condition;
+  for (const Candidate& c : candidates) condition.push_back(condition_of(c.moments, unit));
+  best = static_cast<std::size_t>(std::min_element(condition.begin(), condition.end()) - condition.begin());
+  out.simulation = candidates[best].simulation;
+  out.seed = candidates[best].seed;
+  out.condition = condition[best];
+  out.condition_of_logs = condition_of(id.excitation.moments, unit);
+  tell_joints(id, candidates[best], out);
+  return out;
+}
+
+}  // namespace faultline
