@@ -114,7 +114,7 @@ void add_identify(CLI::App& app, Program& program) {
   command
       ->add_option("--threads", arguments->options.threads,
                    "Threads; 0 is one a core. The result does not depend on it")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, kMostThreads));
   command->footer(
       "Exit status 0: identified, 1: the logs are not what this robot needs for its motion (unexplained).\n"
       "Example: faultline identify healthy1.csv healthy2.csv --robot robot.toml -o identified.toml");

@@ -25,7 +25,9 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::st
 }
 
 CLI::Option* add_threads_option(CLI::App& command, int& threads) {
-  return command.add_option("--threads", threads, "0 = one a core; changes no byte")->capture_default_str();
+  return command.add_option("--threads", threads, "0 = one a core; changes no byte")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
 }
 
 void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std::string& help) {

@@ -32,6 +32,8 @@ CLI::Option* add_cases_option(CLI::App& command, ModelPaths& paths, const std::s
 CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::string& path,
                              const std::string& what, const std::string& where = "; - for standard output");
 
+inline constexpr int kMostThreads = 1024;
+
 /// --threads of work whose result does not depend on it.
 CLI::Option* add_threads_option(CLI::App& command, int& threads);
 

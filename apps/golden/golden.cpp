@@ -41,7 +41,7 @@ void add_golden_json(CLI::App& command, GoldenArguments& arguments) {
 }
 
 void add_golden_threads(CLI::App& command, GoldenArguments& arguments) {
-  add_threads_option(command, arguments.threads)->check(CLI::NonNegativeNumber);
+  add_threads_option(command, arguments.threads);
 }
 
 void add_golden(CLI::App& app, Program& program) {

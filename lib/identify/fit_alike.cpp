@@ -97,7 +97,7 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
   id.issues.add(
       make_issue("misread_columns", Severity::severe,
                  fmt::format("it looks as if {}: then the robot explains at least {:.1f} % of every joint's "
-                             "torque, as the logs are read now {}; write {} into [log.columns]",
+                             "torque, as the logs are read now {}; {}",
                              found.what, 100.0 * found.r2_after,
                              found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
                                                    : std::string("it does not"),
@@ -106,16 +106,20 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
 
 /// The motion's fit where it helps, else the torque balance's.
 void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, TorqueFit& torque,
-                   const std::vector<int>& still, const Eigen::VectorXd& nominal,
-                   const IdentifyOptions& options, const Progress& progress, Identification& id) {
-  const double worst = *std::min_element(torque.fit.r2.begin(), torque.fit.r2.end());
-  if (options.method == IdentifyMethod::automatic && worst < kWorthShooting && still.empty()) {
+                   const Eigen::VectorXd& nominal, const IdentifyOptions& options, const Progress& progress,
+                   Identification& id) {
+  const std::vector<bool>& still = gathered.windows.still;
+  const bool moves = std::count(still.begin(), still.end(), true) == 0;  // all joints do: else M is not told
+  double worst = 1.0;
+  for (int j = 0; j < id.space.joints(); ++j)
+    if (!still[j]) worst = std::min(worst, torque.fit.r2[j]);
+  if (options.method == IdentifyMethod::automatic && worst < kWorthShooting) {
     id.issues.add(
         make_issue("torque_unexplained", Severity::note,
                    fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
                                "fitted",
                                100.0 * std::max(worst, 0.0))));
-  } else if (options.method != IdentifyMethod::weak_form) {
+  } else if (options.method != IdentifyMethod::weak_form && moves) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
       start.fit.parameters[id.space.log_width(j)] = nominal[id.space.log_width(j)];
@@ -142,7 +146,8 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.robot = robot;
   id.space = parameter_space(robot);
   Gathered gathered = gather(logs, options.window_s, options.max_windows, progress, id);
-  const std::vector<int> still = still_joints(gathered.measurements, id.space.joints());
+  const std::vector<int> still = still_joints(gathered.measurements, id.space);
+  gathered.leave_out_joints(still);
   Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
   nominal.segment(id.space.bend(0), 2 * id.space.joints()).setZero();
   const WantedParameters wanted =
@@ -152,6 +157,7 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
                         wanted.optional, gathered.windows.shifts,
                         static_cast<int>(gathered.windows.sets.size()));
   };
+  gathered.leave_out(repeated_logs(id));
   ModelChoice choice = choose();
   if (const std::vector<int> odd = odd_logs(choice); !odd.empty()) {
     name_odd_logs(odd, options.keep_all, id);
@@ -162,24 +168,25 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   }
   TorqueFit torque = fit_torque(gathered, choice, nominal, id);
   choice.weak.shift = torque.shift;
-  settle_method(logs, gathered, torque, still, nominal, options, progress, id);
+  settle_method(logs, gathered, torque, nominal, options, progress, id);
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);
   doubt_still_joints(id.space, still, torque);
   doubt_undriven_joints(id.space, undriven, torque);
+  const std::vector<int> leaning = doubt_beside_offsets(id.space, robot, torque);
   id.condition_number = torque.fit.condition_number;
-  judge_fit(torque, choice, gathered, still, id);
+  judge_fit(torque, choice, gathered, still, undriven, id);
   tell_spread(choice, id);
   question_columns(logs, still, id.issues.find("infeasible") != nullptr, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(nominal, id.space, id.estimate);
-  list_base_parameters(torque.fit, {torque.wanted, still, undriven, has_fast_log(id)}, id);
+  list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
   if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; what fits best is no robot that can be";
   }
   if (!all_told(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; " + (still.empty() && !undriven.empty() ? not_driven(undriven) : not_excited(still));
+    id.reason += "; " + why_not_told(still, undriven, leaning);
   }
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);

@@ -11,8 +11,9 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kWindows = 10;         // fewer tell nothing
-constexpr std::int64_t kMostRows = 400'000;  // of longer logs every n-th stretch is used
+constexpr std::size_t kWindows = 10;                     // fewer tell nothing
+constexpr double kLeastTurn = 2e-3, kLeastWay_m = 2e-4;  // rad, m: less is stiction giving way
+constexpr std::int64_t kMostRows = 400'000;              // of longer logs every n-th stretch is used
 
 /// Every how many stretches one is used, so that long logs cost no more than is worth it.
 int stretch_stride(const std::vector<LogSurvey>& surveys) {
@@ -97,10 +98,18 @@ void Gathered::leave_out(const std::vector<int>& logs) {
   for (WeakWindows& set : windows.sets) set.leave_out(left_out);
 }
 
-std::vector<int> still_joints(const Measurements& measurements, int joints) {
+void Gathered::leave_out_joints(const std::vector<int>& still) {
+  windows.still.assign(windows.space.joints(), false);
+  for (const int joint : still) windows.still[joint - 1] = true;
+}
+
+std::vector<int> still_joints(const Measurements& measurements, const ParameterSpace& space) {
   std::vector<int> still;
-  for (int j = 0; j < joints; ++j)
-    if (measurements.still(j)) still.push_back(j + 1);
+  const Eigen::VectorXd range = measurements.q_high() - measurements.q_low();
+  for (int j = 0; j < space.joints(); ++j) {
+    const double least = space.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
+    if (measurements.still(j) || range[j] < least) still.push_back(j + 1);
+  }
   return still;
 }
 

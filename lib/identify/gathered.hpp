@@ -22,6 +22,8 @@ struct Gathered {
   std::vector<bool> left_out;  ///< by log: its windows and excerpts do not count
 
   void leave_out(const std::vector<int>& logs);
+  /// The balances of those joints, from 1, do not count.
+  void leave_out_joints(const std::vector<int>& still);
 };
 
 /// Reads every log twice; what is known of each goes to `id.logs`, what was wrong to `id.issues`. Throws
@@ -29,8 +31,9 @@ struct Gathered {
 Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
                 const Progress& progress, Identification& id);
 
-/// Joints, from 1, whose position hardly changed against its noise in all logs.
-std::vector<int> still_joints(const Measurements& measurements, int joints);
+/// Joints, from 1, whose position hardly changed in all logs, against its noise or at all: less than 2 mrad
+/// or .2 mm.
+std::vector<int> still_joints(const Measurements& measurements, const ParameterSpace& space);
 
 /// Excerpts of the logs with each joint's torque shifted by as many samples as it acts later.
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,

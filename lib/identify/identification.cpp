@@ -17,6 +17,8 @@ const char* to_string(IdentificationStatus status) {
       return "not_converged";
     case IdentificationStatus::poorly_excited:
       return "poorly_excited";
+    case IdentificationStatus::poorly_explained:
+      return "poorly_explained";
     case IdentificationStatus::unexplained:
       return "unexplained";
   }

@@ -20,9 +20,10 @@ namespace faultline {
 enum class IdentificationStatus {
   not_run,
   converged,
-  not_converged,   ///< values are the best found, not an optimum
-  poorly_excited,  ///< converged, but some parameters could not be told from the motion and were kept
-  unexplained,     ///< the model does not explain the torque of some joint: its values mean nothing
+  not_converged,     ///< values are the best found, not an optimum
+  poorly_excited,    ///< converged, but some parameters could not be told from the motion and were kept
+  poorly_explained,  ///< the model leaves more than a twentieth of some joint's torque: its values are rough
+  unexplained,       ///< the model does not explain the torque of some joint: its values mean nothing
 };
 
 const char* to_string(IdentificationStatus status);

@@ -98,7 +98,7 @@ Identification read_summary(const Json& j, const std::string& where) {
   Identification id;
   id.status = enum_from(j.at("status").get<std::string>(),
                         {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited,
-                         Status::unexplained},
+                         Status::poorly_explained, Status::unexplained},
                         where);
   id.reason = j.at("reason");
   id.method = enum_from(j.at("method").get<std::string>(),

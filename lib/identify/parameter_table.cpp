@@ -48,11 +48,11 @@ std::string why_not(const Identification& id, int p, const TableFacts& facts) {
   const std::vector<int> still = still_for(id, p, facts.still);
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
   if (p > id.space.timing()) return why_width(id, p, facts);
-  if (p < id.space.rigid() && id.space.base[p].is_rotor)
+  if (p < id.space.rigid() && id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0))
     return fmt::format("left at {:g}: it does not pay on data that were not fitted", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
     return fmt::format("left at {:g}: the robot file says how torque runs between samples", id.estimate[p]);
-  if (p < id.space.rigid() && !facts.undriven.empty()) return not_driven(facts.undriven);
+  if (p < id.space.rigid()) return why_not_told(facts.still, facts.undriven, facts.leaning);
   return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
 }
 
@@ -81,11 +81,19 @@ std::string not_excited(const std::vector<int>& still) {
                      fmt::join(still, ", "));
 }
 
-std::string not_driven(const std::vector<int>& undriven) {
-  return fmt::format(
-      "joint {} is hardly driven, and the other joints tell something else; give a log in which "
-      "it is driven",
-      fmt::join(undriven, ", "));
+std::string why_not_told(const std::vector<int>& still, const std::vector<int>& undriven,
+                         const std::vector<int>& leaning) {
+  if (still.empty() && !leaning.empty())
+    return fmt::format(
+        "a friction offset of joint {0} would act like its mass and rotor; state fo{0} under "
+        "[known], 0 when its friction is the same both ways",
+        leaning.front());
+  if (still.empty() && !undriven.empty())
+    return fmt::format(
+        "joint {} is hardly driven, and the other joints tell something else; give a log in which "
+        "it is driven",
+        fmt::join(undriven, ", "));
+  return not_excited(still);
 }
 
 void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id) {

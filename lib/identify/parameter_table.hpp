@@ -17,13 +17,15 @@ struct TableFacts {
   std::vector<bool> asked;    ///< by parameter: the weak form was to estimate it
   std::vector<int> still;     ///< joints that never move, from 1
   std::vector<int> undriven;  ///< joints with next to no torque, from 1
+  std::vector<int> leaning;   ///< joints whose mass and rotor lean on no friction offset, from 1
   bool fast = true;           ///< some log is faster than kShowsFriction_s
 };
 
 /// What to record so that the motion tells a parameter.
 std::string not_excited(const std::vector<int>& still);
-/// The same for what a joint with next to no torque carries.
-std::string not_driven(const std::vector<int>& undriven);
+/// The same where joints may be still, hardly driven or lean on there being no friction offset, all from 1.
+std::string why_not_told(const std::vector<int>& still, const std::vector<int>& undriven,
+                         const std::vector<int>& leaning);
 
 /// Fills id.base_parameters from id.estimate and id.covariance: every parameter of the space, those that
 /// were not identified with the reason.

@@ -93,6 +93,13 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
   return out;
 }
 
+/// What is free is as doubtful as the friction widths make it.
+void add_doubt(const Eigen::MatrixXd& doubt, WeakFit& fit) {
+  for (Eigen::Index i = 0; i < doubt.rows(); ++i)
+    for (Eigen::Index k = 0; k < doubt.cols(); ++k)
+      if (fit.covariance(i, i) > 0.0 && fit.covariance(k, k) > 0.0) fit.covariance(i, k) += doubt(i, k);
+}
+
 /// Torque that runs between samples lies between two of them: what the timing says beyond is whole samples of
 /// delay, of all joints.
 void settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
@@ -120,9 +127,11 @@ TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const 
   settle_timing(gathered.windows, id.space, nominal, choice.weak, out);
   drop_driving_friction(id.space, nominal, out);
   hold_at_zero(id.space, nominal, out);
+  add_doubt(choice.width_doubt, out.fit);
   const std::string wrong = what_is_wrong(out, gathered, id.space);
   if (wrong.empty()) return out;
   TorqueFit rotors = with_rotors(out, id.space, id.robot, nominal);
+  add_doubt(choice.width_doubt, rotors.fit);
   if (what_is_wrong(rotors, gathered, id.space).empty()) return rotors;
   out.fit.parameters.head(id.space.linear()) =
       nearest_feasible(id.space, id.robot, out.system, out.fit, out.wanted).head(id.space.linear());

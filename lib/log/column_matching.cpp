@@ -11,6 +11,8 @@
 namespace faultline {
 namespace {
 
+constexpr int kMostJoints = 64;
+
 class Matcher {
  public:
   Matcher(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path)
@@ -129,7 +131,19 @@ class Matcher {
     });
   }
 
+  /// Joints beside those that the robot file names by their usual names have theirs.
+  void match_usual_names(Quantity quantity) {
+    const bool usual = std::any_of(taken_.begin(), taken_.end(), [&](const Channel& channel) {
+      const int column = column_named(to_string(channel));
+      return channel.quantity == quantity && column >= 0 && used_.count(column) > 0;
+    });
+    for (int j = 1; usual && j <= kMostJoints; ++j)
+      if (const int column = column_named(to_string({quantity, j})); column >= 0 && !used_.count(column))
+        add({quantity, j}, column);
+  }
+
   void match_quantity(Quantity quantity) {
+    if (named_in_map(quantity)) match_usual_names(quantity);
     const ColumnFamily* family = named_in_map(quantity) ? nullptr : best_family(families_, quantity);
     if (family) {
       const int joints =

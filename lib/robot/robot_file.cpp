@@ -96,12 +96,14 @@ void read_known(Robot& robot, const TomlTable& table) {
       const std::string near = nearest_word(key, names);
       known.fail(
           key,
-          fmt::format("is no parameter of this robot; expected m, l, fv, fc, fo or jr with a joint from 1 "
-                      "to {}{}",
-                      robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+          fmt::format(
+              "is no parameter of this robot; expected m, l, fv, fc, fo, fb, fs or jr with a joint from 1 "
+              "to {}{}",
+              robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
     }
     const KnownValue fact = known_value(known, key);
-    if (fact.value < 0.0 && key.substr(0, 2) != "fo")
+    const std::string kind = key.substr(0, 2);
+    if (fact.value < 0.0 && kind != "fo" && kind != "fb" && kind != "fs")
       known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
     robot.known[key] = fact;
     set_parameter(robot, key, fact.value);

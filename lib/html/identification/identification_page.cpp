@@ -26,6 +26,7 @@ const char* colour_of(IdentificationStatus status) {
     case IdentificationStatus::not_run:
     case IdentificationStatus::not_converged:
     case IdentificationStatus::poorly_excited:
+    case IdentificationStatus::poorly_explained:
       return "inconclusive";
   }
   return "inconclusive";

@@ -1,19 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/verdict/doubtful_parameters.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "lib/identify/weak_form/column_selection.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kShown = 1e-6;      // share of the squared column that moving joints must carry
-constexpr double kUndriven = 0.05;   // of the largest torque of joints of the same kind
-constexpr double kOtherwise = 0.2;   // of a parameter: the driven joints tell another value,
-constexpr double kOtherwiseStd = 3;  // by so many standard deviations
+constexpr double kShown = 1e-6;          // share of the squared column that moving joints must carry
+constexpr double kUndriven = 0.05;       // of the largest torque of joints of the same kind
+constexpr double kFrictionAlone = 0.95;  // of what is explained of a torque: nothing drives that joint
+constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints tell another value,
+constexpr double kOtherwiseStd = 3;      // by so many standard deviations
 
 bool has(const std::vector<int>& joints, int joint) {
   return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
+}
+
+/// Of the torque that the model explains of each joint, the share that its own friction alone explains.
+Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& torque) {
+  const WeakSystem& s = torque.system;
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(space.joints());
+  for (int j = 0; j < space.joints(); ++j) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index k = 0; k < s.y.size(); ++k)
+      if (s.joint[k] == j && s.use[k] > 0.0) rows.push_back(k);
+    if (rows.empty()) continue;
+    const std::vector<int> own{space.viscous(j), space.coulomb(j), space.offset(j)};
+    const Eigen::MatrixXd a = s.a(rows, own);
+    const Eigen::VectorXd y = s.y(rows), left = y - a * a.colPivHouseholderQr().solve(y);
+    const double all = y.squaredNorm(), explained = all - torque.fit.residual(rows).squaredNorm();
+    if (explained > 0.0) share[j] = (all - left.squaredNorm()) / explained;
+  }
+  return share;
 }
 
 }  // namespace
@@ -32,6 +55,7 @@ void doubt_still_joints(const ParameterSpace& space, const std::vector<int>& sti
 
 std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque) {
   const int n = space.joints();
+  const Eigen::VectorXd friction = friction_share(space, torque);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(n), rows = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < torque.system.y.size(); ++k)
     if (torque.system.use[k] > 0.0) {
@@ -43,7 +67,7 @@ std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& t
   for (int j = 0; j < n; ++j)
     for (int other = 0; other < n; ++other)
       if (space.chain.geometry[other].kind == space.chain.geometry[j].kind && rows[j] > 0.0 &&
-          rms[j] < kUndriven * rms[other]) {
+          (rms[j] < kUndriven * rms[other] || (rms[j] < rms[other] && friction[j] > kFrictionAlone))) {
         undriven.push_back(j + 1);
         break;
       }
@@ -67,6 +91,25 @@ void doubt_undriven_joints(const ParameterSpace& space, const std::vector<int>& 
     const double std = std::sqrt(alone.covariance(p, p) + torque.fit.covariance(p, p));
     if (apart > kOtherwise * size && apart > kOtherwiseStd * std) torque.fit.confounded[p] = true;
   }
+}
+
+std::vector<int> doubt_beside_offsets(const ParameterSpace& space, const Robot& robot, TorqueFit& torque) {
+  std::vector<int> joints;
+  const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
+  for (int rotor = 0; rotor < space.rigid(); ++rotor) {
+    if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || torque.fit.confounded[rotor]) continue;
+    const int joint = space.name(rotor).back() - '1';
+    if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
+      continue;
+    std::vector<bool> wanted = torque.fit.free;
+    wanted[space.offset(joint)] = true;
+    const ColumnSelection with = select_columns(a, wanted, space.rigid());
+    if (!with.confounded[space.offset(joint)]) continue;
+    joints.push_back(joint + 1);
+    for (int p = 0; p < space.rigid(); ++p)
+      if (torque.fit.free[p] && with.confounded[p]) torque.fit.confounded[p] = true;
+  }
+  return joints;
 }
 
 }  // namespace faultline

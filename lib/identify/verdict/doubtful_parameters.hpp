@@ -12,11 +12,16 @@ namespace faultline {
 /// `torque.fit.confounded`. `still` counts joints from 1.
 void doubt_still_joints(const ParameterSpace& space, const std::vector<int>& still, TorqueFit& torque);
 
-/// Joints, from 1, whose torque is next to none beside that of the others of their kind.
+/// Joints, from 1, whose torque is next to none beside that of the others of their kind, or friction alone.
 std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque);
 
 /// A link that an undriven joint carries is explained well by no mass at all: what the driven joints alone
 /// tell clearly otherwise is marked in `torque.fit.confounded`.
 void doubt_undriven_joints(const ParameterSpace& space, const std::vector<int>& undriven, TorqueFit& torque);
+
+/// A rotor and the mass beside it lean on there being no friction offset where an offset, left out because
+/// another mixture explains as much, would be mixed with them (m, jr and offset of an axis under gravity):
+/// they are marked in `torque.fit.confounded`. Gives those joints, from 1.
+std::vector<int> doubt_beside_offsets(const ParameterSpace& space, const Robot& robot, TorqueFit& torque);
 
 }  // namespace faultline

@@ -14,6 +14,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kWellExplained = 0.95;                // of a joint's torque
+constexpr double kLightOfRotor = 0.01;                 // a mass that gravity does not feel comes out as rotor
 constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg, of what hangs on a sliding axis
 
 /// Sums over the rows of one joint (and log) that count.
@@ -73,6 +75,14 @@ void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathe
   }
 }
 
+/// Rotor inertia of the joint that a mass is named after, kg; 0 when it has none.
+double rotor_beside(const Identification& id, int mass) {
+  const std::string rotor = "jr" + id.space.name(mass).substr(1);
+  for (int p = 0; p < id.space.rigid(); ++p)
+    if (id.space.base[p].is_rotor && id.space.name(p) == rotor) return id.estimate[p];
+  return 0.0;
+}
+
 /// A mass that no arm of this kind has, and that nobody has said it has.
 void find_implausible(Identification& id) {
   for (const auto& [name, fact] : id.robot.known)
@@ -80,6 +90,14 @@ void find_implausible(Identification& id) {
   for (int p = 0; p < id.space.rigid(); ++p) {
     const double mass = id.estimate[p];
     if (!id.space.base[p].is_mass || !(id.covariance(p, p) > 0.0)) continue;
+    if (std::abs(mass) < kLightOfRotor * rotor_beside(id, p)) {
+      id.status = IdentificationStatus::unexplained;
+      id.reason += fmt::format(
+          "; no gravity is felt by {0}, which came out as {1:.4g} kg: is its axis horizontal, or the order of "
+          "axes another? Say so by gravity or axes in the robot file, or state {0} under [known]",
+          id.space.name(p), mass);
+      continue;
+    }
     if (mass > kLightest && mass < kHeaviest) continue;
     id.status = IdentificationStatus::unexplained;
     id.reason += fmt::format(
@@ -100,10 +118,30 @@ void find_unexplained(const std::vector<int>& still, Identification& id) {
                            fmt::join(joints, ", "));
 }
 
+/// Torque of moving, driven joints that the model explains in part only, or only where it was fitted.
+void find_poorly_explained(const std::vector<int>& exempt, Identification& id) {
+  if (id.status != IdentificationStatus::converged) return;
+  for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {
+    if (std::count(exempt.begin(), exempt.end(), static_cast<int>(j) + 1) > 0) continue;
+    const double held_out = id.held_out_r2[j];
+    if (id.fit_r2[j] >= kWellExplained && held_out >= kWellExplained) continue;
+    id.status = IdentificationStatus::poorly_explained;
+    id.reason += fmt::format(
+        "; joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of what was held "
+        "out, so values are rough: {}",
+        j + 1, 100.0 * std::max(id.fit_r2[j], 0.0), 100.0 * std::max(held_out, 0.0),
+        id.fit_r2[j] >= kWellExplained
+            ? "the logs are too short for this many parameters; give longer ones"
+            : "is the load, the gravity or the order of axes another, or friction of "
+              "a kind the model lacks?");
+    return;
+  }
+}
+
 }  // namespace
 
 void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-               const std::vector<int>& still, Identification& id) {
+               const std::vector<int>& still, const std::vector<int>& undriven, Identification& id) {
   const WeakSystem& s = torque.system;
   const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
   std::vector<Sums> joints(s.joints);
@@ -127,6 +165,9 @@ void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathere
   id.trends = parameter_trends(torque, id);
   find_unexplained(still, id);
   find_implausible(id);
+  std::vector<int> exempt = still;
+  exempt.insert(exempt.end(), undriven.begin(), undriven.end());
+  find_poorly_explained(exempt, id);
 }
 
 }  // namespace faultline

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/verdict/log_agreement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -39,6 +42,22 @@ std::vector<int> odd_logs(const ModelChoice& choice) {
     }
   if (2 * odd.size() >= static_cast<std::size_t>(logs)) odd.clear();
   return odd;
+}
+
+std::vector<int> repeated_logs(Identification& id) {
+  std::vector<int> repeated;
+  for (std::size_t i = 0; i < id.logs.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (id.logs[i].sha256.empty() || id.logs[i].sha256 != id.logs[k].sha256 || id.logs[k].left_out)
+        continue;
+      repeated.push_back(static_cast<int>(i));
+      id.logs[i].left_out = true;
+      id.issues.add(make_issue(fmt::format("repeated_log_{}", i + 1), Severity::warning,
+                               fmt::format("{} is {} once more, byte for byte; it was left out",
+                                           id.logs[i].path, id.logs[k].path)));
+      break;
+    }
+  return repeated;
 }
 
 void tell_spread(const ModelChoice& choice, Identification& id) {

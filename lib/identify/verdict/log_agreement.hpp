@@ -15,4 +15,7 @@ std::vector<int> odd_logs(const ModelChoice& choice);
 /// Tells how far logs differ: the standard deviation between fits to single logs, by parameter.
 void tell_spread(const ModelChoice& choice, Identification& id);
 
+/// Logs, from 0, that are another by its bytes; they are marked as left out and named in `id.issues`.
+std::vector<int> repeated_logs(Identification& id);
+
 }  // namespace faultline

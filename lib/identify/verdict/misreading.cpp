@@ -30,6 +30,7 @@ constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, b
 struct Reading {
   std::string what, cure;
   std::function<void(Log&)> apply;
+  std::function<void(Robot&)> robot = {};  ///< what the robot file would say instead; none: as it is
 };
 
 void scale(std::vector<double>& values, double by) {
@@ -108,6 +109,39 @@ void add_swaps(const Robot& robot, std::vector<Reading>& out) {
     }
 }
 
+/// Gravity along another axis, or none: an arm on its side, hanging, or of horizontal axes.
+void add_gravity(const Robot& robot, std::vector<Reading>& out) {
+  constexpr double kG = 9.81, kApart = 1.0;  // m/s^2
+  std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) tried.push_back(sign * kG * Eigen::Vector3d::Unit(axis));
+  for (const Eigen::Vector3d& gravity : tried) {
+    if ((gravity - robot.chain.gravity).norm() < kApart) continue;
+    const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
+    out.push_back({fmt::format("gravity is {}", text), fmt::format("gravity = {}", text), [](Log&) {},
+                   [gravity](Robot& other) { other.chain.gravity = gravity; }});
+  }
+}
+
+/// Whether a reading makes of a motion one too small to be meant.
+bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& after, const Robot& robot) {
+  constexpr double kLeastTurn = 0.03, kLeastWay_m = 0.003;
+  const auto range = [](const std::vector<Log>& logs, int j) {
+    double widest = 0.0;
+    for (const Log& log : logs) {
+      const auto [low, high] = std::minmax_element(log.q[j].begin(), log.q[j].end());
+      if (low != log.q[j].end()) widest = std::max(widest, *high - *low);
+    }
+    return widest;
+  };
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double least = robot.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
+    const double now = range(after, j);
+    if (now < least && now < 0.5 * range(before, j)) return true;
+  }
+  return false;
+}
+
 /// How well a reading of the logs is explained.
 struct Explained {
   std::vector<double> r2;  ///< by joint
@@ -132,9 +166,10 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
   try {
     Identification id;
     id.space = parameter_space(robot);
-    const Gathered gathered = gather(pointers, kWindow_s, kWindows, {}, id);
+    Gathered gathered = gather(pointers, kWindow_s, kWindows, {}, id);
     const int n = robot.joints();
-    const std::vector<int> still = still_joints(gathered.measurements, n);
+    const std::vector<int> still = still_joints(gathered.measurements, id.space);
+    gathered.leave_out_joints(still);
     const WantedParameters wanted = wanted_parameters(id.space, robot, still, false);
     std::vector<bool> free = wanted.asked;
     for (std::size_t p = 0; p < free.size(); ++p) free[p] = free[p] && !wanted.optional[p];
@@ -143,7 +178,8 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
     const WeakFit fit = fit_weak_form(assemble(gathered.windows, choice), id.space,
                                       parameters_of(id.space, robot.chain, 0.5), free);
     const Measurements& m = gathered.measurements;
-    out.r2 = fit.r2;
+    for (int j = 0; j < n; ++j)
+      if (!gathered.windows.still[j]) out.r2.push_back(fit.r2[j]);
     out.feasible = infeasibility(id.space, fit.parameters, fit.covariance, m.q_low(), m.q_high()).empty();
   } catch (const Error&) {
     return {};  // read like this, the logs give nothing to fit
@@ -167,14 +203,23 @@ Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot)
   add_torque_units(robot, readings);
   add_signs(robot, readings);
   add_swaps(robot, readings);
+  for (Reading& reading : readings) reading.cure = "write " + reading.cure + " into [log.columns]";
+  const std::size_t of_columns = readings.size();
+  add_gravity(robot, readings);
+  for (std::size_t i = of_columns; i < readings.size(); ++i)
+    readings[i].cure = "write " + readings[i].cure + " into the robot file";
   const Explained now = explain(beginnings, robot);
   Misreading best;
   best.r2_before = now.worst();
   double least = now.left() + std::log(kClearlyLess);
   for (const Reading& reading : readings) {
+    if (reading.robot && !best.what.empty()) break;  // columns first, they are wrong more often
     std::vector<Log> read = beginnings;
     for (Log& log : read) reading.apply(log);
-    const Explained then = explain(read, robot);
+    if (shrinks_motion(beginnings, read, robot)) continue;
+    Robot other = robot;
+    if (reading.robot) reading.robot(other);
+    const Explained then = explain(read, other);
     if (!then.feasible || then.worst() < (now.feasible ? kRight : kSurelyRight)) continue;
     if ((now.feasible || !best.what.empty()) && then.left() >= least) continue;
     least = then.left();

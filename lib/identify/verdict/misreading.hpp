@@ -13,13 +13,13 @@ namespace faultline {
 /// would explain their torque.
 struct Misreading {
   std::string what;        ///< in a sentence's words, such as "q2 is in degrees"
-  std::string cure;        ///< what to write into the robot file
+  std::string cure;        ///< what to write where, an order
   double r2_before = 0.0;  ///< of the joint explained worst, as the logs are read now
   double r2_after = 0.0;   ///< the same if it was so
 };
 
-/// Tries other units, signs, swapped joints and swapped torques on the beginning of the logs; `what` is empty
-/// when none of them explains the torque clearly better.
+/// Tries other units, signs, swapped joints, swapped torques and directions of gravity on the beginning of
+/// the logs; `what` is empty when none of them explains the torque clearly better.
 Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot);
 
 }  // namespace faultline

@@ -72,7 +72,7 @@ void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& 
 }  // namespace
 
 double weak_width(const ParameterSpace& space, int joint, int k) {
-  constexpr double kFactor[kWidths] = {0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
+  constexpr double kFactor[kWidths] = {0.01, 0.1, 0.3, 0.56, 1.0, 1.8, 3.0, 5.6, 10.0, 30.0, 100.0, 300.0};
   return kFactor[k] * space.chain.friction[joint].width;
 }
 

@@ -10,8 +10,8 @@ namespace faultline {
 
 /// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth. The
 /// widest serve bent friction alone.
-inline constexpr int kWidths = 10;
-inline constexpr int kCoulombWidths = 7;
+inline constexpr int kWidths = 12;
+inline constexpr int kCoulombWidths = 9;
 double weak_width(const ParameterSpace& space, int joint, int k);
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample

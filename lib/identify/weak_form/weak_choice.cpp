@@ -6,126 +6,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/identify/weak_form/chooser.hpp"
+
 namespace faultline {
 namespace {
 
-constexpr double kWorthIt = 0.01;          // of the held-out residual that a term must take away
-constexpr double kShiftWorthIt = 0.005;    // the same for a delay of all joints
-constexpr double kOwnShiftWorthIt = 0.01;  // and of one: most logs are late by one and the same
-constexpr double kRareWorthIt = 0.05;  // friction that bends or differs by direction: it mimics much else,
-constexpr double kRareWorthOfTorque = 2e-3;     // and what is left beside a width between two of the bank,
-constexpr double kSure = 1.0, kRareSure = 2.0;  // standard errors over the folds
-constexpr double kWorthOfTorque = 5e-4;         // of the joint's torque: less is of no use to anyone
-constexpr double kWidthWorthIt = 0.02;          // for friction that is smoother than the windows can tell
-constexpr double kWindowWorthIt = 0.01;         // less of the residual does not ask for a longer window
-constexpr int kScaleRounds = 4;
+constexpr Worth kTerm;
+constexpr Worth kShift{.residual = 0.005};                 // of all joints
+constexpr Worth kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs are late by one and the same
+constexpr Worth kWidth{.residual = 0.02};                  // for friction smoother than the windows can tell
+// Friction that bends or differs by direction mimics much else, such as a width between two of the bank.
+constexpr Worth kRare{.residual = 0.1, .torque = 1e-3};
+constexpr double kWindowWorthIt = 0.01;  // less of the residual does not ask for a longer window
+constexpr double kWidthsApart = 2.0;  // standard errors by which held-out data tell two friction widths apart
 constexpr int kShiftSweeps = 3;
-constexpr int kBendsApart = 3;        // widths between Coulomb friction and its bend
-constexpr double kLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
-constexpr double kUndriven = 0.05;    // of the largest torque: such a joint asks for no mass at all
-
-bool revolute(const ParameterSpace& space, int joint) {
-  return space.chain.geometry[joint].kind == AxisKind::revolute;
-}
-
-/// Largest value among the joints of the same kind of axis.
-double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& v, int joint) {
-  double largest = 0.0;
-  for (int j = 0; j < space.joints(); ++j)
-    if (revolute(space, j) == revolute(space, joint)) largest = std::max(largest, v[j]);
-  return largest;
-}
-
-/// The residual's scales, none so small that a joint decides alone: a joint that is hardly driven is
-/// explained best by no mass at all.
-Eigen::VectorXd bounded(const ParameterSpace& space, const Eigen::VectorXd& rms,
-                        const Eigen::VectorXd& torque) {
-  Eigen::VectorXd out(rms.size());
-  for (int j = 0; j < space.joints(); ++j) {
-    const bool driven = torque[j] > kUndriven * largest_alike(space, torque, j);
-    out[j] = std::max({rms[j], (driven ? kLeastScale : 1.0) * largest_alike(space, rms, j), 1e-12});
-  }
-  return out;
-}
-
-class Chooser {
- public:
-  Chooser(const WeakMoments& moments, const ParameterSpace& space, const Eigen::VectorXd& start)
-      : moments_(moments), space_(space), start_(start) {}
-
-  Eigen::VectorXd scale(const WeakChoice& choice, const std::vector<bool>& wanted) const {
-    const Eigen::VectorXd torque = moments_.torque_rms(choice);
-    Eigen::VectorXd out = torque.cwiseMax(1e-12);
-    for (int round = 0; round < kScaleRounds; ++round)
-      out = bounded(space_, moments_.residual_rms(choice, moments_.fit(choice, wanted, start_, out)), torque);
-    return out;
-  }
-
-  /// Root mean square torque of every joint in the windows that choices are judged by.
-  Eigen::VectorXd torque(const WeakChoice& choice) const {
-    WeakChoice judged = choice;
-    judged.set.assign(space_.joints(), moments_.yardstick());
-    return moments_.torque_rms(judged);
-  }
-
-  HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted,
-                     const Eigen::VectorXd& scale) const {
-    return moments_.held_out(choice, wanted, start_, scale);
-  }
-
-  /// Square of what is left of all joints together, each in its scale.
-  double left(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale) const {
-    return moments_.residual_rms(choice, moments_.fit(choice, wanted, start_, scale))
-        .cwiseQuotient(scale)
-        .squaredNorm();
-  }
-
-  /// The shift of joint `j` with which least is left of all joints together.
-  int best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale, int j,
-                 const ShiftRange& shifts) const {
-    int best = choice.shift[j];
-    double least = left(choice, wanted, scale);
-    for (int s = shifts.first + 1; s <= shifts.last; ++s) {
-      choice.shift[j] = s;
-      const double now = left(choice, wanted, scale);
-      if (now < least) least = now, best = s;
-    }
-    return best;
-  }
-
- private:
-  const WeakMoments& moments_;
-  const ParameterSpace& space_;
-  const Eigen::VectorXd& start_;
-};
-
-/// Mean and standard error, over the folds, of the logarithm by which joint j's squared residual shrinks from
-/// `without` to `with`: folds of gentle and of fast motion count alike.
-struct Gain {
-  double mean = 0.0, error = 0.0;
-};
-
-Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {
-  std::vector<double> gain;
-  for (Eigen::Index fold = 0; fold < without.square.rows(); ++fold)
-    if (without.rows(fold, j) > 0.0 && with.square(fold, j) > 0.0)
-      gain.push_back(std::log(without.square(fold, j) / with.square(fold, j)));
-  Gain out;
-  const double n = static_cast<double>(gain.size());
-  for (const double g : gain) out.mean += g / n;
-  for (const double g : gain) out.error += (g - out.mean) * (g - out.mean) / (n * std::max(n - 1.0, 1.0));
-  out.error = std::sqrt(out.error);
-  return out;
-}
-
-/// Whether joint `j` is told clearly better by `with`: by `share` of its residual, by a share of its torque,
-/// and by more than chance does.
-bool pays(const HeldOutError& without, const HeldOutError& with, int j, double share, double torque,
-          double sure = kSure, double worth = kWorthOfTorque) {
-  const Gain gain = gain_of(without, with, j);
-  const double less = without.rms()[j] - with.rms()[j];
-  return less > share * without.rms()[j] && less > worth * torque && gain.mean > sure * gain.error;
-}
+constexpr double kBendsApart = 10.0;  // times the width of the Coulomb friction
 
 /// The shift that suits all joints together best: most logs are late by one and the same.
 WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int joints,
@@ -157,8 +52,8 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   HeldOutError best = error_of(settled);
   bool helps = false, harms = false;
   for (int j = 0; j < joints; ++j) {
-    helps = helps || pays(without, best, j, kShiftWorthIt, torque[j]);
-    harms = harms || pays(best, without, j, kShiftWorthIt, torque[j]);
+    helps = helps || pays(without, best, j, torque[j], kShift);
+    harms = harms || pays(best, without, j, torque[j], kShift);
   }
   if (!helps || harms) settled = none, best = without;
   WeakChoice single = settled;
@@ -171,7 +66,7 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   const HeldOutError with = error_of(single);
   std::erase_if(c.terms, [](const ModelTerm& term) { return term.name.starts_with("delay_"); });
   for (int j = 0; j < joints; ++j) {
-    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, kOwnShiftWorthIt, torque[j]);
+    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, torque[j], kOwnShift);
     c.weak.shift[j] = own ? single.shift[j] : settled.shift[j];
     if (single.shift[j] == 0 && c.weak.shift[j] == 0) continue;
     c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],
@@ -195,14 +90,14 @@ void choose_bends(const Chooser& chooser, const ParameterSpace& space, const std
     wanted[space.bend(j)] = true;
     HeldOutError best = without;
     WeakChoice bent = c.weak;
-    for (int k = c.weak.width[j] + kBendsApart; k < kWidths; ++k) {
+    for (int k = 0; k < kWidths; ++k) {
+      if (weak_width(space, j, k) < kBendsApart * weak_width(space, j, c.weak.width[j])) continue;
       WeakChoice tried = c.weak;
       tried.bend[j] = k;
       const HeldOutError with = chooser.error(tried, wanted, chooser.scale(tried, wanted));
       if (with.rms()[j] < best.rms()[j]) best = with, bent = tried;
     }
-    const bool kept =
-        pays(without, best, j, kRareWorthIt, chooser.torque(c.weak)[j], kRareSure, kRareWorthOfTorque);
+    const bool kept = pays(without, best, j, chooser.torque(c.weak)[j], kRare);
     c.terms.push_back({space.name(space.bend(j)), j, kept, without.rms()[j], best.rms()[j]});
     if (!kept) continue;
     c.weak = bent;
@@ -218,11 +113,35 @@ void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
       WeakChoice tried = c.weak;
       tried.width[j] = k;
       const HeldOutError error = chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted));
-      if (!pays(best, error, j, kWidthWorthIt, torque[j])) continue;
+      if (!pays(best, error, j, torque[j], kWidth)) continue;
       best = error;
       c.weak = tried;
     }
   }
+}
+
+/// How far the parameters go when a joint's friction has another width that held-out data cannot tell from
+/// the chosen one: mean square over those widths.
+Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
+                            const Eigen::VectorXd& scale) {
+  Eigen::MatrixXd doubt = Eigen::MatrixXd::Zero(space.count(), space.count());
+  const Eigen::VectorXd chosen = chooser.fit(c.weak, c.wanted, scale);
+  for (int j = 0; j < space.joints(); ++j) {
+    Eigen::MatrixXd apart = Eigen::MatrixXd::Zero(space.count(), space.count());
+    double alike = 1.0;
+    for (int k = 0; k < kCoulombWidths; ++k) {
+      WeakChoice other = c.weak;
+      other.width[j] = k;
+      if (k == c.weak.width[j]) continue;
+      const Gain loss = gain_of(chooser.error(other, c.wanted, scale), c.held_out, j);
+      if (loss.mean > kWidthsApart * loss.error) continue;
+      const Eigen::VectorXd step = chooser.fit(other, c.wanted, scale) - chosen;
+      apart += step * step.transpose();
+      alike += 1.0;
+    }
+    doubt += apart / alike;
+  }
+  return doubt;
 }
 
 /// The joint that a parameter is judged by: its own for friction and rotors, for others the first.
@@ -241,9 +160,7 @@ void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std
     const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
     const HeldOutError with = chooser.error(c.weak, wanted, chooser.scale(c.weak, wanted));
     const int j = joint_of(space, p);
-    const bool rare = p >= space.bend(0);
-    const bool kept = pays(without, with, j, rare ? kRareWorthIt : kWorthIt, chooser.torque(c.weak)[j],
-                           rare ? kRareSure : kSure, rare ? kRareWorthOfTorque : kWorthOfTorque);
+    const bool kept = pays(without, with, j, chooser.torque(c.weak)[j], p >= space.bend(0) ? kRare : kTerm);
     c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
     if (kept) c.wanted = wanted;
   }
@@ -287,6 +204,7 @@ ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space
   choose_windows(chooser, sets, n, c);
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   c.held_out = chooser.error(c.weak, c.wanted, scale);
+  c.width_doubt = width_doubt(chooser, space, c, scale);
   WeakChoice judged = c.weak;
   judged.set.assign(n, moments.yardstick());
   const Eigen::VectorXd rms = c.held_out.rms(), torque = moments.torque_std(judged);

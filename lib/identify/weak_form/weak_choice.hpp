@@ -15,6 +15,7 @@ struct ModelChoice {
   std::vector<ModelTerm> terms;     ///< what was tried, in this order
   HeldOutError held_out;            ///< what the other folds' fit leaves of every fold
   std::vector<double> held_out_r2;  ///< by joint
+  Eigen::MatrixXd width_doubt;      ///< covariance of the parameters for not knowing the friction widths
   Eigen::MatrixXd spread;  ///< parameters x folds: each fold fitted alone; empty where folds are no logs
 };
 

@@ -86,7 +86,7 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
   Eigen::VectorXd row(count);
   for (std::size_t set = 0; set < windows.sets.size(); ++set)
     for (int j = 0; j < joints_; ++j) {
-      const std::vector<bool> moving = moving_windows(windows.sets[set], j);
+      const std::vector<bool> moving = moving_windows(windows, static_cast<int>(set), j);
       const auto& all = windows.sets[set].all();
       for (std::size_t k = 0; k < all.size(); ++k) {
         if (!moving[k]) continue;

@@ -23,11 +23,13 @@ double seconds_covered(const WeakWindows& windows) {
 
 }  // namespace
 
-std::vector<bool> moving_windows(const WeakWindows& windows, int joint) {
+std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint) {
+  const std::vector<WeakWindow>& all = windows.sets[set].all();
+  if (!windows.still.empty() && windows.still[joint]) return std::vector<bool>(all.size(), false);
   double fastest = 0.0;
-  for (const WeakWindow& w : windows.all()) fastest = std::max(fastest, w.speed[joint]);
+  for (const WeakWindow& w : all) fastest = std::max(fastest, w.speed[joint]);
   std::vector<bool> moving;
-  for (const WeakWindow& w : windows.all()) moving.push_back(w.speed[joint] >= kResting * fastest);
+  for (const WeakWindow& w : all) moving.push_back(w.speed[joint] >= kResting * fastest);
   return moving;
 }
 
@@ -49,7 +51,7 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
   Eigen::Index row = 0;
   for (int j = 0; j < s.joints; ++j) {
     const WeakWindows& set = windows.sets[choice.set[j]];
-    const std::vector<bool> moving = moving_windows(set, j);
+    const std::vector<bool> moving = moving_windows(windows, choice.set[j], j);
     const int at = choice.shift[j] - windows.shifts.first, before = std::max(at - 1, 0);
     for (std::size_t k = 0; k < set.all().size(); ++k, ++row) {
       const WeakWindow& w = set.all()[k];

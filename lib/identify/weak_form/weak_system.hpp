@@ -31,7 +31,8 @@ struct WeakSystem {
 
 WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice);
 
-/// Whether joint `j` moves in a window enough for its friction to be told from stiction; by window.
-std::vector<bool> moving_windows(const WeakWindows& windows, int joint);
+/// Whether joint `j` moves in a window of that set enough for its friction to be told from stiction; by
+/// window.
+std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint);
 
 }  // namespace faultline

@@ -68,6 +68,8 @@ struct WeakSets {
   ParameterSpace space;
   ShiftRange shifts;
   std::vector<WeakWindows> sets;
+  /// By joint: it never moves, so stiction may hold any torque and its balances do not count. Empty: none.
+  std::vector<bool> still;
 
   void add(const Stretch& stretch);
 };

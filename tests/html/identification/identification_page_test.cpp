@@ -30,7 +30,7 @@ const Identification& identified() {
 TEST(IdentificationPage, ShowsEveryJointAndEveryPart) {
   const std::string page = render_identification_html(identified());
   for (const char* id : {"parameters", "fit", "joint-1", "joint-3", "motion", "logs", "torque-2",
-                         "friction-2", "left-position-2", "left-speed-2", "spectrum-2"})
+                         "friction-2", "left-position-2", "left-speed-2"})
     EXPECT_NE(page.find(std::string("id=\"") + id + "\""), std::string::npos) << id;
 }
 

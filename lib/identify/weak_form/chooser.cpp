@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/weak_form/chooser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr int kScaleRounds = 4;
+constexpr double kLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
+constexpr double kUndriven = 0.05;    // of the largest torque: such a joint asks for no mass at all
+
+bool revolute(const ParameterSpace& space, int joint) {
+  return space.chain.geometry[joint].kind == AxisKind::revolute;
+}
+
+/// Largest value among the joints of the same kind of axis.
+double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& v, int joint) {
+  double largest = 0.0;
+  for (int j = 0; j < space.joints(); ++j)
+    if (revolute(space, j) == revolute(space, joint)) largest = std::max(largest, v[j]);
+  return largest;
+}
+
+/// The residual's scales, none so small that a joint decides alone: a joint that is hardly driven is
+/// explained best by no mass at all.
+Eigen::VectorXd bounded(const ParameterSpace& space, const Eigen::VectorXd& rms,
+                        const Eigen::VectorXd& torque) {
+  Eigen::VectorXd out(rms.size());
+  for (int j = 0; j < space.joints(); ++j) {
+    const bool driven = torque[j] > kUndriven * largest_alike(space, torque, j);
+    out[j] = std::max({rms[j], (driven ? kLeastScale : 1.0) * largest_alike(space, rms, j), 1e-12});
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd Chooser::scale(const WeakChoice& choice, const std::vector<bool>& wanted) const {
+  const Eigen::VectorXd torque = moments_.torque_rms(choice);
+  Eigen::VectorXd out = torque.cwiseMax(1e-12);
+  for (int round = 0; round < kScaleRounds; ++round)
+    out = bounded(space_, moments_.residual_rms(choice, moments_.fit(choice, wanted, start_, out)), torque);
+  return out;
+}
+
+Eigen::VectorXd Chooser::torque(const WeakChoice& choice) const {
+  WeakChoice judged = choice;
+  judged.set.assign(space_.joints(), moments_.yardstick());
+  return moments_.torque_rms(judged);
+}
+
+Eigen::VectorXd Chooser::fit(const WeakChoice& choice, const std::vector<bool>& wanted,
+                             const Eigen::VectorXd& scale) const {
+  return moments_.fit(choice, wanted, start_, scale);
+}
+
+HeldOutError Chooser::error(const WeakChoice& choice, const std::vector<bool>& wanted,
+                            const Eigen::VectorXd& scale) const {
+  return moments_.held_out(choice, wanted, start_, scale);
+}
+
+double Chooser::left(const WeakChoice& choice, const std::vector<bool>& wanted,
+                     const Eigen::VectorXd& scale) const {
+  return moments_.residual_rms(choice, moments_.fit(choice, wanted, start_, scale))
+      .cwiseQuotient(scale)
+      .squaredNorm();
+}
+
+int Chooser::best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
+                        int j, const ShiftRange& shifts) const {
+  int best = choice.shift[j];
+  double least = left(choice, wanted, scale);
+  for (int s = shifts.first + 1; s <= shifts.last; ++s) {
+    choice.shift[j] = s;
+    const double now = left(choice, wanted, scale);
+    if (now < least) least = now, best = s;
+  }
+  return best;
+}
+
+Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {
+  std::vector<double> gain;
+  for (Eigen::Index fold = 0; fold < without.square.rows(); ++fold)
+    if (without.rows(fold, j) > 0.0 && with.square(fold, j) > 0.0)
+      gain.push_back(std::log(without.square(fold, j) / with.square(fold, j)));
+  Gain out;
+  const double n = static_cast<double>(gain.size());
+  for (const double g : gain) out.mean += g / n;
+  for (const double g : gain) out.error += (g - out.mean) * (g - out.mean) / (n * std::max(n - 1.0, 1.0));
+  out.error = std::sqrt(out.error);
+  return out;
+}
+
+bool pays(const HeldOutError& without, const HeldOutError& with, int j, double torque, const Worth& worth) {
+  const Gain gain = gain_of(without, with, j);
+  const double before = without.rms()[j], less = before - with.rms()[j];
+  return less > worth.residual * before && less > worth.torque * torque &&
+         gain.mean > worth.sure * gain.error;
+}
+
+}  // namespace faultline
