@@ -13,6 +13,8 @@ namespace {
 constexpr double kCodeChanged = -25.0;
 /// What it costs to call a row misread (nats): about one row in a million is.
 constexpr double kMisread = 14.0;
+/// How much likelier than any fault a change of the work piece is (nats), which happens every few seconds.
+constexpr double kHabit = 7.0;
 /// Codes that never repeated in the healthy logs may do so once in this many samples.
 constexpr double kSmallestShare = 1e-4;
 
@@ -34,6 +36,7 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
+  if (hypotheses_[hypothesis].form == HypothesisForm::work_piece) change_work_piece(running);
   predict_onset(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
                 hypotheses_[hypothesis]);
   if (is_misread(hypotheses_[hypothesis]))
@@ -43,12 +46,18 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   return running;
 }
 
+/// The tip carries another mass from now on.
+void Bank::change_work_piece(RunningHypothesis& running) const {
+  running.log_likelihood_ratio += kHabit;
+  add_work_piece(running.state, model_, hypotheses_[running.hypothesis].work_piece_kg);
+}
+
 /// A misread row says nothing of the robot; that a row is misread at all costs kMisread.
 void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const {
   GaussianState scratch = running.state;
   running.log_likelihood_ratio -= kMisread;
   for (int j = 0; j < model_.joints(); ++j) {
-    const JointObservation seen = observe_joint(scratch, model_, at, j);
+    const JointObservation seen = observe_joint(scratch, model_.joints(), at, j);
     if (!at.pressed[j])
       running.log_likelihood_ratio += seen.log_likelihood + 0.5 * seen.chi_square - at.log_likelihood[j];
   }
@@ -69,21 +78,22 @@ void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
       continue;
     }
     const SensorError error =
-        j == joint ? sensor_error(hypothesis, 2 * n, at.time - running.onset_s) : SensorError{};
-    const JointObservation seen = observe_joint(running.state, model_, at, j, error);
+        j == joint ? sensor_error(hypothesis, model_.healthy_states(), at.time - running.onset_s)
+                   : SensorError{};
+    const JointObservation seen = observe_joint(running.state, n, at, j, error);
     if (!at.pressed[j]) running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
   }
   clamp_sizes(running.state, hypothesis, model_);
   if (describe(hypothesis.label.kind).course != SizeCourse::pulse) return;
   for (int s = 0; s < hypothesis.sizes; ++s)
-    running.impulse[joint_of_size(hypothesis, s)] += running.state.mean[2 * n + s] * at.dt;
+    running.impulse[joint_of_size(hypothesis, s)] += running.state.mean[model_.healthy_states() + s] * at.dt;
 }
 
 HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
   HypothesisEvidence evidence;
   evidence.log_likelihood_ratio = running.log_likelihood_ratio;
   evidence.onset_s = running.onset_s;
-  const int first = 2 * model_.joints();
+  const int first = model_.healthy_states();
   evidence.impulse = running.impulse;
   for (int s = 0; s < std::min(hypotheses_[running.hypothesis].sizes, 2); ++s) {
     evidence.size[s] = running.state.mean[first + s];
