@@ -14,14 +14,20 @@ constexpr double kCodeChanged = -25.0;
 /// What it costs to call a row misread (nats): about one row in a million is.
 constexpr double kMisread = 14.0;
 /// How much likelier than any fault a change of the work piece is (nats), which happens every few seconds.
-constexpr double kHabit = 7.0;
+constexpr double kHabit = 10.0;
+/// Width of a code over the standard deviation of the error it makes, the square root of 12.
+constexpr double kCodesInStd = 3.4641;
 /// Codes that never repeated in the healthy logs may do so once in this many samples.
 constexpr double kSmallestShare = 1e-4;
 
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
   if (!at.repeats[j]) return kCodeChanged;
-  const double share = repeats_mean_stuck(model, j) ? std::max(model.repeat_share[j], kSmallestShare) : 1.0;
-  return -std::log(share) + 0.5 * at.chi_square[j];
+  if (repeats_mean_stuck(model, j))
+    return -std::log(std::max(model.repeat_share[j], kSmallestShare)) + 0.5 * at.chi_square[j];
+  // Codes so coarse that healthy joints repeat them: how likely would this one have been?
+  double codes = std::log(kCodesInStd * at.q_std[j]);
+  if (std::isfinite(at.dq[j])) codes += std::log(kCodesInStd * at.dq_std[j]);
+  return -at.log_likelihood[j] - codes;
 }
 
 }  // namespace
@@ -36,9 +42,11 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
-  if (hypotheses_[hypothesis].form == HypothesisForm::work_piece) change_work_piece(running);
-  predict_onset(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
-                hypotheses_[hypothesis]);
+  const Step step = step_to(at, before.torque, before.torque_missing);
+  if (hypotheses_[hypothesis].form == HypothesisForm::work_piece)
+    change_work_piece(running, step);
+  else
+    predict_onset(running.state, model_, dynamics_, step, hypotheses_[hypothesis]);
   if (is_misread(hypotheses_[hypothesis]))
     pass_over(running, at);
   else
@@ -46,10 +54,15 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   return running;
 }
 
-/// The tip carries another mass from now on.
-void Bank::change_work_piece(RunningHypothesis& running) const {
+/// The tip carries another mass from some moment within the step on.
+void Bank::change_work_piece(RunningHypothesis& running, const Step& step) const {
+  GaussianState late = running.state;
+  predict(late, model_, dynamics_, step, nullptr, 0.0);
+  GaussianState& state = running.state;
+  add_work_piece(state, model_, hypotheses_[running.hypothesis].work_piece_kg);
+  predict(state, model_, dynamics_, step, nullptr, 0.0);
+  blend_with(state, late.mean, 2 * model_.joints());
   running.log_likelihood_ratio += kHabit;
-  add_work_piece(running.state, model_, hypotheses_[running.hypothesis].work_piece_kg);
 }
 
 /// A misread row says nothing of the robot; that a row is misread at all costs kMisread.

@@ -119,6 +119,7 @@ class EpisodeDetector::Impl {
       return;
     }
     restart_ = history_.last();
+    trigger_.forget();
     work_piece_changes.push_back({history_[no_fault.onset].row, hypothesis.work_piece_kg});
   }
 

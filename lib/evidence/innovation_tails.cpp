@@ -16,6 +16,8 @@ constexpr double kRareShare = 0.999;  // of the innovations: a normal one stays 
 constexpr double kStrays = 4.2;       // standard deviations of that rare one: no normal distribution
 constexpr double kTail = 3.0;         // standard deviations that then count in full
 constexpr double kNoTail = 1e6;
+constexpr double kFirstJump = 0.05;  // of the largest torque: moves a spring by the sensor's noise, at first
+constexpr double kLeastTorque = 1e-9;  // N m or N
 constexpr int kSettlingRows = 10;
 
 using Channels = std::array<std::vector<double>, 2 * kMaxJoints>;
@@ -49,8 +51,14 @@ bool learn_tails(MotionModel& model, const std::vector<HealthyExcerpt>& excerpts
     return strays ? kTail : kNoTail;
   };
   for (int j = 0; j < n; ++j) {
-    model.q_tail.push_back(tail_of(j));
-    model.dq_tail.push_back(tail_of(n + j));
+    const double velocity = tail_of(n + j), position = tail_of(j);
+    model.dq_tail.push_back(velocity);
+    model.q_tail.push_back(std::min(velocity, position));  // what shakes a velocity moves the position
+  }
+  if (any) {
+    for (int j = 0; j < n; ++j)
+      model.noise.compliance.push_back(model.q_std[j] /
+                                       (kFirstJump * std::max(model.torque_scale[j], kLeastTorque)));
   }
   return any;
 }

@@ -120,6 +120,7 @@ std::vector<Group> free_numbers(MotionModel& model, const std::vector<HealthyExc
   add_each(model.q_std, code_stds(logs, model.joints(), false), groups);
   add_each(model.dq_std, code_stds(logs, model.joints(), true), groups);
   if (!held) groups.push_back({{&model.noise.step_share}});
+  add_each(model.noise.compliance, {}, groups);
   add_slow_groups(model, groups);
   return groups;
 }

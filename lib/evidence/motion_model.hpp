@@ -20,6 +20,9 @@ struct ProcessNoise {
   double step_share = 0.3;      ///< 0 when the torque is known to be held
   double correlation_s = 0.02;  ///< s, for which what the model misses stays the same: fixed, not matched
   std::vector<double> floor;    ///< N m or N, one a joint
+  /// rad/(N m) or m/N: by how much the reading of a joint may jump when its torque does, where gears are
+  /// springs; one a joint, empty for none.
+  std::vector<double> compliance{};
 };
 
 /// All that a Kalman filter needs to follow a healthy run of the identified robot.

@@ -86,6 +86,7 @@ void read_later_lists(const nlohmann::json& json, MotionModel& model) {
     if (json.contains(key)) values = json.at(key).get<std::vector<double>>();
   };
   read("q_tail", model.q_tail);
+  read("compliance", model.noise.compliance);
   read("dq_tail", model.dq_tail);
   read("work_pieces_kg", model.work_pieces_kg);
 }
@@ -97,6 +98,7 @@ void to_json(nlohmann::json& json, const MotionModel& model) {
   json["slow"] = slow_to_json(model.slow);
   json["clock_std"] = model.clock_std;
   json["q_tail"] = model.q_tail;
+  json["compliance"] = model.noise.compliance;
   json["dq_tail"] = model.dq_tail;
   json["work_pieces_kg"] = model.work_pieces_kg;
   json["steady_period_s"] = model.steady_period_s;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kBlockRows = 64;  // long enough for a mean square, short enough to lie between two moves
 constexpr double kCalmestShare = 0.25;
+constexpr double kThird = 3.0;            // binomial weight
 constexpr double kDifferenceGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance
 
 /// Mean square of the third differences of a block; NaN where they say nothing.
@@ -19,7 +20,7 @@ double block_jitter(const std::vector<double>& x, int begin) {
   double sum = 0.0;
   int count = 0;
   for (int k = begin + 3; k < begin + kBlockRows; ++k) {
-    const double d = x[k] - 3.0 * x[k - 1] + 3.0 * x[k - 2] - x[k - 3];
+    const double d = x[k] - x[k - 3] - kThird * (x[k - 1] - x[k - 2]);
     if (!std::isfinite(d)) continue;
     sum += d * d;
     ++count;

@@ -29,11 +29,11 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
   };
   for (int j = 0; j < n; ++j) {
     const double largest = model.torque_scale[j];
+    const double offset = normal.torque_offset * largest;  // before all that acts likewise (transition.cpp)
+    if (largest > 0.0) add(SlowKind::torque_offset, j, offset, kDayPace * offset);
     if (rubs(model.chain.friction[j])) add(SlowKind::friction, j, normal.friction, normal.friction_pace);
     if (largest <= 0.0) continue;
     add(SlowKind::torque_gain, j, normal.torque_constant, 0.0);
-    const double offset = normal.torque_offset * largest;
-    add(SlowKind::torque_offset, j, offset, kDayPace * offset);
     states.push_back({SlowKind::coloured_torque, j, kColourShare * largest, 0.0, kFirstMemory_s});
   }
   const double carried = kCarriedInPriors * model.priors.payload;

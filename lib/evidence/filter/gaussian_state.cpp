@@ -27,10 +27,10 @@ ScalarUpdate observe(GaussianState& state, int index, int other, double factor, 
                      double noise_variance, double tail) {
   const int n = state.size;
   StateVector ph;  // covariance times the observation row
-  for (int i = 0; i < n; ++i) ph[i] = state.p(i, index);
+  std::copy_n(&state.covariance[index * n], n, ph.begin());
   double predicted = state.mean[index];
   if (other >= 0) {
-    for (int i = 0; i < n; ++i) ph[i] += factor * state.p(i, other);
+    for (int i = 0; i < n; ++i) ph[i] += factor * state.p(other, i);
     predicted += factor * state.mean[other];
   }
   ScalarUpdate update;
@@ -70,6 +70,17 @@ void propagate_covariance(GaussianState& state, std::span<const double> rows, in
     }
     for (int j = moving; j < n; ++j) state.p(i, j) = state.p(j, i) = half[i * n + j];
   }
+}
+
+void blend_with(GaussianState& state, const StateVector& other, int moving) {
+  constexpr double kUniformSpread = 12.0;
+  StateVector d;
+  for (int i = 0; i < moving; ++i) {
+    d[i] = other[i] - state.mean[i];
+    state.mean[i] += 0.5 * d[i];
+  }
+  for (int i = 0; i < moving; ++i)
+    for (int j = 0; j < moving; ++j) state.p(i, j) += d[i] * d[j] / kUniformSpread;
 }
 
 void relax(GaussianState& state, int index, double kept) {

@@ -64,6 +64,8 @@ ScalarUpdate observe(GaussianState& state, int index, int other, double factor, 
 /// covariance = A covariance A^T, where A is `moving` rows of `size` numbers and below them the identity: the
 /// numbers after the first `moving` stay what they are.
 void propagate_covariance(GaussianState& state, std::span<const double> rows, int moving);
+/// The first `moving` numbers lie anywhere between their means and those of `other`, uniformly.
+void blend_with(GaussianState& state, const StateVector& other, int moving);
 /// Number `index` of the state keeps this share of itself.
 void relax(GaussianState& state, int index, double kept);
 

@@ -122,6 +122,7 @@ void predict(GaussianState& state, const MotionModel& model, const FaultDynamics
   const Acceleration at = move(state, model, dynamics, step, hypothesis);
   move_slow_states(state, model, step.dt);
   add_process_noise(state, at, model, step);
+  allow_springs(state, model, step);
   allow_end_stops(state, model, step);
   if (!hypothesis) return;
   if (hypothesis->label.kind == FaultKind::locked)

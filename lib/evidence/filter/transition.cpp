@@ -67,6 +67,24 @@ UnitTorque unit_torque(const Hypothesis& hypothesis, int s, const Acceleration& 
   return at_joint(joint, at.size_torque[s][joint]);
 }
 
+/// A column that is another one, further to the left, times a factor; column -1 for one of its own.
+struct Likeness {
+  int column = -1;
+  double factor = 1.0;
+};
+
+/// Torques on one joint move it alike: the first of them that is in the state stands for all.
+Likeness likeness(int column, const MotionModel& model, const Acceleration& at) {
+  const int first = 2 * model.joints(), s = column - first;
+  if (s < 0 || column >= model.healthy_states() || model.slow[s].kind == SlowKind::tip_mass) return {};
+  for (int other = 0; other < s; ++other) {
+    if (model.slow[other].kind != SlowKind::torque_offset || model.slow[other].joint != model.slow[s].joint)
+      continue;
+    return {first + other, unit_torque(model.slow[s], at, model.joints()).torque[model.slow[s].joint]};
+  }
+  return {};
+}
+
 }  // namespace
 
 SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis) {
@@ -114,7 +132,15 @@ MotionRows numeric_transition(const StateVector& before, int size, const MotionM
   StateVector base;
   std::copy_n(before.begin(), size, base.begin());
   integrate(base);
+  const Acceleration at =
+      dynamics.evaluate(motion_of(before, n), torque, circumstances(before, model, hypothesis));
   for (int column = 0; column < size; ++column) {
+    const Likeness like = likeness(column, model, at);
+    if (like.column >= 0) {
+      for (int row = 0; row < 2 * n; ++row)
+        a[row * size + column] = like.factor * a[row * size + like.column];
+      continue;
+    }
     StateVector moved;
     std::copy_n(before.begin(), size, moved.begin());
     const double delta = kDifference * std::max(1.0, std::abs(moved[column]));
