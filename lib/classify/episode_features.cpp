@@ -49,7 +49,7 @@ double bounded_size(double size) { return std::isfinite(size) ? std::tanh(size) 
 std::vector<FaultLabel> distinct_labels(std::span<const Hypothesis> bank) {
   std::vector<FaultLabel> labels;
   for (const Hypothesis& hypothesis : bank)
-    if (!is_everywhere(hypothesis) && !is_misread(hypothesis) &&
+    if (!is_everywhere(hypothesis) && !is_healthy(hypothesis) &&
         std::find(labels.begin(), labels.end(), hypothesis.label) == labels.end())
       labels.push_back(hypothesis.label);
   return labels;
@@ -63,7 +63,7 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
   for (const FaultLabel& label : distinct_labels(bank))
     out.push_back({label, -std::numeric_limits<double>::infinity(), {}});
   for (std::size_t h = 0; h < bank.size(); ++h) {
-    if (is_misread(bank[h])) continue;
+    if (is_healthy(bank[h])) continue;
     const HypothesisEvidence& evidence = episode.hypotheses[h];
     const FaultLabel label = label_of(bank[h], evidence, model);
     auto entry =

@@ -4,11 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "lib/robot/robot.hpp"
+#include "lib/model/model.hpp"
 
 namespace faultline {
 
 /// What a log cannot show, a sentence each, by what its torque means and whether it has velocities.
 std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
+
+/// Share of the simulated faults that a model found; NaN where none were simulated.
+double power_of(const Validation& validation);
+
+/// The kinds of which it found too few, a sentence each.
+std::vector<std::string> weak_spots(const Validation& validation);
 
 }  // namespace faultline

@@ -10,6 +10,9 @@ namespace faultline {
 namespace {
 
 constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
+constexpr double kLeastPower =
+    0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
+constexpr double kPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
 
@@ -32,7 +35,8 @@ std::string why_inconclusive(const LogFacts& log, double model_period_s) {
 
 }  // namespace
 
-void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, double model_period_s) {
+void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, double model_period_s,
+                    double power) {
   diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
   if (!diagnosis.verdict_reason.empty()) {
     diagnosis.verdict = Verdict::inconclusive;
@@ -41,6 +45,14 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.faults = merge_continued(std::move(faults));
   number_by_onset(diagnosis.faults);
   const std::size_t count = diagnosis.faults.size();
+  if (count == 0 && power < kLeastPower) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.verdict_reason = fmt::format(
+        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
+        "logs that resemble each other more",
+        kPercent * power);
+    return;
+  }
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
   diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found"
                                        : "the identified robot explains the whole log";

@@ -13,13 +13,21 @@ namespace {
 constexpr double kCodeChanged = -25.0;
 /// What it costs to call a row misread (nats): about one row in a million is.
 constexpr double kMisread = 14.0;
+/// How much likelier than any fault a change of the work piece is (nats), which happens every few seconds.
+constexpr double kHabit = 10.0;
+/// Width of a code over the standard deviation of the error it makes, the square root of 12.
+constexpr double kCodesInStd = 3.4641;
 /// Codes that never repeated in the healthy logs may do so once in this many samples.
 constexpr double kSmallestShare = 1e-4;
 
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
   if (!at.repeats[j]) return kCodeChanged;
-  const double share = repeats_mean_stuck(model, j) ? std::max(model.repeat_share[j], kSmallestShare) : 1.0;
-  return -std::log(share) + 0.5 * at.chi_square[j];
+  if (repeats_mean_stuck(model, j))
+    return -std::log(std::max(model.repeat_share[j], kSmallestShare)) + 0.5 * at.chi_square[j];
+  // Codes so coarse that healthy joints repeat them: how likely would this one have been?
+  double codes = std::log(kCodesInStd * at.q_std[j]);
+  if (std::isfinite(at.dq[j])) codes += std::log(kCodesInStd * at.dq_std[j]);
+  return -at.log_likelihood[j] - codes;
 }
 
 }  // namespace
@@ -34,8 +42,11 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
-  predict_onset(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
-                hypotheses_[hypothesis]);
+  const Step step = step_to(at, before.torque, before.torque_missing);
+  if (hypotheses_[hypothesis].form == HypothesisForm::work_piece)
+    change_work_piece(running, step);
+  else
+    predict_onset(running.state, model_, dynamics_, step, hypotheses_[hypothesis]);
   if (is_misread(hypotheses_[hypothesis]))
     pass_over(running, at);
   else
@@ -43,12 +54,23 @@ RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const Followed
   return running;
 }
 
+/// The tip carries another mass from some moment within the step on.
+void Bank::change_work_piece(RunningHypothesis& running, const Step& step) const {
+  GaussianState late = running.state;
+  predict(late, model_, dynamics_, step, nullptr, 0.0);
+  GaussianState& state = running.state;
+  add_work_piece(state, model_, hypotheses_[running.hypothesis].work_piece_kg);
+  predict(state, model_, dynamics_, step, nullptr, 0.0);
+  blend_with(state, late.mean, 2 * model_.joints());
+  running.log_likelihood_ratio += kHabit;
+}
+
 /// A misread row says nothing of the robot; that a row is misread at all costs kMisread.
 void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const {
   GaussianState scratch = running.state;
   running.log_likelihood_ratio -= kMisread;
   for (int j = 0; j < model_.joints(); ++j) {
-    const JointObservation seen = observe_joint(scratch, model_, at, j);
+    const JointObservation seen = observe_joint(scratch, model_.joints(), at, j);
     if (!at.pressed[j])
       running.log_likelihood_ratio += seen.log_likelihood + 0.5 * seen.chi_square - at.log_likelihood[j];
   }
@@ -69,21 +91,22 @@ void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
       continue;
     }
     const SensorError error =
-        j == joint ? sensor_error(hypothesis, 2 * n, at.time - running.onset_s) : SensorError{};
-    const JointObservation seen = observe_joint(running.state, model_, at, j, error);
+        j == joint ? sensor_error(hypothesis, model_.healthy_states(), at.time - running.onset_s)
+                   : SensorError{};
+    const JointObservation seen = observe_joint(running.state, n, at, j, error);
     if (!at.pressed[j]) running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
   }
   clamp_sizes(running.state, hypothesis, model_);
   if (describe(hypothesis.label.kind).course != SizeCourse::pulse) return;
   for (int s = 0; s < hypothesis.sizes; ++s)
-    running.impulse[joint_of_size(hypothesis, s)] += running.state.mean[2 * n + s] * at.dt;
+    running.impulse[joint_of_size(hypothesis, s)] += running.state.mean[model_.healthy_states() + s] * at.dt;
 }
 
 HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
   HypothesisEvidence evidence;
   evidence.log_likelihood_ratio = running.log_likelihood_ratio;
   evidence.onset_s = running.onset_s;
-  const int first = 2 * model_.joints();
+  const int first = model_.healthy_states();
   evidence.impulse = running.impulse;
   for (int s = 0; s < std::min(hypotheses_[running.hypothesis].sizes, 2); ++s) {
     evidence.size[s] = running.state.mean[first + s];

@@ -34,6 +34,7 @@ class Bank {
   HypothesisEvidence evidence_of(const RunningHypothesis& running) const;
 
  private:
+  void change_work_piece(RunningHypothesis& running, const Step& step) const;
   void pass_over(RunningHypothesis& running, const FollowedSample& at) const;
   void observe(RunningHypothesis& running, const FollowedSample& at) const;
 

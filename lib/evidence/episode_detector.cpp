@@ -17,9 +17,10 @@ namespace faultline {
 /// fault was named and the log still looks faulty; only its end is looked for.
 class EpisodeDetector::Impl {
  public:
-  Impl(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options)
+  Impl(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options,
+       const LogNoise& noise)
       : options_(options),
-        follower_(model),
+        follower_(model, noise),
         trigger_(model),
         bank_(model, follower_.dynamics(), hypotheses),
         history_(kHistory) {}
@@ -52,6 +53,7 @@ class EpisodeDetector::Impl {
   void finish() { interrupt(); }
 
   std::vector<EpisodeEvidence> episodes;
+  std::vector<WorkPieceChange> work_piece_changes;
   int rejected_alarms = 0;
   double largest_trigger = 0.0;
   double largest_ratio = 0.0;
@@ -83,19 +85,42 @@ class EpisodeDetector::Impl {
 
   /// Names the fault, or lets the suspicion go when its evidence did not last.
   void conclude(double time_s, std::int64_t row) {
-    const GaussianState* misread = test_->misread();
-    if (misread) follower_.restore(*misread);
-    if (misread || !test_->alarmed() || test_->best_ratio() < options_.threshold) {
-      rejected_alarms += test_->alarmed();
-      if (!test_->alarmed()) largest_ratio = std::max(largest_ratio, test_->largest_ratio());
-      rearm_row_ = row + kRearm;
-      mode_ = Mode::watching;
+    mode_ = Mode::watching;
+    rearm_row_ = row + kRearm;
+    if (const RunningHypothesis* no_fault = test_->no_fault()) {
+      go_on_from(*no_fault);
+    } else if (!test_->alarmed()) {
+      largest_ratio = std::max(largest_ratio, test_->largest_ratio());
+    } else if (test_->best_ratio() < options_.threshold) {
+      ++rejected_alarms;
     } else {
-      episodes.push_back(test_->evidence());
-      episodes.back().end_s = last_faulty_s_ = time_s;
-      mode_ = Mode::faulty;
+      HypothesisTest::Conclusion found = test_->conclude();
+      if (is_healthy(bank_.hypotheses()[found.best.hypothesis]))
+        go_on_from(found.best);
+      else
+        open_episode(std::move(found.evidence), time_s);
     }
     test_.reset();
+  }
+
+  void open_episode(EpisodeEvidence evidence, double time_s) {
+    episodes.push_back(std::move(evidence));
+    episodes.back().end_s = last_faulty_s_ = time_s;
+    rearm_row_ = -1;
+    mode_ = Mode::faulty;
+  }
+
+  /// The robot is healthy all the same. Filters before a change of the work piece know nothing of it.
+  void go_on_from(const RunningHypothesis& no_fault) {
+    follower_.restore(no_fault.state);
+    const Hypothesis& hypothesis = bank_.hypotheses()[no_fault.hypothesis];
+    if (is_misread(hypothesis)) {
+      rejected_alarms += test_->alarmed();
+      return;
+    }
+    restart_ = history_.last();
+    trigger_.forget();
+    work_piece_changes.push_back({history_[no_fault.onset].row, hypothesis.work_piece_kg});
   }
 
   void look_for_end(const FollowedSample& sample, bool suspicious) {
@@ -125,8 +150,8 @@ class EpisodeDetector::Impl {
 };
 
 EpisodeDetector::EpisodeDetector(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
-                                 const EvidenceOptions& options)
-    : impl_(std::make_unique<Impl>(model, hypotheses, options)) {}
+                                 const EvidenceOptions& options, const LogNoise& noise)
+    : impl_(std::make_unique<Impl>(model, hypotheses, options, noise)) {}
 EpisodeDetector::~EpisodeDetector() = default;
 
 void EpisodeDetector::take(const Log& segment) {
@@ -135,6 +160,9 @@ void EpisodeDetector::take(const Log& segment) {
 
 void EpisodeDetector::finish() { impl_->finish(); }
 const std::vector<EpisodeEvidence>& EpisodeDetector::episodes() const { return impl_->episodes; }
+const std::vector<WorkPieceChange>& EpisodeDetector::work_piece_changes() const {
+  return impl_->work_piece_changes;
+}
 int EpisodeDetector::rejected_alarms() const { return impl_->rejected_alarms; }
 double EpisodeDetector::largest_trigger() const { return impl_->largest_trigger; }
 double EpisodeDetector::largest_ratio() const { return impl_->largest_ratio; }

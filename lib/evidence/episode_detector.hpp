@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,12 +12,18 @@
 
 namespace faultline {
 
+/// A work piece that the robot carries every day was picked up, or put down (less than 0).
+struct WorkPieceChange {
+  std::int64_t row = 0;
+  double kg = 0.0;
+};
+
 /// Finds the stretches of a log that the healthy robot does not explain, with what each hypothesis of the
 /// bank makes of them. The state crosses segment borders; where they fall changes nothing.
 class EpisodeDetector {
  public:
   EpisodeDetector(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
-                  const EvidenceOptions& options);
+                  const EvidenceOptions& options, const LogNoise& noise = {});
   ~EpisodeDetector();
 
   /// Takes the next rows of the log.
@@ -27,6 +34,7 @@ class EpisodeDetector {
   /// Those that could be named so far, by alarm. The `end_s` of the last one moves on until the log looks
   /// healthy again.
   const std::vector<EpisodeEvidence>& episodes() const;
+  const std::vector<WorkPieceChange>& work_piece_changes() const;
   /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was
   /// alarmed.
   int rejected_alarms() const;

@@ -19,7 +19,7 @@ std::vector<const RunningHypothesis*> best_of_labels(const Bank& bank,
                                                      const std::vector<RunningHypothesis>& best) {
   std::vector<const RunningHypothesis*> order;
   for (const RunningHypothesis& running : best)
-    if (std::isfinite(running.log_likelihood_ratio) && !is_misread(bank.hypotheses()[running.hypothesis]))
+    if (std::isfinite(running.log_likelihood_ratio) && !is_healthy(bank.hypotheses()[running.hypothesis]))
       order.push_back(&running);
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
     return a->log_likelihood_ratio > b->log_likelihood_ratio;

@@ -40,7 +40,8 @@ void add_kind(std::vector<Hypothesis>& bank, const FaultDescription& fault, int 
 
 }  // namespace
 
-std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
+std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque,
+                                      const std::vector<double>& work_pieces_kg) {
   std::vector<Hypothesis> bank;
   for (const bool hidden : {true, false}) {
     if (hidden && torque == TorqueMeaning::measured) continue;
@@ -51,6 +52,9 @@ std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque) {
     }
   }
   bank.push_back({{FaultKind::none, 0}, 0.0, HypothesisForm::misread_row, 0});
+  for (const double mass : work_pieces_kg)
+    for (const double change : {mass, -mass})
+      bank.push_back({{FaultKind::none, 0}, 0.0, HypothesisForm::work_piece, 0, change});
   return bank;
 }
 

@@ -26,6 +26,7 @@ enum class HypothesisForm {
   drifting_velocity,   ///< the velocity is read from the same drifting encoder
   push_on_all_joints,  ///< as a contact at the tip or on an outer link: joint 0, one size a joint
   misread_row,         ///< no fault: one row read wrong, which a wild value must be held against
+  work_piece,          ///< no fault: a work piece was picked up or put down
 };
 
 /// What may have happened at some moment: a fault of a kind at a joint, its size unknown.
@@ -33,7 +34,8 @@ struct Hypothesis {
   FaultLabel label;         ///< joint from 1; 0 for a push on all joints and a misread row
   double duration_s = 0.0;  ///< of a collision's pulse, at most; 0 for faults that stay
   HypothesisForm form = HypothesisForm::usual;
-  int sizes = 0;  ///< numbers in the state that say how large it is
+  int sizes = 0;               ///< numbers in the state that say how large it is
+  double work_piece_kg = 0.0;  ///< mass that a work piece adds to the tip, or takes from it
 
   int joint_index() const { return label.joint - 1; }
 };
@@ -41,6 +43,8 @@ struct Hypothesis {
 inline bool is_misread(const Hypothesis& hypothesis) {
   return hypothesis.form == HypothesisForm::misread_row;
 }
+/// No fault at all: the log goes on as that of a healthy robot.
+inline bool is_healthy(const Hypothesis& hypothesis) { return hypothesis.label.kind == FaultKind::none; }
 inline bool is_everywhere(const Hypothesis& hypothesis) {
   return hypothesis.form == HypothesisForm::push_on_all_joints;
 }
@@ -56,7 +60,9 @@ inline int joint_of_size(const Hypothesis& hypothesis, int s) {
 
 /// The bank: every kind at every joint, first the kinds that a torque measured behind the drive hides, which
 /// are left out where it is measured there, then the others in the order of the catalogue.
-std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque);
+/// Work pieces (kg) that the robot carries every day come and go without being a fault.
+std::vector<Hypothesis> hypotheses_of(int joints, TorqueMeaning torque,
+                                      const std::vector<double>& work_pieces_kg = {});
 
 /// The distinct labels of a bank in its order; `label_of[i]` is the label of hypothesis i.
 struct HypothesisLabels {

@@ -24,7 +24,9 @@ constexpr double kWorthRefining = 25.0;  // nats: from farther behind a finer on
 constexpr int kMostRefined = 6;          // hypotheses
 constexpr int kRefineReach = 3;          // onsets tried on either side of the best,
 constexpr int kRefineFactor = 4;         // at spacings that shrink by this
+constexpr double kRanAway = 300.0;       // nats: no row that a filter still follows can cost so much
 constexpr int kFewestConfirm = 16;       // samples
+constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
 
 bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
   return a.log_likelihood_ratio > b.log_likelihood_ratio;
@@ -62,15 +64,15 @@ void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
 void HypothesisTest::advance() {
   if (lost_) return;
   const bool stands = alarmed() && now_ - alarm_ >= options_.fewest_samples;
-  std::vector<RunningHypothesis> before;
-  if (stands) before = running_;
+  const double ratio_before = best_ratio_;
+  if (stands) before_ = running_;
   ++now_;
   for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
   update();
-  if (stands && !std::isfinite(best_ratio_)) {
+  if (stands && !(best_ratio_ > ratio_before - kRanAway)) {
     lost_ = true;
     --now_;
-    running_ = std::move(before);
+    running_.swap(before_);
     update();
     return;
   }
@@ -133,11 +135,11 @@ double HypothesisTest::margin() const {
   return top->log_likelihood_ratio - second;
 }
 
-const GaussianState* HypothesisTest::misread() const {
+const RunningHypothesis* HypothesisTest::no_fault() const {
   const RunningHypothesis* best = nullptr;
   for (const RunningHypothesis& running : running_)
     if (!best || better(running, *best)) best = &running;
-  return best && is_misread(bank_.hypotheses()[best->hypothesis]) ? &best->state : nullptr;
+  return best && is_healthy(bank_.hypotheses()[best->hypothesis]) ? best : nullptr;
 }
 
 bool HypothesisTest::ready() const {
@@ -147,6 +149,8 @@ bool HypothesisTest::ready() const {
     return now_ - trigger_ >= kFewestConfirm &&
            history_[now_].time - history_[trigger_].time >= options_.confirm_s;
   const double since_s = history_[now_].time - history_[alarm_].time;
+  const bool checked = now_ - alarm_ >= options_.fewest_samples && since_s >= kShortestCheck_s;
+  if (checked && no_fault() && margin() > options_.clear_margin) return true;
   if (now_ - alarm_ < options_.fewest_samples || since_s < options_.isolate_s) return false;
   return since_s >= options_.longest_isolate_s || margin() > options_.clear_margin;
 }
@@ -167,7 +171,7 @@ RunningHypothesis HypothesisTest::refined(const RunningHypothesis& coarse) const
   }
 }
 
-EpisodeEvidence HypothesisTest::evidence() const {
+HypothesisTest::Conclusion HypothesisTest::conclude() const {
   std::vector<RunningHypothesis> best = best_of_each();
   std::vector<int> order;
   for (std::size_t h = 0; h < best.size(); ++h) order.push_back(static_cast<int>(h));
@@ -176,7 +180,8 @@ EpisodeEvidence HypothesisTest::evidence() const {
     const int h = order[i];
     if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining) best[h] = refined(best[h]);
   }
-  EpisodeEvidence out;
+  Conclusion conclusion;
+  EpisodeEvidence& out = conclusion.evidence;
   out.best = 0;
   for (std::size_t h = 0; h < best.size(); ++h) {
     out.hypotheses.push_back(std::isfinite(best[h].log_likelihood_ratio) ? bank_.evidence_of(best[h])
@@ -189,7 +194,8 @@ EpisodeEvidence HypothesisTest::evidence() const {
   out.isolated_s = history_[now_].time;
   out.samples = static_cast<int>(now_ - winner.onset + 1);
   out.trace = trace_evidence(bank_, history_, best, now_);
-  return out;
+  conclusion.best = winner;
+  return conclusion;
 }
 
 }  // namespace faultline

@@ -23,13 +23,18 @@ class HypothesisTest {
   void advance();
   bool ready() const;
   bool alarmed() const { return alarm_ >= 0; }
-  /// The state now of the filter that passed over one misread row, if that explains the log better than any
-  /// fault; null otherwise.
-  const GaussianState* misread() const;
+  /// The hypothesis without a fault (a misread row, a work piece picked up) that explains the log better than
+  /// any fault; null otherwise.
+  const RunningHypothesis* no_fault() const;
   double best_ratio() const { return best_ratio_; }
   double largest_ratio() const { return largest_ratio_; }
-  /// The evidence so far, onsets refined for the hypotheses that matter.
-  EpisodeEvidence evidence() const;
+  /// The evidence so far, onsets refined for the hypotheses that matter, and the best of them.
+  struct Conclusion {
+    EpisodeEvidence evidence;
+    RunningHypothesis best;
+  };
+  Conclusion conclude() const;
+  EpisodeEvidence evidence() const { return conclude().evidence; }
 
  private:
   void begin_at(std::int64_t onset, bool slow_only);
@@ -52,6 +57,7 @@ class HypothesisTest {
   double best_ratio_ = 0.0;
   double largest_ratio_ = 0.0;
   std::vector<RunningHypothesis> running_;
+  std::vector<RunningHypothesis> before_;   ///< the same a sample ago, once an alarm stands
   std::vector<RunningHypothesis> dropped_;  ///< their ratio is kept as a deficit against the best, below zero
 };
 

@@ -5,26 +5,30 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/evidence/episode_detector.hpp"
-#include "lib/evidence/filter/follower.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/evidence/innovation_tails.hpp"
+#include "lib/evidence/match_noise.hpp"
+#include "lib/evidence/noise_level.hpp"
+#include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/work_pieces.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr int kFewestRows = 50;       // fewer say nothing of noise and range
-constexpr int kSettlingRows = 10;     // at the start of a log, which the filter needs to forget its guess
-constexpr int kSearchRounds = 6;      // the first by this factor, each further one by its square root,
-constexpr double kFirstFactor = 4.0;  // but by no less than the last: likelihood is flat within it
-constexpr double kLastFactor = 1.2;
-constexpr double kGain = 1e-9;  // of the likelihood: less is rounding
-constexpr int kMostInflations = 8;
-constexpr double kInflation = 1.5;       // of the process noise, a round
-constexpr double kCalmShare = 0.6;       // of the threshold that healthy logs may reach: other days are worse
-constexpr double kTriggerSpare = 1.1;    // over what healthy logs reach, where more noise does not help
-constexpr double kThresholdSpare = 1.5;  // the same of the ratio, whose extremes scatter more
-constexpr double kFloorShare = 0.001;    // of the largest torque, where matching starts
-constexpr double kLeastFloor = 1e-9;     // N m or N, of joints without torque
+constexpr int kFewestRows = 50;            // fewer say nothing of noise and range
+constexpr double kFloorShare = 0.001;      // of the largest torque, where matching starts
+constexpr double kLeastFloor = 1e-9;       // N m or N, of joints without torque
+constexpr double kFirstClockShare = 0.01;  // of the period, where matching the clock's error starts
+
+/// Median of the first log, s.
+double usual_period_s(const std::vector<HealthyExcerpt>& pieces) {
+  std::vector<double> periods;
+  if (pieces.empty()) return 0.0;
+  const std::vector<double>& time = pieces.front().log.time;
+  for (std::size_t k = 1; k < time.size(); ++k) periods.push_back(time[k] - time[k - 1]);
+  return upper_median(periods);
+}
 
 /// M_jj in the middle of the range.
 std::vector<double> inertia_scale(const MotionModel& model) {
@@ -36,92 +40,40 @@ std::vector<double> inertia_scale(const MotionModel& model) {
   return diagonal;
 }
 
-/// The same number of rows from the beginning of every log.
-std::vector<Log> excerpts(std::span<LogSource* const> logs, int rows) {
-  std::vector<Log> out;
+/// The same number of rows from the beginning of every log, and how it measures against the others.
+std::vector<HealthyExcerpt> excerpts(std::span<LogSource* const> logs, int rows, MotionModel& model,
+                                     const LearnMotionOptions& options) {
+  std::vector<HealthyExcerpt> out;
+  std::vector<NoiseLevel> levels;
   const int each = std::max(rows / static_cast<int>(std::max<std::size_t>(logs.size(), 1)), kFewestRows);
   for (LogSource* log : logs) {
     log->rewind();
     Log taken;
     for (Log segment; taken.rows() < each && log->next(segment);)
       append(taken, slice(segment, 0, std::min(segment.rows(), each - taken.rows())));
-    if (taken.rows() > 1) out.push_back(std::move(taken));
+    if (taken.rows() < 2) continue;
+    levels.push_back(noise_level(taken));
+    out.push_back({std::move(taken), {}});
   }
+  if (!options.normal) return out;
+  model.usual_noise = usual_level(levels);
+  model.noise_range = options.normal->noise;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].noise = log_noise(model, levels[i]);
   return out;
 }
 
-double log_likelihood(const std::vector<Log>& logs, const MotionModel& model) {
-  double sum = 0.0;
-  FollowedSample sample;
-  for (const Log& log : logs) {
-    Follower follower(model);
-    for (int k = 0; k < log.rows(); ++k) {
-      follower.follow(log, k, sample);
-      if (k > kSettlingRows) sum += sample.total_log_likelihood;
-    }
+/// What of the healthy days is neither noise nor the identified robot.
+void learn_family(MotionModel& model, std::vector<HealthyExcerpt>& pieces, const MatchOptions& matching,
+                  const NormalRange& normal) {
+  const std::vector<SlowState> before = slow_states(model, normal);
+  if (learn_tails(model, pieces, matching.threads)) match_noise(model, pieces, matching);
+  learn_work_pieces(model, pieces, matching.threads);
+  if (!model.work_pieces_kg.empty()) {  // what they shook was taken for noise
+    model.slow = before;
+    allow_work_pieces(model);
+    match_noise(model, pieces, matching);
   }
-  return sum;
-}
-
-/// The numbers that the search moves, by factors.
-std::vector<std::vector<double*>> free_numbers(MotionModel& model, bool held) {
-  auto all = [](std::vector<double>& values) {
-    std::vector<double*> pointers;
-    for (double& value : values) pointers.push_back(&value);
-    return pointers;
-  };
-  std::vector<std::vector<double*>> groups = {{&model.noise.torque_share},
-                                              all(model.noise.floor),
-                                              {&model.noise.rest_share},
-                                              all(model.q_std),
-                                              all(model.dq_std)};
-  if (!held) groups.push_back({&model.noise.step_share});
-  return groups;
-}
-
-/// Coordinate search by shrinking factors for the largest likelihood of the healthy innovations.
-void match_noise(MotionModel& model, const std::vector<Log>& logs, bool held) {
-  const auto groups = free_numbers(model, held);
-  double best = log_likelihood(logs, model), factor = kFirstFactor;
-  auto scale = [](const std::vector<double*>& group, double by) {
-    for (double* value : group) *value *= by;
-  };
-  for (int round = 0; round < kSearchRounds; ++round, factor = std::sqrt(factor)) {
-    for (const auto& group : groups) {
-      for (const double by : {factor, 1.0 / factor}) {
-        scale(group, by);
-        const double moved = log_likelihood(logs, model);
-        if (moved > best + kGain * std::abs(best)) {
-          best = moved;
-          break;
-        }
-        scale(group, 1.0 / by);
-      }
-    }
-    factor = std::max(factor, kLastFactor);
-  }
-}
-
-/// The largest statistics that healthy logs reach.
-struct Extremes {
-  double trigger = 0.0;
-  double ratio = 0.0;
-};
-
-Extremes extremes(std::span<LogSource* const> logs, const MotionModel& model,
-                  const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options) {
-  Extremes seen;
-  for (LogSource* log : logs) {
-    log->rewind();
-    EpisodeDetector detector(model, hypotheses, options);
-    for (Log segment; log->next(segment);) detector.take(segment);
-    detector.finish();
-    seen.trigger = std::max(seen.trigger, detector.largest_trigger());
-    seen.ratio = std::max(seen.ratio, detector.largest_ratio());
-    for (const EpisodeEvidence& episode : detector.episodes())
-      seen.ratio = std::max(seen.ratio, episode.hypotheses[episode.best].log_likelihood_ratio);
-  }
-  return seen;
+  widen_to_days(model, pieces, matching.threads);
 }
 
 }  // namespace
@@ -149,28 +101,23 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   if (identified.torque_is_held) model.noise.step_share = 0.0;
   model.inertia_scale = inertia_scale(model);
   model.priors = size_priors(model, healthy, options.priors);
-  match_noise(model, excerpts(logs, options.excerpt_rows), identified.torque_is_held);
+  std::vector<HealthyExcerpt> pieces = excerpts(logs, options.excerpt_rows, model, options);
+  const double period_s = usual_period_s(pieces);
+  if (options.normal) {
+    model.slow = slow_states(model, *options.normal);
+    model.clock_std = kFirstClockShare * period_s;
+  }
+  const MatchOptions matching{identified.torque_is_held, period_s, options.threads};
+  match_noise(model, pieces, matching);
+  if (options.normal) learn_family(model, pieces, matching, *options.normal);
   ProcessNoise& noise = model.noise;
   noise.torque_share = std::max(options.safety * noise.torque_share, options.least_torque_share);
   noise.rest_share = std::max(options.safety * noise.rest_share, options.least_rest_share);
   noise.step_share *= options.safety;
   for (double& floor : noise.floor) floor *= options.safety;
+  for (SlowState& slow : model.slow)
+    if (slow.kind == SlowKind::coloured_torque) slow.day_std *= options.safety;
   return model;
-}
-
-EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
-                                     const std::vector<Hypothesis>& hypotheses, EvidenceOptions options) {
-  for (int round = 0; round < kMostInflations; ++round) {
-    const Extremes seen = extremes(logs, model, hypotheses, options);
-    if (seen.trigger < options.trigger && seen.ratio < kCalmShare * options.threshold) return options;
-    model.noise.torque_share *= kInflation;
-    model.noise.rest_share *= kInflation;
-    for (double& floor : model.noise.floor) floor *= kInflation;
-  }
-  const Extremes seen = extremes(logs, model, hypotheses, options);
-  options.trigger = std::max(options.trigger, kTriggerSpare * seen.trigger);
-  options.threshold = std::max(options.threshold, kThresholdSpare * seen.ratio);
-  return options;
 }
 
 }  // namespace faultline

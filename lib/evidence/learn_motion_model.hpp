@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/size_priors.hpp"
 #include "lib/log/log_source.hpp"
+#include "lib/robot/normal_range.hpp"
 
 namespace faultline {
 
@@ -26,6 +28,9 @@ struct LearnMotionOptions {
   double least_rest_share = 0.05;
   double safety = 1.25;  ///< the matched process noise is taken this much larger: other days are worse
   SizePriorOptions priors{};
+  /// How far healthy days may differ; without it the robot is exactly the identified one at all times.
+  std::optional<NormalRange> normal = NormalRange{};
+  int threads = 0;  ///< 0 = one a core; the result does not depend on it
 };
 
 /// A motion model whose process noise is matched to the innovations of the healthy logs by maximum
@@ -34,9 +39,11 @@ struct LearnMotionOptions {
 MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
                                const LearnMotionOptions& options);
 
-/// Runs the bank over the healthy logs themselves. While they come near the threshold, the process noise does
-/// not cover what the model misses and is made larger; what still sticks out raises trigger and threshold.
+/// Runs the bank over the healthy logs themselves and raises trigger and threshold above what they reach, up
+/// to a limit. Where they pass the limit, the process noise does not cover what the model misses and is made
+/// larger, a few times at most. The result does not depend on `threads` (0 = one a core).
 EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
-                                     const std::vector<Hypothesis>& hypotheses, EvidenceOptions options);
+                                     const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& start,
+                                     int threads = 0);
 
 }  // namespace faultline

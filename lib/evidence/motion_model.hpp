@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "lib/evidence/hypothesis.hpp"
+#include "lib/evidence/noise_level.hpp"
+#include "lib/evidence/slow_state.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
@@ -18,6 +20,9 @@ struct ProcessNoise {
   double step_share = 0.3;      ///< 0 when the torque is known to be held
   double correlation_s = 0.02;  ///< s, for which what the model misses stays the same: fixed, not matched
   std::vector<double> floor;    ///< N m or N, one a joint
+  /// rad/(N m) or m/N: by how much the reading of a joint may jump when its torque does, where gears are
+  /// springs; one a joint, empty for none.
+  std::vector<double> compliance{};
 };
 
 /// All that a Kalman filter needs to follow a healthy run of the identified robot.
@@ -25,9 +30,22 @@ struct MotionModel {
   Chain<double> chain;
   double torque_phi = 0.0;  ///< torque between samples k and k+1 is tau_k + phi (tau_k+1 - tau_k)
   ProcessNoise noise;
+  std::vector<SlowState> slow;  ///< what differs from day to day; at most kMaxSlowStates
+  /// s, of rows that are taken in step while their stamps wobble; 0 where stamps are taken as they are.
+  double steady_period_s = 0.0;
+  double clock_std = 0.0;      ///< s: error of the time stamps, which moves readings by the speed
   std::vector<double> q_std;   ///< measurement noise, rad or m, one a joint; positive
   std::vector<double> dq_std;  ///< rad/s or m/s
-  std::vector<double> q_low;   ///< range seen in healthy logs
+  /// 1 where dq is computed from q and no measurement of its own, one a joint; empty for none.
+  std::vector<char> dq_is_difference;
+  /// Standard deviations of the innovations of q and dq beyond which healthy rows stray (springs, play,
+  /// coarse codes): farther ones count for less, in the filters and in the evidence. One a joint; empty for
+  /// none.
+  std::vector<double> q_tail, dq_tail;
+  std::vector<double> work_pieces_kg;  ///< that come and go every day
+  NoiseLevel usual_noise;              ///< of the healthy logs; empty where logs are taken as they are
+  std::array<double, 2> noise_range{1.0, 1.0};  ///< times that, for a log's own level
+  std::vector<double> q_low;                    ///< range seen in healthy logs
   std::vector<double> q_high;
   std::vector<double> velocity_scale;  ///< root mean square of the healthy velocity
   std::vector<double> torque_scale;    ///< largest healthy torque
@@ -39,6 +57,8 @@ struct MotionModel {
   SizePriors priors;
 
   int joints() const { return chain.joints(); }
+  /// Numbers in the state of the healthy filter: q, dq, slow states.
+  int healthy_states() const { return 2 * joints() + static_cast<int>(slow.size()); }
 };
 
 }  // namespace faultline

@@ -49,10 +49,62 @@ void visit_options(Options& options, Visit visit) {
   visit("recover_s", options.recover_s);
 }
 
+nlohmann::json slow_to_json(const std::vector<SlowState>& states) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SlowState& slow : states)
+    list.push_back({{"state", to_string(slow.kind)},
+                    {"joint", slow.joint + 1},
+                    {"day_std", slow.day_std},
+                    {"walk", slow.walk},
+                    {"memory_s", slow.memory_s}});
+  return list;
+}
+
+/// Models of programs that knew no slow states have none.
+std::vector<SlowState> slow_from_json(const nlohmann::json& json, int joints, const std::string& where) {
+  std::vector<SlowState> states;
+  if (!json.contains("slow")) return states;
+  for (const nlohmann::json& entry : json.at("slow")) {
+    SlowState slow;
+    slow.kind = slow_kind_from(entry.at("state").get<std::string>(), where);
+    slow.joint = entry.at("joint").get<int>() - 1;
+    slow.day_std = number_from_json(entry, "day_std", where);
+    slow.walk = number_from_json(entry, "walk", where);
+    slow.memory_s = number_from_json(entry, "memory_s", where);
+    if (slow.joint < 0 || slow.joint >= joints || states.size() == kMaxSlowStates)
+      throw Error(ErrorCode::input, where,
+                  "\"slow\" lists joint " + std::to_string(slow.joint + 1) + " or too many states for " +
+                      std::to_string(joints) + " joints; learn the model again");
+    states.push_back(slow);
+  }
+  return states;
+}
+
+/// Lists that models of earlier programs lack.
+void read_later_lists(const nlohmann::json& json, MotionModel& model) {
+  auto read = [&](const char* key, std::vector<double>& values) {
+    if (json.contains(key)) values = json.at(key).get<std::vector<double>>();
+  };
+  read("q_tail", model.q_tail);
+  read("compliance", model.noise.compliance);
+  read("dq_tail", model.dq_tail);
+  read("work_pieces_kg", model.work_pieces_kg);
+}
+
 }  // namespace
 
 void to_json(nlohmann::json& json, const MotionModel& model) {
   json = nlohmann::json::object();
+  json["slow"] = slow_to_json(model.slow);
+  json["clock_std"] = model.clock_std;
+  json["q_tail"] = model.q_tail;
+  json["compliance"] = model.noise.compliance;
+  json["dq_tail"] = model.dq_tail;
+  json["work_pieces_kg"] = model.work_pieces_kg;
+  json["steady_period_s"] = model.steady_period_s;
+  json["usual_noise"] = {{"q", model.usual_noise.q}, {"dq", model.usual_noise.dq}};
+  json["noise_range"] = model.noise_range;
+  json["dq_is_difference"] = std::vector<int>(model.dq_is_difference.begin(), model.dq_is_difference.end());
   visit_joint_lists(model, [&](const char* key, const auto& values) { json[key] = values; });
   visit_numbers(model, [&](const char* key, double value) { json[key] = value; });
 }
@@ -72,6 +124,19 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
       values.push_back(static_cast<typename std::decay_t<decltype(values)>::value_type>(value));
   });
   visit_numbers(model, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
+  model.slow = slow_from_json(json, robot.joints(), where);
+  model.clock_std = json.contains("clock_std") ? number_from_json(json, "clock_std", where) : 0.0;
+  read_later_lists(json, model);
+  if (json.contains("steady_period_s"))
+    model.steady_period_s = number_from_json(json, "steady_period_s", where);
+  if (json.contains("usual_noise")) {
+    const nlohmann::json& usual = json.at("usual_noise");
+    model.usual_noise = {usual.at("q").get<std::vector<double>>(), usual.at("dq").get<std::vector<double>>()};
+    model.noise_range = json.at("noise_range").get<std::array<double, 2>>();
+  }
+  if (json.contains("dq_is_difference"))
+    for (const nlohmann::json& flag : json["dq_is_difference"])
+      model.dq_is_difference.push_back(static_cast<char>(flag.get<int>()));
   return model;
 }
 

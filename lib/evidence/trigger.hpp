@@ -19,6 +19,8 @@ class Trigger {
 
   /// Takes the next sample; returns the largest statistic over channels and windows.
   double take(const FollowedSample& sample);
+  /// What was seen so far was explained: the windows begin anew.
+  void forget() { restart(); }
   /// Samples in the run of repeated codes of any joint whose encoder does not repeat when healthy; 0 without
   /// one.
   int repeated_codes() const { return longest_run_; }

@@ -111,7 +111,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.has_velocity = json.at("has_velocity");
   model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
   model.evidence = evidence_options_from_json(json.at("evidence"), where);
-  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque);
+  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.samples = samples_from_json(json.at("samples"), where);

@@ -22,7 +22,8 @@ std::vector<JointResidual> RecentResiduals::between(double from_s, double to_s) 
   return summary.joints();
 }
 
-EvidenceMonitor::EvidenceMonitor(const Model& model) : detector_(model.motion, model.bank, model.evidence) {}
+EvidenceMonitor::EvidenceMonitor(const Model& model, const LogNoise& noise)
+    : detector_(model.motion, model.bank, model.evidence, noise) {}
 
 void EvidenceMonitor::take(const Log& segment, Residuals residuals) {
   recent_.add(std::move(residuals));

@@ -25,7 +25,7 @@ class RecentResiduals {
 /// time.
 class EvidenceMonitor {
  public:
-  explicit EvidenceMonitor(const Model& model);
+  explicit EvidenceMonitor(const Model& model, const LogNoise& noise = {});
 
   void take(const Log& segment, Residuals residuals);
   /// After the last segment.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/monitor.hpp"
 
+#include "lib/evidence/slow_states.hpp"
 #include "lib/monitor/evidence_monitor.hpp"
 #include "lib/monitor/log_tally.hpp"
 #include "lib/monitor/sample_monitor.hpp"
@@ -10,7 +11,7 @@ namespace faultline {
 
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   const bool by_samples = options.mode == ClassifyMode::samples;
-  EvidenceMonitor evidence(model);
+  EvidenceMonitor evidence(model, survey_noise(log, model.motion));
   SampleMonitor samples(model.samples, options);
   LogTally tally;
   ResidualState state;

@@ -24,7 +24,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.cannot_see = blind_spots(model.robot.log.torque, run.log.has_velocity);
-  settle_verdict(diagnosis, std::move(faults), model.sample_period_s);
+  for (std::string& spot : weak_spots(model.validation)) diagnosis.cannot_see.push_back(std::move(spot));
+  settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   return diagnosis;
 }
 

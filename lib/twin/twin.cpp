@@ -33,8 +33,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
       std::max(twin.options.control_period_s, twin.options.integration_share * spec.control_period_s);
   spec.motion = draw_motion(twin, random);
   spec.controller = draw_controller(twin, attempt == 0, random);
-  spec.noise.q = twin.identification->q_noise;
-  spec.noise.dq = twin.identification->dq_noise;
+  spec.noise = draw_noise(twin, random);
   for (const double speed : twin.motion->velocity_scale)
     spec.overspeed.push_back(twin.options.trip_speed * speed);
   spec.stops = draw_stops(twin, random);
@@ -44,7 +43,8 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
 /// One try; the run may end early when the controller drawn does not hold this robot.
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
-  const Robot robot = draw(*twin.identification, random);
+  Robot robot = draw(*twin.identification, random);
+  draw_day(twin, robot, random);
   SimulationSpec spec = spec_of(twin, attempt, random);
   TwinRun run;
   run.label = label;

@@ -15,6 +15,15 @@ namespace {
 constexpr double kMoveShare = 0.4;
 constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the logs moves
 
+// A day's friction: within the normal range of two standard deviations, and there is always some.
+constexpr double kMostStds = 2.0;
+constexpr double kLeastFriction = 0.3;
+
+std::vector<double> scaled(std::vector<double> values, double by) {
+  for (double& value : values) value *= by;
+  return values;
+}
+
 double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
 
 double draw_from(const DrawRange& range, Random& random) {
@@ -91,6 +100,27 @@ ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random) 
   const double most = twin.options.mass_error;
   for (int j = 0; j < twin.motion->joints(); ++j) spec.mass_error.push_back(random.uniform(-most, most));
   return spec;
+}
+
+NoiseSpec draw_noise(const Twin& twin, Random& random) {
+  const MotionModel& motion = *twin.motion;
+  NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
+  if (motion.usual_noise.q.empty()) return noise;
+  const auto& [low, high] = motion.noise_range;
+  const double level = low * std::exp(random.uniform() * std::log(high / low));
+  noise.q = scaled(motion.q_std, level);
+  if (!noise.dq.empty()) noise.dq = scaled(motion.dq_std, level);
+  return noise;
+}
+
+void draw_day(const Twin& twin, Robot& robot, Random& random) {
+  for (const SlowState& slow : twin.motion->slow) {
+    if (slow.kind != SlowKind::friction) continue;
+    const double most = kMostStds * slow.day_std, change = slow.day_std * random.normal();
+    const double scale = std::max(1.0 + std::clamp(change, -most, most), kLeastFriction);
+    robot.chain.friction[slow.joint].viscous *= scale;
+    robot.chain.friction[slow.joint].coulomb *= scale;
+  }
 }
 
 JointStops draw_stops(const Twin& twin, Random& random) {

@@ -15,6 +15,10 @@ double usual_move_s(const Twin& twin);
 MotionSpec draw_motion(const Twin& twin, Random& random);
 /// PD holds fewer robots than computed torque: a second attempt does without it.
 ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random);
+/// Measurement noise of a day, within the normal range.
+NoiseSpec draw_noise(const Twin& twin, Random& random);
+/// What friction the robot has on a day, within the normal range.
+void draw_day(const Twin& twin, Robot& robot, Random& random);
 /// Somewhere outside the range seen in the logs, or none.
 JointStops draw_stops(const Twin& twin, Random& random);
 /// The fault asked for, and of one that passes perhaps a second push.

@@ -75,5 +75,16 @@ TEST(MergeFaults, CollisionsPassAndStayApart) {
   EXPECT_EQ(merged.size(), 2u);
 }
 
+TEST(Verdict, AModelThatSeesLittleCannotCallALogHealthy) {
+  Diagnosis diagnosis;
+  diagnosis.log.sample_period_s = kPeriod_s;
+  diagnosis.log.rows_used = diagnosis.log.judgeable_rows = 1000;
+  settle_verdict(diagnosis, {}, kPeriod_s, 0.2);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("20 %"), std::string::npos) << diagnosis.verdict_reason;
+  settle_verdict(diagnosis, {}, kPeriod_s, 0.9);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+}
+
 }  // namespace
 }  // namespace faultline

@@ -109,7 +109,7 @@ TEST_P(JudgedFault, IsTheBestHypothesisAndBeganWhenItDid) {
   EXPECT_GE(watch.time(), kOnset_s) << "the trigger is silent before the fault";
   watch.rows_until_ready();
   ASSERT_TRUE(watch.test().alarmed());
-  EXPECT_EQ(watch.test().misread(), nullptr);
+  EXPECT_EQ(watch.test().no_fault(), nullptr);
   const EpisodeEvidence evidence = watch.test().evidence();
   EXPECT_EQ(label_text(watch.label(evidence)), label_text(expected.label));
   EXPECT_NEAR(evidence.onset_s, kOnset_s, expected.onset_within_s);
@@ -178,9 +178,9 @@ TEST(HypothesisTest, ASingleWildRowIsMisread) {
   ASSERT_TRUE(watch.wake());
   EXPECT_EQ(watch.trigger_row(), 300);
   watch.advance(40);
-  const GaussianState* state = watch.test().misread();
-  ASSERT_NE(state, nullptr);
-  EXPECT_NEAR(state->mean[0], log.q[0][340], 1e-3) << "the filter that passed over it is where the robot is";
+  const RunningHypothesis* misread = watch.test().no_fault();
+  ASSERT_NE(misread, nullptr);
+  EXPECT_NEAR(misread->state.mean[0], log.q[0][340], 1e-3) << "the filter that passed over it is where the robot is";
 }
 
 TEST(HypothesisTest, TwoWildRowsOfTheSameKindAreNotMisread) {
@@ -188,7 +188,7 @@ TEST(HypothesisTest, TwoWildRowsOfTheSameKindAreNotMisread) {
   Watch watch(log);
   ASSERT_TRUE(watch.wake());
   watch.advance(40);
-  EXPECT_EQ(watch.test().misread(), nullptr);
+  EXPECT_EQ(watch.test().no_fault(), nullptr);
 }
 
 TEST(HypothesisTest, PruningKeepsTheWinner) {

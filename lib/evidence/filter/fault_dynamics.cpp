@@ -13,7 +13,8 @@ namespace {
 
 using Map = Eigen::Map<const Eigen::VectorXd>;
 
-constexpr double kSaturated = 20.0;  // tanh is 1 to the last bit from 19.1
+constexpr double kSaturated = 20.0;      // tanh is 1 to the last bit from 19.1
+constexpr double kLeastFriction = 0.05;  // of the identified: friction never drives
 
 /// tanh, at once where it is 1 to the last bit: a joint that moves.
 double saturating_tanh(double x) { return std::abs(x) > kSaturated ? std::copysign(1.0, x) : std::tanh(x); }
@@ -40,11 +41,20 @@ FaultKind kind_of(const SizedFault& fault) {
 
 }  // namespace
 
+/// What the slow states make of each joint's load.
+struct FaultDynamics::SlowLoad {
+  JointArray friction_scale, gain;
+  JointArray torque;  ///< beside the drive's, N m or N
+  double tip_mass = 0.0;
+  bool tip_is_free = false;  ///< it is in the state
+};
+
 struct FaultDynamics::RigidBody {
   JointMatrix<double> inertia;
   JointVector<double> bias;             ///< h + G
-  JointMatrix<double> payload_inertia;  ///< what a kilogram at the tip adds, where the payload changes
+  JointMatrix<double> payload_inertia;  ///< what a kilogram at the tip adds, where the tip is free
   JointVector<double> payload_bias;
+  bool tip_is_free = false;
 };
 
 FaultDynamics::FaultDynamics(const MotionModel& model)
@@ -53,26 +63,57 @@ FaultDynamics::FaultDynamics(const MotionModel& model)
       unit_payload_(with_unit_payload(model.chain)),
       joints_(model.joints()) {}
 
-FaultDynamics::RigidBody FaultDynamics::rigid_body(const MotionState& at, const SizedFault& fault) const {
+FaultDynamics::SlowLoad FaultDynamics::slow_load(const SizedFault& fault) const {
+  SlowLoad load;
+  load.friction_scale.fill(1.0);
+  load.gain.fill(1.0);
+  load.torque.fill(0.0);
+  for (std::size_t s = 0; s < fault.slow.size(); ++s) {
+    const SlowState& state = model_.slow[s];
+    switch (state.kind) {
+      case SlowKind::friction:
+        load.friction_scale[state.joint] = std::max(1.0 + fault.slow[s], kLeastFriction);
+        break;
+      case SlowKind::torque_gain:
+        load.gain[state.joint] += fault.slow[s];
+        break;
+      case SlowKind::torque_offset:
+      case SlowKind::coloured_torque:
+        load.torque[state.joint] += fault.slow[s];
+        break;
+      case SlowKind::tip_mass:
+        load.tip_mass = fault.slow[s];
+        load.tip_is_free = true;
+        break;
+    }
+  }
+  return load;
+}
+
+FaultDynamics::RigidBody FaultDynamics::rigid_body(const MotionState& at, const SizedFault& fault,
+                                                   const SlowLoad& slow) const {
   const JointVector<double> q = Map(at.q.data(), joints_), dq = Map(at.dq.data(), joints_);
   RigidBody body;
   body.inertia.resize(joints_, joints_);
   body.bias.resize(joints_);
   healthy_.inertia_and_bias(q, dq, body.inertia, body.bias);
-  if (kind_of(fault) != FaultKind::payload_change) return body;
+  const bool payload = kind_of(fault) == FaultKind::payload_change;
+  body.tip_is_free = payload || slow.tip_is_free;
+  if (!body.tip_is_free) return body;
+  const double mass = slow.tip_mass + (payload ? fault.sizes[0] : 0.0);
   body.payload_inertia.resize(joints_, joints_);
   body.payload_bias.resize(joints_);
   unit_payload_.inertia_and_bias(q, dq, body.payload_inertia, body.payload_bias);
   body.payload_bias -= body.bias;
   body.payload_inertia -= body.inertia;
-  body.bias += fault.sizes[0] * body.payload_bias;
-  body.inertia += fault.sizes[0] * body.payload_inertia;
+  body.bias += mass * body.payload_bias;
+  body.inertia += mass * body.payload_inertia;
   return body;
 }
 
-/// The torque that accelerates each joint, with what `out` tells of friction and fault sizes.
+/// The torque that accelerates each joint, with what `out` tells of friction, fault sizes and slow states.
 JointArray FaultDynamics::net_torque(const MotionState& at, const JointArray& torque, const SizedFault& fault,
-                                     const RigidBody& body, Acceleration& out) const {
+                                     const SlowLoad& slow, const RigidBody& body, Acceleration& out) const {
   const int n = joints_;
   const FaultKind kind = kind_of(fault);
   const int joint = fault.hypothesis ? fault.hypothesis->joint_index() : -1;
@@ -83,14 +124,18 @@ JointArray FaultDynamics::net_torque(const MotionState& at, const JointArray& to
     const bool rubs = f.coulomb != 0.0 || (j == joint && kind == FaultKind::friction_increase);
     const double sign = rubs ? saturating_tanh(at.dq[j] / f.width) : 0.0;
     const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
-    JointLoad load{torque[j], f.viscous, f.coulomb, {}};
+    const double scale = slow.friction_scale[j];
+    JointLoad load{slow.gain[j] * torque[j], scale * f.viscous, scale * f.coulomb, {}};
     if (j == joint) load_joint(kind, fault.sizes, at.dq[j], sign, load);
     if (everywhere) load.drive += fault.sizes[j];
     for (int s = 0; s < kMostSizes; ++s) out.size_torque[s][j] = load.size_torque[s];
+    out.friction_torque[j] = -f.viscous * at.dq[j] - f.coulomb * sign;
+    out.gain_torque[j] = torque[j] * (j == joint ? driven_share(kind, fault.sizes) : 1.0);
     out.friction_slope[j] = load.viscous + load.coulomb * sharpness;
     out.stiffness =
         std::max(out.stiffness, out.inverse_inertia[j * n + j] * (load.viscous + load.coulomb / f.width));
-    net[j] = load.drive - body.bias[j] - load.viscous * at.dq[j] - load.coulomb * sign - f.offset;
+    net[j] =
+        load.drive - body.bias[j] - load.viscous * at.dq[j] - load.coulomb * sign - f.offset + slow.torque[j];
   }
   return net;
 }
@@ -99,22 +144,24 @@ Acceleration FaultDynamics::evaluate(const MotionState& at, const JointArray& to
                                      const SizedFault& fault) const {
   const int n = joints_;
   const FaultKind kind = kind_of(fault);
-  const RigidBody body = rigid_body(at, fault);
+  const SlowLoad slow = slow_load(fault);
+  const RigidBody body = rigid_body(at, fault, slow);
   Acceleration out;
   invert_inertia(body.inertia, kind == FaultKind::locked ? fault.hypothesis->joint_index() : -1,
                  out.inverse_inertia);
-  const JointArray net = net_torque(at, torque, fault, body, out);
+  const JointArray net = net_torque(at, torque, fault, slow, body, out);
   for (int i = 0; i < n; ++i) {
     double sum = 0.0;
     for (int j = 0; j < n; ++j) sum += out.inverse_inertia[i * n + j] * net[j];
     out.value[i] = sum;
   }
-  if (kind != FaultKind::payload_change) return out;
+  if (!body.tip_is_free) return out;
   for (int i = 0; i < n; ++i) {
     double sum = body.payload_bias[i];
     for (int j = 0; j < n; ++j) sum += body.payload_inertia(i, j) * out.value[j];
-    out.size_torque[0][i] = -sum;
+    out.tip_torque[i] = -sum;
   }
+  if (kind == FaultKind::payload_change) out.size_torque[0] = out.tip_torque;
   return out;
 }
 

@@ -22,12 +22,18 @@ struct Acceleration {
   double stiffness = 0.0;       ///< 1/s: how fast friction can stop a joint at most
   /// Generalised torque a unit of each fault size adds, where that is one joint's.
   std::array<JointArray, kMostSizes> size_torque;
+  // The same of a unit of each slow state; the others are torques themselves.
+  JointArray friction_torque;
+  JointArray gain_torque;
+  JointArray tip_torque;  ///< on every joint, of a kilogram; where the tip's mass is in the state
 };
 
-/// A hypothesis with the sizes it is taken at; without a hypothesis the robot is healthy.
+/// A hypothesis with the sizes it is taken at, and the slow states (MotionModel::slow; none means all 0);
+/// without a hypothesis the robot is healthy.
 struct SizedFault {
   const Hypothesis* hypothesis = nullptr;
   std::span<const double> sizes{};
+  std::span<const double> slow{};
 };
 
 /// The equations of motion under a hypothesis, or of the healthy robot.
@@ -52,10 +58,12 @@ class FaultDynamics {
 
  private:
   struct RigidBody;
+  struct SlowLoad;
 
-  RigidBody rigid_body(const MotionState& at, const SizedFault& fault) const;
+  SlowLoad slow_load(const SizedFault& fault) const;
+  RigidBody rigid_body(const MotionState& at, const SizedFault& fault, const SlowLoad& slow) const;
   JointArray net_torque(const MotionState& at, const JointArray& torque, const SizedFault& fault,
-                        const RigidBody& body, Acceleration& out) const;
+                        const SlowLoad& slow, const RigidBody& body, Acceleration& out) const;
   Acceleration midpoint_step(MotionState& state, const Acceleration& start, const JointArray& torque,
                              double h, const SizedFault& fault) const;
   void implicit_step(MotionState& state, const Acceleration& at, double h) const;

@@ -45,6 +45,12 @@ inline void load_joint(FaultKind kind, std::span<const double> sizes, double dq,
   }
 }
 
+/// Share of the drive's torque that reaches a joint with the fault.
+inline double driven_share(FaultKind kind, std::span<const double> sizes) {
+  if (kind == FaultKind::free_swinging) return 0.0;
+  return kind == FaultKind::torque_loss ? 1.0 - sizes[0] : 1.0;
+}
+
 /// How a unit of the fault's size falsifies what a joint's sensor reads.
 struct SensorError {
   int size_index = -1;  ///< in the state; -1 for none

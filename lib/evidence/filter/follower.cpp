@@ -9,41 +9,76 @@ namespace faultline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMassDoubt = 0.1;  // share by which the mass of a work piece is not known
+constexpr double kNoTail = std::numeric_limits<double>::infinity();
 constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
 constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
 constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
+constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
+constexpr double kFarBeyond = 20.0;  // times the usual speed or the largest torque: a filter gone astray
+constexpr double kLostStep = 0.75;   // of a period: a stamp farther off is believed
+constexpr double kLeastStep = 0.1;   // of a period
+constexpr double kClockGain = 0.01;  // of what a stamp is off: drift of a clock is slow
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 }  // namespace
 
-JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
-                               int j, const SensorError& error) {
-  const int n = model.joints();
+JointObservation observe_joint(GaussianState& state, int n, const FollowedSample& sample, int j,
+                               const SensorError& error) {
   JointObservation out;
   double variances = 1.0;
   int measured = 0;
-  auto take = [&](int index, double factor, double z, double std, double& whitened) {
+  auto take = [&](int index, double factor, double z, double std, double tail, double& whitened) {
     if (!std::isfinite(z)) return;
     const ScalarUpdate update =
-        observe(state, index, factor != 0.0 ? error.size_index : -1, factor, z, std * std);
+        observe(state, index, factor != 0.0 ? error.size_index : -1, factor, z, std * std, tail);
     whitened = update.innovation / std::sqrt(update.variance);
     out.chi_square += std::min(update.chi_square(), kChiSquareCap);
     variances *= update.variance;
     ++measured;
   };
-  take(j, error.on_q, sample.q[j], model.q_std[j], out.whitened_q);
-  take(n + j, error.on_dq, sample.dq[j], model.dq_std[j], out.whitened_dq);
+  take(j, error.on_q, sample.q[j], sample.q_std[j], sample.q_tail[j], out.whitened_q);
+  take(n + j, error.on_dq, sample.dq[j], sample.dq_std[j], sample.dq_tail[j], out.whitened_dq);
   out.log_likelihood = -0.5 * (out.chi_square + std::log(variances) + measured * kLogTwoPi);
   return out;
 }
+
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg) {
+  const double doubt = kMassDoubt * kg;
+  for (std::size_t s = 0; s < model.slow.size(); ++s) {
+    if (model.slow[s].kind != SlowKind::tip_mass) continue;
+    const int index = 2 * model.joints() + static_cast<int>(s);
+    state.mean[index] += kg;
+    state.p(index, index) += doubt * doubt;
+  }
+}
+
+void Follower::change_work_piece(double kg) { add_work_piece(state_, model_, kg); }
 
 Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before) {
   return {at.dt, torque_before, at.torque, at.pressed, missing_before, at.torque_missing};
 }
 
-Follower::Follower(const MotionModel& model) : model_(model), dynamics_(model) {
+/// Noise of the sensors, and what an error of the time stamp makes of speed and acceleration.
+void Follower::set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const {
+  const int n = model_.joints();
+  for (int j = 0; j < n; ++j) {
+    out.q_tail[j] = model_.q_tail.empty() ? kNoTail : model_.q_tail[j];
+    out.dq_tail[j] = model_.dq_tail.empty() ? kNoTail : model_.dq_tail[j];
+    const double fastest = kFarBeyond * model_.velocity_scale[j];
+    const double steepest = kFarBeyond * model_.torque_scale[j] / model_.inertia_scale[j];
+    const double speed = std::clamp(state_.mean[n + j], -fastest, fastest);
+    const double acceleration =
+        std::clamp((state_.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
+    out.q_std[j] = std::hypot(noise_.q_scale[j] * model_.q_std[j], model_.clock_std * speed);
+    out.dq_std[j] = std::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
+  }
+}
+
+Follower::Follower(const MotionModel& model, const LogNoise& noise)
+    : model_(model), noise_(noise), dynamics_(model) {
   for (int j = 0; j < model.joints(); ++j) {
     const double margin = kRangeMargin * (model.q_high[j] - model.q_low[j]);
     low_[j] = model.q_low[j] - margin;
@@ -72,25 +107,60 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
     out.q[j] = segment.q[j][row];
-    out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    const double logged_dq = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    out.dq[j] = noise_.no_velocity[j] ? kNaN : logged_dq;
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
-    out.repeats[j] = started_ && out.q[j] == last_q_[j] && (segment.dq.empty() || out.dq[j] == last_dq_[j]);
+    out.repeats[j] =
+        started_ && out.q[j] == last_q_[j] && (std::isnan(out.dq[j]) || out.dq[j] == last_dq_[j]);
   }
+}
+
+/// Days differ; after a gap (s) the day is still the same.
+void Follower::restart_slow_states(double gap_s) {
+  const int n = model_.joints(), size = model_.healthy_states();
+  const GaussianState before = state_;
+  state_.size = size;
+  std::fill_n(state_.mean.begin(), size, 0.0);
+  std::fill_n(state_.covariance.begin(), size * size, 0.0);
+  for (int s = 2 * n; s < size; ++s) {
+    const SlowState& slow = model_.slow[s - 2 * n];
+    const bool forgotten = !started_ || slow.memory_s > 0.0;
+    state_.p(s, s) = slow.day_std * slow.day_std;
+    if (forgotten) continue;
+    state_.mean[s] = before.mean[s];
+    for (int other = 2 * n; other < size; ++other)
+      if (model_.slow[other - 2 * n].memory_s <= 0.0) state_.p(s, other) = before.p(s, other);
+    state_.p(s, s) += slow.walk * slow.walk * gap_s;
+  }
+}
+
+/// Seconds since the row before. Where the model knows that rows are taken in step and only their stamps
+/// wobble, the steps are whole periods and the stamps only keep them from drifting.
+double Follower::step_to_stamp(double stamp) {
+  const double period = model_.steady_period_s, since = stamp - clock_;
+  double step = stamp - last_time_;
+  if (period > 0.0) {
+    const double periods = std::max(std::round(since / period), 1.0), late = since - periods * period;
+    const bool lost = std::abs(late) > kLostStep * period;
+    step = lost ? std::max(since, kLeastStep * period) : periods * period + kClockGain * late;
+  }
+  clock_ += step;
+  return step;
 }
 
 void Follower::start(FollowedSample& out) {
   const int n = model_.joints();
-  state_.size = 2 * n;
-  std::fill_n(state_.covariance.begin(), 4 * n * n, 0.0);
+  restart_slow_states(out.time - last_time_);
   for (int j = 0; j < n; ++j) {
     const bool has_q = std::isfinite(out.q[j]), has_dq = std::isfinite(out.dq[j]);
     const double range = model_.q_high[j] - model_.q_low[j];
     state_.mean[j] = has_q ? out.q[j] : 0.5 * (model_.q_low[j] + model_.q_high[j]);
     state_.mean[n + j] = has_dq ? out.dq[j] : 0.0;
-    const double q_std = has_q ? model_.q_std[j] : range;
-    const double dq_std = has_dq ? model_.dq_std[j] : 2.0 * model_.velocity_scale[j];
+    const double q_std = has_q ? noise_.q_scale[j] * model_.q_std[j] : range;
+    const double dq_std =
+        has_dq ? noise_.dq_scale[j] * model_.dq_std[j] : kSurelyFaster * model_.velocity_scale[j];
     state_.p(j, j) = q_std * q_std;
     state_.p(n + j, n + j) = dq_std * dq_std;
     out.log_likelihood[j] = out.chi_square[j] = out.whitened[j] = out.whitened[n + j] = 0.0;
@@ -104,18 +174,21 @@ void Follower::start(FollowedSample& out) {
 void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   const int n = model_.joints();
   read_row(segment, row, out);
-  const double dt = out.time - last_time_;
+  const double dt = started_ ? step_to_stamp(out.time) : 0.0;
   const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, kLeastGap_s);
   if (!started_ || gap) {
     start(out);
+    clock_ = out.time;
   } else {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + kPeriodForgetting * (dt - usual_dt_) : dt;
     out.dt = dt;
     for (int j = 0; j < n; ++j) out.pressed[j] = is_pressed(out, j);
+    const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
+    set_measurement_noise(speed_before, out);
     out.total_log_likelihood = 0.0;
     for (int j = 0; j < n; ++j) {
-      const JointObservation seen = observe_joint(state_, model_, out, j);
+      const JointObservation seen = observe_joint(state_, n, out, j);
       out.log_likelihood[j] = seen.log_likelihood;
       out.chi_square[j] = seen.chi_square;
       out.whitened[j] = seen.whitened_q;

@@ -5,6 +5,7 @@
 
 #include "lib/evidence/filter/fault_load.hpp"
 #include "lib/evidence/filter/prediction.hpp"
+#include "lib/evidence/log_noise.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -16,6 +17,10 @@ struct FollowedSample {
   double dt = 0.0;    ///< s since the sample before; 0 where the filter started anew
   JointArray q;       ///< NaN where nothing was measured
   JointArray dq;
+  JointArray q_std;  ///< measurement noise of this sample
+  JointArray dq_std;
+  JointArray q_tail;  ///< standard deviations of an innovation that count in full
+  JointArray dq_tail;
   JointArray torque;          ///< held over from the sample before where it is missing
   JointFlags torque_missing;  ///< nobody knows what the drive did around this sample
   JointFlags repeats;         ///< position and velocity equal the sample before, bit for bit
@@ -27,6 +32,8 @@ struct FollowedSample {
   std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
   double total_log_likelihood = 0.0;
   GaussianState posterior;
+
+  FollowedSample() {}  // NOLINT: leaves the large arrays unset until a row fills them
 };
 
 /// The step that ends at a sample.
@@ -35,6 +42,9 @@ Step step_to(const FollowedSample& at, const JointArray& torque_before, const Jo
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
 
+/// Adds a mass (kg), known but for a small share, to the tip where that is in the state.
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg);
+
 /// Observes the measured channels of joint j.
 struct JointObservation {
   double log_likelihood = 0.0;
@@ -42,13 +52,13 @@ struct JointObservation {
   double whitened_q = 0.0;
   double whitened_dq = 0.0;
 };
-JointObservation observe_joint(GaussianState& state, const MotionModel& model, const FollowedSample& sample,
-                               int j, const SensorError& error = {});
+JointObservation observe_joint(GaussianState& state, int joints, const FollowedSample& sample, int j,
+                               const SensorError& error = {});
 
 /// Follows a log with the healthy filter, row by row; its state crosses segment borders.
 class Follower {
  public:
-  explicit Follower(const MotionModel& model);
+  explicit Follower(const MotionModel& model, const LogNoise& noise = {});
 
   /// Takes row `row` of the segment and fills `out`.
   void follow(const Log& segment, int row, FollowedSample& out);
@@ -56,19 +66,26 @@ class Follower {
   void learn_range(const FollowedSample& sample);
   /// Goes on from another state at the last sample: of a filter that did not believe a wild value.
   void restore(const GaussianState& state) { state_ = state; }
+  /// A work piece of that mass (kg) is picked up, or put down (less than 0), before the next row.
+  void change_work_piece(double kg);
   const FaultDynamics& dynamics() const { return dynamics_; }
 
  private:
   bool is_pressed(const FollowedSample& sample, int j) const;
   void read_row(const Log& segment, int row, FollowedSample& out) const;
   void start(FollowedSample& out);
+  void restart_slow_states(double gap_s);
+  double step_to_stamp(double stamp);
+  void set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const;
 
   const MotionModel& model_;
+  LogNoise noise_;
   FaultDynamics dynamics_;
   GaussianState state_;
   bool started_ = false;
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
+  double clock_ = 0.0;  ///< s: when the last row was taken, as far as its stamp can be believed
   JointFlags last_torque_missing_{};
   JointArray last_q_{}, last_dq_{}, last_torque_{};
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits

@@ -24,18 +24,20 @@ GaussianState extended(const GaussianState& state, int size) {
 }
 
 ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
-                     double noise_variance) {
+                     double noise_variance, double tail) {
   const int n = state.size;
   StateVector ph;  // covariance times the observation row
-  for (int i = 0; i < n; ++i) ph[i] = state.p(i, index);
+  std::copy_n(&state.covariance[index * n], n, ph.begin());
   double predicted = state.mean[index];
   if (other >= 0) {
-    for (int i = 0; i < n; ++i) ph[i] += factor * state.p(i, other);
+    for (int i = 0; i < n; ++i) ph[i] += factor * state.p(other, i);
     predicted += factor * state.mean[other];
   }
   ScalarUpdate update;
   update.innovation = z - predicted;
   update.variance = ph[index] + (other >= 0 ? factor * ph[other] : 0.0) + noise_variance;
+  const double counted = update.innovation / tail;
+  update.variance = std::max(update.variance, counted * counted);
   const double inverse = 1.0 / update.variance;
   for (int i = 0; i < n; ++i) {
     const double gain = ph[i] * inverse;
@@ -46,26 +48,46 @@ ScalarUpdate observe(GaussianState& state, int index, int other, double factor, 
   return update;
 }
 
-void propagate_covariance(GaussianState& state, std::span<const double> transition) {
+void propagate_covariance(GaussianState& state, std::span<const double> rows, int moving) {
   const int n = state.size;
-  std::array<double, kMaxStates * kMaxStates> half;  // A covariance
-  for (int i = 0; i < n; ++i) {
+  std::array<double, 2 * kMaxJoints * kMaxStates> half;  // A covariance, the moving rows
+  for (int i = 0; i < moving; ++i) {
     double* row = &half[i * n];
     std::fill_n(row, n, 0.0);
     for (int k = 0; k < n; ++k) {
-      const double a = transition[i * n + k];
+      const double a = rows[i * n + k];
       if (a == 0.0) continue;
       const double* source = &state.covariance[k * n];
       for (int j = 0; j < n; ++j) row[j] += a * source[j];
     }
   }
-  for (int i = 0; i < n; ++i) {
-    for (int j = i; j < n; ++j) {
+  for (int i = 0; i < moving; ++i) {
+    for (int j = i; j < moving; ++j) {
       double sum = 0.0;
-      for (int k = 0; k < n; ++k) sum += half[i * n + k] * transition[j * n + k];
+      for (int k = 0; k < n; ++k) sum += half[i * n + k] * rows[j * n + k];
       state.p(i, j) = sum;
       state.p(j, i) = sum;
     }
+    for (int j = moving; j < n; ++j) state.p(i, j) = state.p(j, i) = half[i * n + j];
+  }
+}
+
+void blend_with(GaussianState& state, const StateVector& other, int moving) {
+  constexpr double kUniformSpread = 12.0;
+  StateVector d;
+  for (int i = 0; i < moving; ++i) {
+    d[i] = other[i] - state.mean[i];
+    state.mean[i] += 0.5 * d[i];
+  }
+  for (int i = 0; i < moving; ++i)
+    for (int j = 0; j < moving; ++j) state.p(i, j) += d[i] * d[j] / kUniformSpread;
+}
+
+void relax(GaussianState& state, int index, double kept) {
+  state.mean[index] *= kept;
+  for (int i = 0; i < state.size; ++i) {
+    state.p(index, i) *= kept;
+    state.p(i, index) *= kept;
   }
 }
 

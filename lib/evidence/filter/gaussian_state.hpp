@@ -2,18 +2,21 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 
 #include "lib/evidence/filter/joint_array.hpp"
+#include "lib/evidence/slow_state.hpp"
 
 namespace faultline {
 
-/// Positions, velocities and the numbers that say how large a fault is, at most one a joint (or two).
-inline constexpr int kMaxStates = 3 * kMaxJoints;
+/// Positions, velocities, slow states and the numbers that say how large a fault is, at most one a joint (or
+/// two).
+inline constexpr int kMaxStates = 3 * kMaxJoints + kMaxSlowStates;
 
 using StateVector = std::array<double, kMaxStates>;
 
-/// Mean and covariance of a small state: q (n), dq (n), fault sizes.
+/// Mean and covariance of a small state: q (n), dq (n), slow states, fault sizes.
 struct GaussianState {
   int size = 0;
   StateVector mean;
@@ -42,10 +45,6 @@ inline void set_motion(StateVector& vector, const MotionState& motion, int n) {
     vector[n + j] = motion.dq[j];
   }
 }
-/// The fault sizes behind them.
-inline std::span<const double> sizes_of(const StateVector& vector, int n, int size) {
-  return std::span<const double>(vector).subspan(2 * n, size - 2 * n);
-}
 
 /// A state of `size` numbers with the mean and covariance of `state` in front and zeros behind.
 GaussianState extended(const GaussianState& state, int size);
@@ -57,11 +56,17 @@ struct ScalarUpdate {
   double chi_square() const { return innovation * innovation / variance; }
 };
 
-/// Kalman update by the measurement z = mean[index] + factor * mean[other] + noise; `other` < 0 for none.
+/// Kalman update by the measurement z = mean[index] + factor * mean[other] + noise; `other` < 0 for none. An
+/// innovation of more than `tail` standard deviations is taken for one of that many of a noisier measurement.
 ScalarUpdate observe(GaussianState& state, int index, int other, double factor, double z,
-                     double noise_variance);
+                     double noise_variance, double tail = std::numeric_limits<double>::infinity());
 
-/// covariance = A covariance A^T with A row by row, size x size.
-void propagate_covariance(GaussianState& state, std::span<const double> transition);
+/// covariance = A covariance A^T, where A is `moving` rows of `size` numbers and below them the identity: the
+/// numbers after the first `moving` stay what they are.
+void propagate_covariance(GaussianState& state, std::span<const double> rows, int moving);
+/// The first `moving` numbers lie anywhere between their means and those of `other`, uniformly.
+void blend_with(GaussianState& state, const StateVector& other, int moving);
+/// Number `index` of the state keeps this share of itself.
+void relax(GaussianState& state, int index, double kept);
 
 }  // namespace faultline

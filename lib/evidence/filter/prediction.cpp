@@ -29,17 +29,32 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
                   const Step& step, const Hypothesis* hypothesis) {
   const int n = model.joints();
   const JointArray torque = mean_torque(model, step);
-  const GaussianState before = state;
+  StateVector before;
+  std::copy_n(state.mean.begin(), state.size, before.begin());
   MotionState motion = motion_of(state.mean, n);
   const Acceleration at =
-      dynamics.integrate(motion, torque, step.dt, {hypothesis, sizes_of(state.mean, n, state.size)});
+      dynamics.integrate(motion, torque, step.dt, circumstances(state.mean, model, hypothesis));
   set_motion(state.mean, motion, n);
-  const Transition a =
-      step.dt <= kAnalyticStep_s
-          ? analytic_transition(state, at, n, step.dt, hypothesis && is_everywhere(*hypothesis))
-          : numeric_transition(before, model, dynamics, torque, step.dt, hypothesis);
-  propagate_covariance(state, a);
+  const MotionRows a = step.dt <= kAnalyticStep_s ? analytic_transition(state, at, model, step.dt, hypothesis)
+                                                  : numeric_transition(before, state.size, model, dynamics,
+                                                                       torque, step.dt, hypothesis);
+  propagate_covariance(state, a, 2 * n);
   return at;
+}
+
+/// What the healthy robot's slow states do over the step: all wander, and a coloured torque is forgotten.
+void move_slow_states(GaussianState& state, const MotionModel& model, double dt) {
+  for (std::size_t s = 0; s < model.slow.size(); ++s) {
+    const SlowState& slow = model.slow[s];
+    const int index = 2 * model.joints() + static_cast<int>(s);
+    if (slow.memory_s <= 0.0) {
+      state.p(index, index) += slow.walk * slow.walk * dt;
+      continue;
+    }
+    const double kept = std::exp(-dt / slow.memory_s);
+    relax(state, index, kept);
+    state.p(index, index) += slow.day_std * slow.day_std * (1.0 - kept * kept);
+  }
 }
 
 void zero_state(GaussianState& state, int index) {
@@ -48,7 +63,8 @@ void zero_state(GaussianState& state, int index) {
 }
 
 /// From a fault at the start of the step (`state`) and one at its end (`late`) to one at an unknown moment.
-void blend_onset(GaussianState& state, const StateVector& late, const StateVector& prior_variance, int n) {
+void blend_onset(GaussianState& state, const StateVector& late, const StateVector& prior_variance, int n,
+                 int first_size) {
   StateVector d;
   for (int i = 0; i < 2 * n; ++i) {
     d[i] = state.mean[i] - late[i];
@@ -57,13 +73,13 @@ void blend_onset(GaussianState& state, const StateVector& late, const StateVecto
   for (int i = 0; i < 2 * n; ++i) {
     for (int j = 0; j < 2 * n; ++j) {
       double from_sizes = 0.0;  // B P B^T, from the covariance of state and size, which is B P
-      for (int s = 2 * n; s < state.size; ++s)
+      for (int s = first_size; s < state.size; ++s)
         from_sizes += state.p(i, s) * state.p(j, s) / prior_variance[s];
       state.p(i, j) += d[i] * d[j] / kUniformSpread - kSizeExcess * from_sizes;
     }
   }
   for (int i = 0; i < 2 * n; ++i) {
-    for (int s = 2 * n; s < state.size; ++s) {
+    for (int s = first_size; s < state.size; ++s) {
       state.p(i, s) *= 0.5;
       state.p(s, i) *= 0.5;
     }
@@ -87,7 +103,7 @@ void move_sizes(GaussianState& state, const Hypothesis& hypothesis, double age_s
   const SizeCourse course = describe(hypothesis.label.kind).course;
   if (course == SizeCourse::stays) return;
   for (int s = 0; s < hypothesis.sizes; ++s) {
-    const int index = 2 * model.joints() + s;
+    const int index = model.healthy_states() + s;
     const double scale =
         prior_scale(model.priors, described_size(hypothesis, s).measure, joint_of_size(hypothesis, s));
     if (course == SizeCourse::wanders)
@@ -104,7 +120,9 @@ void move_sizes(GaussianState& state, const Hypothesis& hypothesis, double age_s
 void predict(GaussianState& state, const MotionModel& model, const FaultDynamics& dynamics, const Step& step,
              const Hypothesis* hypothesis, double age_s) {
   const Acceleration at = move(state, model, dynamics, step, hypothesis);
+  move_slow_states(state, model, step.dt);
   add_process_noise(state, at, model, step);
+  allow_springs(state, model, step);
   allow_end_stops(state, model, step);
   if (!hypothesis) return;
   if (hypothesis->label.kind == FaultKind::locked)
@@ -118,12 +136,13 @@ void predict_onset(GaussianState& state, const MotionModel& model, const FaultDy
   if (describe(hypothesis.label.kind).acts_on != FaultActsOn::motion)
     return predict(state, model, dynamics, step, nullptr, 0.0);
   const bool locks = hypothesis.label.kind == FaultKind::locked;
+  const int first_size = model.healthy_states();
   StateVector prior_variance;
-  for (int s = 2 * n; s < state.size; ++s) prior_variance[s] = state.p(s, s);
+  for (int s = first_size; s < state.size; ++s) prior_variance[s] = state.p(s, s);
   const JointArray torque = mean_torque(model, step);
   const MotionState early = motion_of(state.mean, n);
   MotionState late = early;  // healthy up to the end of the step
-  dynamics.integrate(late, torque, step.dt);
+  dynamics.integrate(late, torque, step.dt, circumstances(state.mean, model, nullptr));
   if (locks) {
     const JointArray early_stop = stopping(early, dynamics, hypothesis);
     const JointArray late_stop = stopping(late, dynamics, hypothesis);
@@ -136,7 +155,7 @@ void predict_onset(GaussianState& state, const MotionModel& model, const FaultDy
   predict(state, model, dynamics, step, &hypothesis, 0.0);
   StateVector late_mean;
   set_motion(late_mean, late, n);
-  blend_onset(state, late_mean, prior_variance, n);
+  blend_onset(state, late_mean, prior_variance, n, first_size);
 }
 
 GaussianState with_sizes(const GaussianState& healthy, const Hypothesis& hypothesis,
@@ -156,7 +175,7 @@ void clamp_sizes(GaussianState& state, const Hypothesis& hypothesis, const Motio
   for (int s = 0; s < hypothesis.sizes; ++s) {
     const FaultSize& size = described_size(hypothesis, s);
     const double scale = prior_scale(model.priors, size.measure, joint_of_size(hypothesis, s));
-    double& mean = state.mean[2 * model.joints() + s];
+    double& mean = state.mean[model.healthy_states() + s];
     mean = std::clamp(mean, size.low * scale, size.high * scale);
   }
 }

@@ -64,6 +64,14 @@ void add_process_noise(GaussianState& state, const Acceleration& at, const Motio
   }
 }
 
+void allow_springs(GaussianState& state, const MotionModel& model, const Step& step) {
+  for (std::size_t j = 0; j < model.noise.compliance.size(); ++j) {
+    const double jump = model.noise.compliance[j] * (step.next_torque[j] - step.torque[j]);
+    const int joint = static_cast<int>(j);
+    state.p(joint, joint) += jump * jump;
+  }
+}
+
 void allow_end_stops(GaussianState& state, const MotionModel& model, const Step& step) {
   const int n = model.joints();
   for (int j = 0; j < n; ++j) {

@@ -32,51 +32,121 @@ JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
   return v;
 }
 
+/// Generalised torque that a unit of the slow state adds, and the joints where it may not be 0.
+struct UnitTorque {
+  std::array<double, kMaxJoints> torque;
+  int first = 0, last = 0;
+};
+
+UnitTorque at_joint(int joint, double torque) {
+  UnitTorque unit;
+  unit.first = unit.last = joint;
+  unit.torque[joint] = torque;
+  return unit;
+}
+
+UnitTorque unit_torque(const SlowState& slow, const Acceleration& at, int n) {
+  switch (slow.kind) {
+    case SlowKind::friction:
+      return at_joint(slow.joint, at.friction_torque[slow.joint]);
+    case SlowKind::torque_gain:
+      return at_joint(slow.joint, at.gain_torque[slow.joint]);
+    case SlowKind::torque_offset:
+    case SlowKind::coloured_torque:
+      break;
+    case SlowKind::tip_mass:
+      return {at.tip_torque, 0, n - 1};
+  }
+  return at_joint(slow.joint, 1.0);
+}
+
+UnitTorque unit_torque(const Hypothesis& hypothesis, int s, const Acceleration& at, int n) {
+  if (is_everywhere(hypothesis)) return at_joint(s, 1.0);
+  if (hypothesis.label.kind == FaultKind::payload_change) return {at.tip_torque, 0, n - 1};
+  const int joint = hypothesis.joint_index();
+  return at_joint(joint, at.size_torque[s][joint]);
+}
+
+/// A column that is another one, further to the left, times a factor; column -1 for one of its own.
+struct Likeness {
+  int column = -1;
+  double factor = 1.0;
+};
+
+/// Torques on one joint move it alike: the first of them that is in the state stands for all.
+Likeness likeness(int column, const MotionModel& model, const Acceleration& at) {
+  const int first = 2 * model.joints(), s = column - first;
+  if (s < 0 || column >= model.healthy_states() || model.slow[s].kind == SlowKind::tip_mass) return {};
+  for (int other = 0; other < s; ++other) {
+    if (model.slow[other].kind != SlowKind::torque_offset || model.slow[other].joint != model.slow[s].joint)
+      continue;
+    return {first + other, unit_torque(model.slow[s], at, model.joints()).torque[model.slow[s].joint]};
+  }
+  return {};
+}
+
 }  // namespace
 
-Transition analytic_transition(const GaussianState& state, const Acceleration& at, int n, double dt,
-                               bool each_joint_has_a_size) {
-  Transition a;
-  const int size = state.size;
-  std::fill_n(a.begin(), size * size, 0.0);
-  for (int i = 0; i < size; ++i) a[i * size + i] = 1.0;
+SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis) {
+  const std::span<const double> all(vector);
+  const std::size_t slow = model.slow.size(), first = 2 * static_cast<std::size_t>(model.joints());
+  const std::size_t sizes = hypothesis ? static_cast<std::size_t>(hypothesis->sizes) : 0;
+  return {hypothesis, all.subspan(first + slow, sizes), all.subspan(first, slow)};
+}
+
+MotionRows analytic_transition(const GaussianState& state, const Acceleration& at, const MotionModel& model,
+                               double dt, const Hypothesis* hypothesis) {
+  MotionRows a;
+  const int n = model.joints(), size = state.size, first_size = model.healthy_states();
+  const int columns = hypothesis ? size : first_size;  // sizes of a sensor's fault move nothing
+  std::fill_n(a.begin(), 2 * n * size, 0.0);
   const JointSquare v = velocity_transition(at, n, dt);
   for (int i = 0; i < n; ++i) {
+    a[i * size + i] = 1.0;
     a[i * size + n + i] = dt;
     for (int j = 0; j < n; ++j) a[(n + i) * size + n + j] = v[i * n + j];
-    for (int s = 0; s < size - 2 * n; ++s) {
+  }
+  for (int column = 2 * n; column < columns; ++column) {
+    const UnitTorque unit = column < first_size ? unit_torque(model.slow[column - 2 * n], at, n)
+                                                : unit_torque(*hypothesis, column - first_size, at, n);
+    for (int i = 0; i < n; ++i) {
       double slope = 0.0;
-      if (each_joint_has_a_size)
-        slope = at.inverse_inertia[i * n + s];
-      else
-        for (int j = 0; j < n; ++j) slope += at.inverse_inertia[i * n + j] * at.size_torque[s][j];
-      a[(n + i) * size + 2 * n + s] = dt * slope;
-      a[i * size + 2 * n + s] = 0.5 * dt * dt * slope;
+      for (int j = unit.first; j <= unit.last; ++j) slope += at.inverse_inertia[i * n + j] * unit.torque[j];
+      a[(n + i) * size + column] = dt * slope;
+      a[i * size + column] = 0.5 * dt * dt * slope;
     }
   }
   return a;
 }
 
-Transition numeric_transition(const GaussianState& before, const MotionModel& model,
+MotionRows numeric_transition(const StateVector& before, int size, const MotionModel& model,
                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
                               const Hypothesis* hypothesis) {
-  Transition a;
-  const int n = model.joints(), size = before.size;
-  std::fill_n(a.begin(), size * size, 0.0);
+  MotionRows a;
+  const int n = model.joints();
   auto integrate = [&](StateVector& x) {
     MotionState motion = motion_of(x, n);
-    dynamics.integrate_coarsely(motion, torque, dt, {hypothesis, sizes_of(x, n, size)});
+    dynamics.integrate_coarsely(motion, torque, dt, circumstances(x, model, hypothesis));
     set_motion(x, motion, n);
   };
-  StateVector base = before.mean;
+  StateVector base;
+  std::copy_n(before.begin(), size, base.begin());
   integrate(base);
+  const Acceleration at =
+      dynamics.evaluate(motion_of(before, n), torque, circumstances(before, model, hypothesis));
   for (int column = 0; column < size; ++column) {
-    StateVector moved = before.mean;
+    const Likeness like = likeness(column, model, at);
+    if (like.column >= 0) {
+      for (int row = 0; row < 2 * n; ++row)
+        a[row * size + column] = like.factor * a[row * size + like.column];
+      continue;
+    }
+    StateVector moved;
+    std::copy_n(before.begin(), size, moved.begin());
     const double delta = kDifference * std::max(1.0, std::abs(moved[column]));
     moved[column] += delta;
     integrate(moved);
     for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - base[row]) / delta;
-    if (column >= 2 * n) a[column * size + column] = 1.0;
   }
   return a;
 }

@@ -92,7 +92,7 @@ MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healt
     motion.dq_std.push_back(std::max(sigma, kLeastSigma) * ranges.dq[j]);
   }
   const Sources sources(healthy);
-  return learn_motion_model(sources.all(), motion, {.excerpt_rows = kMatchedRows});
+  return learn_motion_model(sources.all(), motion, {.excerpt_rows = kMatchedRows, .normal = std::nullopt});
 }
 
 ProductAlarms product_alarms(const Learned& learned, const Log& log) {

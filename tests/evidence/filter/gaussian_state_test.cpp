@@ -81,9 +81,33 @@ TEST(GaussianState, PropagationIsTheDenseProduct) {
   GaussianState state = random_state(8, random);
   const Eigen::MatrixXd p = covariance_of(state), a = random_matrix(8, random);
   const Eigen::Matrix<double, 8, 8, Eigen::RowMajor> rows = a;
-  propagate_covariance(state, std::span(rows.data(), rows.size()));
+  propagate_covariance(state, std::span(rows.data(), rows.size()), 8);
   EXPECT_LT((covariance_of(state) - a * p * a.transpose()).norm(), 1e-10);
   EXPECT_EQ(covariance_of(state), covariance_of(state).transpose());
+}
+
+TEST(GaussianState, NumbersBehindTheMovingOnesStay) {
+  Random random(7);
+  GaussianState state = random_state(8, random);
+  const Eigen::MatrixXd p = covariance_of(state);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(8, 8);
+  a.topRows(5) = random_matrix(8, random).topRows(5);
+  const Eigen::Matrix<double, 5, 8, Eigen::RowMajor> rows = a.topRows(5);
+  propagate_covariance(state, std::span(rows.data(), rows.size()), 5);
+  EXPECT_LT((covariance_of(state) - a * p * a.transpose()).norm(), 1e-10);
+  EXPECT_EQ(covariance_of(state), covariance_of(state).transpose());
+}
+
+TEST(GaussianState, WhatIsForgottenLosesItsMeanAndItsTies) {
+  Random random(8);
+  GaussianState state = random_state(4, random);
+  const Eigen::MatrixXd p = covariance_of(state);
+  const Eigen::VectorXd x = mean_of(state);
+  Eigen::MatrixXd kept = Eigen::MatrixXd::Identity(4, 4);
+  kept(2, 2) = 0.3;
+  relax(state, 2, 0.3);
+  EXPECT_LT((mean_of(state) - kept * x).norm(), 1e-14);
+  EXPECT_LT((covariance_of(state) - kept * p * kept).norm(), 1e-13);
 }
 
 TEST(GaussianState, ExtensionKeepsTheStateAndAddsZeros) {

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/match_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/evidence/filter/follower.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kSettlingRows = 10;     // at the start of a log, which the filter needs to forget its guess
+constexpr int kSearchRounds = 6;      // the first by this factor, each further one by its square root,
+constexpr double kFirstFactor = 4.0;  // but by no less than the last: likelihood is flat within it
+constexpr double kLastFactor = 1.2;
+constexpr double kGain = 1e-9;  // of the likelihood: less is rounding
+
+// A torque that is missed for longer than this is an offset, for less than this white noise.
+constexpr double kLongestMemory_s = 2.0;
+constexpr double kShortestMemory_s = 0.002;
+constexpr double kFastestFriction = 0.1;  // share a second (root of time): faster is no wear and no warmth
+constexpr double kWorstClock_s = 0.1;
+
+constexpr double kWobble = 0.01;  // of a period
+
+constexpr double kOneCode = 0.05;        // of the changes: the least are by one code of a coarse sensor
+constexpr double kUniformSpread = 12.0;  // an error that is uniform over a code has this share of its square
+
+double log_likelihood_of(const HealthyExcerpt& excerpt, const MotionModel& model) {
+  double sum = 0.0;
+  FollowedSample sample;
+  Follower follower(model, excerpt.noise);
+  auto change = excerpt.work_piece_changes.begin();
+  for (int k = 0; k < excerpt.log.rows(); ++k) {
+    for (; change != excerpt.work_piece_changes.end() && change->row <= excerpt.log.first_row + k; ++change)
+      follower.change_work_piece(change->kg);
+    follower.follow(excerpt.log, k, sample);
+    if (k > kSettlingRows) sum += sample.total_log_likelihood;
+  }
+  return std::isfinite(sum) ? sum : -std::numeric_limits<double>::max();
+}
+
+double log_likelihood(const std::vector<HealthyExcerpt>& logs, const MotionModel& model, int threads) {
+  std::vector<double> parts(logs.size());
+  parallel_for(static_cast<int>(logs.size()), threads,
+               [&](int i) { parts[i] = log_likelihood_of(logs[i], model); });
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
+/// Numbers that the search moves together, by factors, between bounds.
+struct Group {
+  std::vector<double*> numbers;
+  double low = 0.0;
+  double high = std::numeric_limits<double>::infinity();
+
+  bool scale(double by) {
+    for (const double* number : numbers)
+      if (*number * by < low || *number * by > high) return false;
+    for (double* number : numbers) *number *= by;
+    return true;
+  }
+};
+
+/// Each value alone: sensors and drives of different joints have nothing in common.
+void add_each(std::vector<double>& values, const std::vector<double>& low, std::vector<Group>& groups) {
+  for (std::size_t j = 0; j < values.size(); ++j)
+    groups.push_back({{&values[j]}, j < low.size() ? low[j] : 0.0});
+}
+
+void add_slow_groups(MotionModel& model, std::vector<Group>& groups) {
+  Group memory{{}, kShortestMemory_s, kLongestMemory_s}, friction{{}, 0.0, kFastestFriction};
+  for (SlowState& slow : model.slow) {
+    switch (slow.kind) {
+      case SlowKind::friction:
+        friction.numbers.push_back(&slow.walk);
+        break;
+      case SlowKind::coloured_torque:
+        groups.push_back({{&slow.day_std}});
+        memory.numbers.push_back(&slow.memory_s);
+        break;
+      case SlowKind::torque_gain:
+      case SlowKind::torque_offset:
+      case SlowKind::tip_mass:
+        break;
+    }
+  }
+  if (!memory.numbers.empty()) groups.push_back(memory);
+  if (!friction.numbers.empty()) groups.push_back(friction);
+  if (model.clock_std > 0.0) groups.push_back({{&model.clock_std}, 0.0, kWorstClock_s});
+}
+
+/// Half of what separates two neighbouring codes of a sensor, as a standard deviation; 0 for none seen.
+double code_std(const std::vector<HealthyExcerpt>& logs, int joint, bool velocity) {
+  std::vector<double> steps;
+  for (const HealthyExcerpt& excerpt : logs) {
+    const JointSignals& signals = velocity ? excerpt.log.dq : excerpt.log.q;
+    if (signals.empty()) continue;
+    const std::vector<double>& x = signals[joint];
+    for (std::size_t k = 1; k < x.size(); ++k)
+      if (x[k] != x[k - 1] && std::isfinite(x[k] - x[k - 1])) steps.push_back(std::abs(x[k] - x[k - 1]));
+  }
+  return steps.empty() ? 0.0 : lower_quantile(steps, kOneCode) / std::sqrt(kUniformSpread);
+}
+
+std::vector<double> code_stds(const std::vector<HealthyExcerpt>& logs, int joints, bool velocity) {
+  std::vector<double> out;
+  for (int j = 0; j < joints; ++j) out.push_back(code_std(logs, j, velocity));
+  return out;
+}
+
+/// What the search moves.
+std::vector<Group> free_numbers(MotionModel& model, const std::vector<HealthyExcerpt>& logs, bool held) {
+  std::vector<Group> groups = {{{&model.noise.torque_share}}, {{&model.noise.rest_share}}};
+  add_each(model.noise.floor, {}, groups);
+  add_each(model.q_std, code_stds(logs, model.joints(), false), groups);
+  add_each(model.dq_std, code_stds(logs, model.joints(), true), groups);
+  if (!held) groups.push_back({{&model.noise.step_share}});
+  add_each(model.noise.compliance, {}, groups);
+  add_slow_groups(model, groups);
+  return groups;
+}
+
+/// Coordinate search by shrinking factors.
+void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, bool held, int threads) {
+  std::vector<Group> groups = free_numbers(model, logs, held);
+  double best = log_likelihood(logs, model, threads), factor = kFirstFactor;
+  for (int round = 0; round < kSearchRounds; ++round, factor = std::sqrt(factor)) {
+    for (Group& group : groups) {
+      for (const double by : {factor, 1.0 / factor}) {
+        if (!group.scale(by)) continue;
+        const double moved = log_likelihood(logs, model, threads);
+        if (moved > best + kGain * std::abs(best)) {
+          best = moved;
+          break;
+        }
+        for (double* number : group.numbers) *number *= 1.0 / by;
+      }
+    }
+    factor = std::max(factor, kLastFactor);
+  }
+}
+
+/// The stamps of the logs differ from steps of a period.
+bool wobbles(const std::vector<HealthyExcerpt>& logs, double period) {
+  for (const HealthyExcerpt& excerpt : logs)
+    for (int k = 1; k < excerpt.log.rows(); ++k) {
+      const double periods = (excerpt.log.time[k] - excerpt.log.time[k - 1]) / period;
+      if (std::abs(periods - std::round(periods)) > kWobble) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+void match_noise(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const MatchOptions& options) {
+  if (model.clock_std > 0.0 && wobbles(logs, options.period_s)) {
+    model.steady_period_s = 0.0;
+    const double as_stamped = log_likelihood(logs, model, options.threads);
+    model.steady_period_s = options.period_s;
+    if (log_likelihood(logs, model, options.threads) < as_stamped) model.steady_period_s = 0.0;
+  }
+  search(model, logs, options.held, options.threads);
+}
+
+}  // namespace faultline

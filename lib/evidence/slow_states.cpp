@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/slow_states.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/parallel.hpp"
+#include "lib/evidence/filter/follower.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kStdsInRange = 2.0;      // a range is two standard deviations to either side
+constexpr double kColourShare = 0.01;     // of the largest torque, where matching starts
+constexpr double kFirstMemory_s = 0.05;   // likewise
+constexpr double kCarriedInPriors = 2.0;  // the payload's prior is half of what is carried
+constexpr double kDayPace = 0.05;         // of a day's spread: what wanders of it in a second (root of time)
+constexpr int kSurveyedRows = 4000;       // enough calm blocks at any rate
+
+bool rubs(const Friction<double>& friction) { return friction.viscous != 0.0 || friction.coulomb != 0.0; }
+
+}  // namespace
+
+std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& normal) {
+  std::vector<SlowState> states;
+  const int n = model.joints();
+  auto add = [&](SlowKind kind, int joint, double range, double walk, double memory_s = 0.0) {
+    states.push_back({kind, joint, range / kStdsInRange, walk, memory_s});
+  };
+  for (int j = 0; j < n; ++j) {
+    const double largest = model.torque_scale[j];
+    const double offset = normal.torque_offset * largest;  // before all that acts likewise (transition.cpp)
+    if (largest > 0.0) add(SlowKind::torque_offset, j, offset, kDayPace * offset);
+    if (rubs(model.chain.friction[j])) add(SlowKind::friction, j, normal.friction, normal.friction_pace);
+    if (largest <= 0.0) continue;
+    add(SlowKind::torque_gain, j, normal.torque_constant, 0.0);
+    states.push_back({SlowKind::coloured_torque, j, kColourShare * largest, 0.0, kFirstMemory_s});
+  }
+  const double carried = kCarriedInPriors * model.priors.payload;
+  if (normal.tip_mass > 0.0 && carried > 0.0)
+    add(SlowKind::tip_mass, n - 1, normal.tip_mass * carried, kDayPace * normal.tip_mass * carried);
+  return states;
+}
+
+void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, int threads) {
+  const int first = 2 * model.joints();
+  const std::size_t count = model.slow.size();
+  std::vector<std::vector<double>> squares(days.size(), std::vector<double>(count, 0.0));
+  parallel_for(static_cast<int>(days.size()), threads, [&](int i) {
+    Follower follower(model, days[i].noise);
+    FollowedSample sample;
+    auto change = days[i].work_piece_changes.begin();
+    double carried = 0.0;
+    for (int k = 0; k < days[i].log.rows(); ++k) {
+      for (; change != days[i].work_piece_changes.end() && change->row <= days[i].log.first_row + k;
+           ++change) {
+        follower.change_work_piece(change->kg);
+        carried += change->kg;
+      }
+      follower.follow(days[i].log, k, sample);
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+      const int index = first + static_cast<int>(s);
+      const double work_piece = model.slow[s].kind == SlowKind::tip_mass ? carried : 0.0;
+      const double mean = sample.posterior.mean[index] - work_piece;
+      squares[i][s] = mean * mean + sample.posterior.p(index, index);
+    }
+  });
+  for (std::size_t s = 0; s < count; ++s) {
+    if (model.slow[s].memory_s > 0.0) continue;
+    double sum = 0.0;
+    for (const std::vector<double>& day : squares) sum += day[s];
+    const double seen = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(days.size(), 1)));
+    model.slow[s].day_std = std::max(model.slow[s].day_std, seen);
+  }
+}
+
+LogNoise log_noise(const MotionModel& model, const NoiseLevel& level) {
+  LogNoise noise = noise_against(model.usual_noise, level, model.noise_range);
+  for (std::size_t j = 0; j < model.dq_is_difference.size(); ++j)
+    noise.no_velocity[j] = model.dq_is_difference[j] != 0;
+  return noise;
+}
+
+LogNoise survey_noise(LogSource& log, const MotionModel& model) {
+  log.rewind();
+  Log first;
+  for (Log segment; first.rows() < kSurveyedRows && log.next(segment);)
+    append(first, slice(segment, 0, std::min(segment.rows(), kSurveyedRows - first.rows())));
+  log.rewind();
+  return log_noise(model, noise_level(first));
+}
+
+}  // namespace faultline

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/work_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/evidence/episode_detector.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kFewestChanges = 3;         // fewer are no habit
+constexpr double kSameMass = 0.25;        // share by which most changes may differ from the usual one
+constexpr double kMostAlike = 0.6;        // share of the changes that must be that alike
+constexpr double kAtFirst = 0.6;          // of a work piece: doubt of what is carried when a log begins
+constexpr double kLeastOfCarried = 0.05;  // of the prior of a payload: less is no work piece
+
+/// What a jump of the load may be: a mass, a push on one joint, or a row read wrong.
+std::vector<Hypothesis> explanations(int joints, const std::vector<double>& work_pieces) {
+  std::vector<Hypothesis> bank;
+  for (const Hypothesis& hypothesis : hypotheses_of(joints, TorqueMeaning::measured, work_pieces)) {
+    const FaultKind kind = hypothesis.label.kind;
+    if (is_healthy(hypothesis) || kind == FaultKind::payload_change || kind == FaultKind::unknown)
+      bank.push_back(hypothesis);
+  }
+  return bank;
+}
+
+/// Masses by which the tip changed in the excerpt, if anything did.
+std::vector<double> mass_changes(const MotionModel& model, const HealthyExcerpt& excerpt) {
+  const std::vector<Hypothesis> bank = explanations(model.joints(), {});
+  EpisodeDetector detector(model, bank, {}, excerpt.noise);
+  detector.take(excerpt.log);
+  detector.finish();
+  std::vector<double> changes;
+  for (const EpisodeEvidence& episode : detector.episodes())
+    if (bank[episode.best].label.kind == FaultKind::payload_change)
+      changes.push_back(std::abs(episode.hypotheses[episode.best].size[0]));
+  return changes;
+}
+
+/// The mass that most changes share; 0 for none.
+double usual_mass(const std::vector<double>& changes, double least) {
+  if (static_cast<int>(changes.size()) < kFewestChanges) return 0.0;
+  const double mass = upper_median(changes);
+  const auto alike = std::count_if(changes.begin(), changes.end(),
+                                   [&](double change) { return std::abs(change - mass) < kSameMass * mass; });
+  const bool most = static_cast<double>(alike) >= kMostAlike * static_cast<double>(changes.size());
+  return most && mass > least ? mass : 0.0;
+}
+
+}  // namespace
+
+void allow_work_pieces(MotionModel& model) {
+  double doubt = 0.0;
+  for (const double mass : model.work_pieces_kg) doubt = std::max(doubt, kAtFirst * mass);
+  for (SlowState& slow : model.slow)
+    if (slow.kind == SlowKind::tip_mass) slow.day_std = std::max(slow.day_std, doubt);
+}
+
+void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
+  const int count = static_cast<int>(excerpts.size());
+  std::vector<std::vector<double>> found(excerpts.size());
+  parallel_for(count, threads, [&](int i) { found[i] = mass_changes(model, excerpts[i]); });
+  std::vector<double> changes;
+  for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
+  const double mass = usual_mass(changes, kLeastOfCarried * model.priors.payload);
+  if (mass <= 0.0) return;
+  model.work_pieces_kg = {mass};
+  allow_work_pieces(model);
+  const std::vector<Hypothesis> bank = explanations(model.joints(), model.work_pieces_kg);
+  parallel_for(count, threads, [&](int i) {
+    EpisodeDetector detector(model, bank, {}, excerpts[i].noise);
+    detector.take(excerpts[i].log);
+    detector.finish();
+    excerpts[i].work_piece_changes = detector.work_piece_changes();
+  });
+}
+
+}  // namespace faultline

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Healthy robots that are not the one that was learned from, and faults in them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "lib/classify/episode_features.hpp"
+#include "lib/evidence/episode_detector.hpp"
+#include "lib/evidence/motion_model_json.hpp"
+#include "lib/evidence/slow_states.hpp"
+#include "lib/fault/label_text.hpp"
+#include "tests/support/rrp_runs.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kOnset_s = 2.503;
+
+/// Same robot, another day.
+Robot with_friction(double factor) {
+  Robot robot = known_rrp();
+  for (Friction<double>& friction : robot.chain.friction) {
+    friction.viscous *= factor;
+    friction.coulomb *= factor;
+  }
+  return robot;
+}
+
+Robot with_masses(double factor) {
+  Robot robot = known_rrp();
+  set_masses_and_lengths(robot, {8.0 * factor, 5.0 * factor, 2.5 * factor}, {0.35, 0.3, 0.0});
+  return robot;
+}
+
+SimulationSpec with_noise(SimulationSpec spec, double factor) {
+  for (double& q : spec.noise.q) q *= factor;
+  for (double& dq : spec.noise.dq) dq *= factor;
+  return spec;
+}
+
+struct Watched {
+  std::vector<EpisodeEvidence> episodes;
+  std::vector<WorkPieceChange> changes;
+};
+
+Watched watched(const Log& log, const MotionModel& model = rrp_motion_model()) {
+  const std::vector<Hypothesis> bank =
+      hypotheses_of(model.joints(), TorqueMeaning::commanded, model.work_pieces_kg);
+  MemorySource source(log);
+  EpisodeDetector detector(model, bank, {}, survey_noise(source, model));
+  for (Log segment; source.next(segment);) detector.take(segment);
+  detector.finish();
+  return {detector.episodes(), detector.work_piece_changes()};
+}
+
+TEST(HealthyFamily, FrictionOfAColdOrAWarmDayIsNoFault) {
+  for (const double factor : {0.7, 1.2, 1.5})
+    EXPECT_TRUE(watched(simulate(with_friction(factor), rrp_run(10.0), 31).log).episodes.empty()) << factor;
+}
+
+TEST(HealthyFamily, MassesTwoPercentOffAreNoFault) {
+  for (const double factor : {0.98, 1.02})
+    EXPECT_TRUE(watched(simulate(with_masses(factor), rrp_run(10.0), 32).log).episodes.empty()) << factor;
+}
+
+TEST(HealthyFamily, TwiceTheNoiseIsNoFault) {
+  const Log log = simulate(known_rrp(), with_noise(rrp_run(10.0), 2.0), 33).log;
+  MemorySource source(log);
+  const LogNoise noise = survey_noise(source, rrp_motion_model());
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(noise.q_scale[j], 2.0, 0.5);
+  EXPECT_TRUE(watched(log).episodes.empty());
+}
+
+TEST(HealthyFamily, FaultsOfAnotherDayAreFoundAllTheSame) {
+  const struct {
+    FaultKind kind;
+    int joint;
+    double size;
+  } cases[] = {
+      {FaultKind::free_swinging, 2, 0.0}, {FaultKind::locked, 1, 0.0}, {FaultKind::sensor_bias, 1, 0.02}};
+  for (const auto& fault : cases) {
+    const Log log =
+        simulate(with_friction(1.4), rrp_run_with(fault.kind, fault.joint, kOnset_s, fault.size), 34).log;
+    const std::vector<EpisodeEvidence> episodes = watched(log).episodes;
+    ASSERT_FALSE(episodes.empty()) << to_string(fault.kind);
+    const auto bank = hypotheses_of(3, TorqueMeaning::commanded);
+    const FaultLabel named = likeliest(evidence_by_label(episodes.front(), bank, rrp_motion_model())).label;
+    EXPECT_EQ(label_text(named), label_text({fault.kind, fault.joint}));
+    EXPECT_GE(episodes.front().alarm_s, kOnset_s);
+    EXPECT_LT(episodes.front().alarm_s, kOnset_s + 0.3);
+  }
+}
+
+TEST(HealthyFamily, AWorkPieceThatComesEveryDayIsNoFault) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {1.0};
+  const Log log = simulate(known_rrp(), rrp_run_with(FaultKind::payload_change, 3, kOnset_s, 1.0), 35).log;
+  EXPECT_FALSE(watched(log).episodes.empty()) << "it is one where no work piece is known";
+  const Watched with_piece = watched(log, model);
+  EXPECT_TRUE(with_piece.episodes.empty());
+  ASSERT_EQ(with_piece.changes.size(), 1u);
+  EXPECT_EQ(with_piece.changes.front().kg, 1.0);
+  EXPECT_NEAR(log.time[with_piece.changes.front().row], kOnset_s, 0.05);
+}
+
+TEST(HealthyFamily, AnotherMassThanTheWorkPieceIsAFault) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {1.0};
+  const Log log = simulate(known_rrp(), rrp_run_with(FaultKind::payload_change, 3, kOnset_s, 2.5), 36).log;
+  EXPECT_FALSE(watched(log, model).episodes.empty());
+}
+
+TEST(HealthyFamily, StampsThatWobbleAreTakenInStep) {
+  Log log = simulate(known_rrp(), rrp_run(10.0), 37).log;
+  for (int k = 7; k < log.rows(); k += 13) log.time[k] += k % 2 ? 0.002 : -0.002;
+  MotionModel model = rrp_motion_model();
+  model.steady_period_s = 0.01;
+  EXPECT_TRUE(watched(log, model).episodes.empty());
+}
+
+TEST(HealthyFamily, TheModelsFileKeepsAllOfIt) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {0.7, 1.3};
+  model.q_tail = {3.0, 3.0, 1e6};
+  model.noise.compliance = {1e-5, 2e-5, 0.0};
+  model.steady_period_s = 0.01;
+  nlohmann::json json;
+  to_json(json, model);
+  const MotionModel read = motion_model_from_json(json, known_rrp(), "test");
+  ASSERT_EQ(read.slow.size(), model.slow.size());
+  for (std::size_t s = 0; s < read.slow.size(); ++s) {
+    EXPECT_EQ(read.slow[s].kind, model.slow[s].kind);
+    EXPECT_EQ(read.slow[s].joint, model.slow[s].joint);
+    EXPECT_EQ(read.slow[s].day_std, model.slow[s].day_std);
+    EXPECT_EQ(read.slow[s].memory_s, model.slow[s].memory_s);
+  }
+  EXPECT_EQ(read.work_pieces_kg, model.work_pieces_kg);
+  EXPECT_EQ(read.q_tail, model.q_tail);
+  EXPECT_EQ(read.noise.compliance, model.noise.compliance);
+  EXPECT_EQ(read.steady_period_s, model.steady_period_s);
+  EXPECT_EQ(read.usual_noise.q, model.usual_noise.q);
+}
+
+}  // namespace
+}  // namespace faultline
