@@ -11,7 +11,7 @@ namespace {
 
 /// How far back faults are tried to have begun, in samples before the trigger.
 constexpr std::array<int, 16> kOffsets = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256};
-constexpr int kSlowOffset = 16;      // farther back only faults that creep are tried
+constexpr int kSlowOffset = 16;      // farther back only what creeps, or hides at rest, is tried
 constexpr double kLookBack_s = 2.5;  // and never farther: what has crept that long has grown past the trigger
 // Most of the bank's work is spared by dropping what cannot win any more.
 constexpr int kFirstPrune = 12;        // samples after the trigger: two onsets a hypothesis stay
@@ -57,7 +57,8 @@ RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset) const 
 void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
   if (onset < earliest_ || history_[trigger_].time - history_[onset].time > kLookBack_s) return;
   for (std::size_t h = 0; h < bank_.hypotheses().size(); ++h)
-    if (!slow_only || describe(bank_.hypotheses()[h].label.kind).creeps)
+    if (const Hypothesis& hypothesis = bank_.hypotheses()[h];
+        !slow_only || describe(hypothesis.label.kind).creeps || hypothesis.form == HypothesisForm::work_piece)
       running_.push_back(run(static_cast<int>(h), onset));
 }
 
