@@ -47,18 +47,6 @@ Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, cons
           DecisionReason::likelihood_names, likely.label};
 }
 
-/// The label stays so far behind the likeliest one that it cannot be the fault.
-bool is_ruled_out(const FaultLabel& label, const std::vector<LabelEvidence>& evidence,
-                  const DecisionOptions& options) {
-  const LabelEvidence likely = likeliest(evidence);
-  if (likely.label.kind == FaultKind::unknown) return false;
-  double own = -std::numeric_limits<double>::infinity();
-  for (const LabelEvidence& e : evidence)
-    if (named_by_size(e.label, evidence) == label) own = std::max(own, e.log_likelihood_ratio);
-  const double behind = likely.log_likelihood_ratio - own;
-  return behind > options.ruled_out && behind > options.ruled_out_share * likely.log_likelihood_ratio;
-}
-
 }  // namespace
 
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
@@ -69,9 +57,7 @@ Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
                                                                : by_votes(basis.votes, options);
   decision.label = named_by_size(decision.label, basis.evidence);
   const bool unnamed = decision.label.kind == FaultKind::unknown;
-  if (basis.evidence.empty()) return decision;
-  const bool impossible = !unnamed && is_ruled_out(decision.label, basis.evidence, options);
-  return unnamed || impossible ? by_likelihood(decision, basis, options) : decision;
+  return unnamed && !basis.evidence.empty() ? by_likelihood(decision, basis, options) : decision;
 }
 
 }  // namespace faultline

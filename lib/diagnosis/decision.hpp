@@ -13,11 +13,7 @@ struct DecisionOptions {
   double thin_evidence = 5.0;    ///< nats: abstain below this log likelihood ratio
   double thin_confidence = 0.2;  ///< abstain when two agreeing networks are on average less sure than this
   double clear_share = 0.5;      ///< more than this share of the votes settles a disagreement, or warns
-  /// Nats, and share of the likeliest label's evidence: a label that stays this far behind is ruled out,
-  /// whatever networks and cases learned from simulated runs say.
-  double ruled_out = 100.0;
-  double ruled_out_share = 0.2;
-  double close_ratio = 10.0;  ///< nats: labels whose evidence is this near cannot be told apart by it
+  double close_ratio = 10.0;     ///< nats: labels whose evidence is this near cannot be told apart by it
 };
 
 /// Why a label was decided on.
@@ -28,7 +24,7 @@ enum class DecisionReason {
   nothing_similar,   ///< unknown: the networks disagree and no recorded case is near
   votes_even,        ///< abstained: the networks disagree and the votes do not settle it
   votes_settle,      ///< the networks disagree and the votes settle it
-  likelihood_names,  ///< neither networks nor cases name a fault that is possible, the likelihood does
+  likelihood_names,  ///< neither networks nor cases name a fault, the likelihood does
 };
 
 /// What an episode is, decided once; all texts follow from it.
@@ -45,8 +41,8 @@ struct Decision {
 /// the level of the episode). Two networks that agree are believed; when they disagree, the votes of similar
 /// cases and of both networks settle it; with nothing near it is an unknown fault. A loss of nearly all
 /// torque then is a free joint, and where all that leaves no name, the likelihood gives one, if a network
-/// seconds it or nothing else comes near; so it does where it rules out what was named.
-/// Without evidence of labels none of this happens.
+/// seconds it or nothing else comes near. Without evidence of labels neither of the two
+/// happens.
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
 
 }  // namespace faultline
