@@ -180,7 +180,8 @@ TEST(HypothesisTest, ASingleWildRowIsMisread) {
   watch.advance(40);
   const RunningHypothesis* misread = watch.test().no_fault();
   ASSERT_NE(misread, nullptr);
-  EXPECT_NEAR(misread->state.mean[0], log.q[0][340], 1e-3) << "the filter that passed over it is where the robot is";
+  EXPECT_NEAR(misread->state.mean[0], log.q[0][340], 1e-3)
+      << "the filter that passed over it is where the robot is";
 }
 
 TEST(HypothesisTest, TwoWildRowsOfTheSameKindAreNotMisread) {
