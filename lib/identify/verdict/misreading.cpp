@@ -19,7 +19,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 5000;         // of the beginning of a log
+constexpr int kRows = 3000;         // of the beginning of a log
 constexpr std::size_t kLogs = 2;    // looked at
 constexpr double kWindow_s = 0.16;  // long enough for any noise
 constexpr int kWindows = 2000;
