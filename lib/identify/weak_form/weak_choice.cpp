@@ -18,7 +18,8 @@ constexpr Worth kWidth{.residual = 0.02};                  // for friction smoot
 // Friction that bends or differs by direction mimics much else, such as a width between two of the bank.
 constexpr Worth kRare{.residual = 0.1, .torque = 1e-3};
 constexpr double kWindowWorthIt = 0.01;  // less of the residual does not ask for a longer window
-constexpr double kWidthsApart = 2.0;  // standard errors by which held-out data tell two friction widths apart
+constexpr double kWidthsApart = 1.0;  // standard errors by which held-out data tell two friction widths apart
+constexpr double kFarWidth = 4.0;     // times wider or sharper than the best is not in doubt
 constexpr int kShiftSweeps = 3;
 constexpr double kBendsApart = 10.0;  // times the width of the Coulomb friction
 
@@ -132,7 +133,8 @@ Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space,
     for (int k = 0; k < kCoulombWidths; ++k) {
       WeakChoice other = c.weak;
       other.width[j] = k;
-      if (k == c.weak.width[j]) continue;
+      const double ratio = weak_width(space, j, k) / weak_width(space, j, c.weak.width[j]);
+      if (k == c.weak.width[j] || ratio > kFarWidth || ratio < 1.0 / kFarWidth) continue;
       const Gain loss = gain_of(chooser.error(other, c.wanted, scale), c.held_out, j);
       if (loss.mean > kWidthsApart * loss.error) continue;
       const Eigen::VectorXd step = chooser.fit(other, c.wanted, scale) - chosen;
