@@ -9,9 +9,8 @@ namespace faultline {
 
 /// How one log measures, against what the model's logs did.
 struct LogNoise {
-  std::array<double, kMaxJoints> q_scale;      ///< noise over that of MotionModel::q_std, by joint
-  std::array<double, kMaxJoints> dq_scale;     ///< the same of dq
-  std::array<bool, kMaxJoints> no_velocity{};  ///< dq is a difference of q and no measurement of its own
+  std::array<double, kMaxJoints> q_scale;   ///< noise over that of MotionModel::q_std, by joint
+  std::array<double, kMaxJoints> dq_scale;  ///< the same of dq
 
   LogNoise() {
     q_scale.fill(1.0);

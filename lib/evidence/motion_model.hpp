@@ -36,8 +36,6 @@ struct MotionModel {
   double clock_std = 0.0;      ///< s: error of the time stamps, which moves readings by the speed
   std::vector<double> q_std;   ///< measurement noise, rad or m, one a joint; positive
   std::vector<double> dq_std;  ///< rad/s or m/s
-  /// 1 where dq is computed from q and no measurement of its own, one a joint; empty for none.
-  std::vector<char> dq_is_difference;
   /// Standard deviations of the innovations of q and dq beyond which healthy rows stray (springs, play,
   /// coarse codes): farther ones count for less, in the filters and in the evidence. One a joint; empty for
   /// none.

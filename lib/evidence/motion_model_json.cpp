@@ -104,7 +104,6 @@ void to_json(nlohmann::json& json, const MotionModel& model) {
   json["steady_period_s"] = model.steady_period_s;
   json["usual_noise"] = {{"q", model.usual_noise.q}, {"dq", model.usual_noise.dq}};
   json["noise_range"] = model.noise_range;
-  json["dq_is_difference"] = std::vector<int>(model.dq_is_difference.begin(), model.dq_is_difference.end());
   visit_joint_lists(model, [&](const char* key, const auto& values) { json[key] = values; });
   visit_numbers(model, [&](const char* key, double value) { json[key] = value; });
 }
@@ -134,9 +133,6 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
     model.usual_noise = {usual.at("q").get<std::vector<double>>(), usual.at("dq").get<std::vector<double>>()};
     model.noise_range = json.at("noise_range").get<std::array<double, 2>>();
   }
-  if (json.contains("dq_is_difference"))
-    for (const nlohmann::json& flag : json["dq_is_difference"])
-      model.dq_is_difference.push_back(static_cast<char>(flag.get<int>()));
   return model;
 }
 

@@ -76,10 +76,7 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
 }
 
 LogNoise log_noise(const MotionModel& model, const NoiseLevel& level) {
-  LogNoise noise = noise_against(model.usual_noise, level, model.noise_range);
-  for (std::size_t j = 0; j < model.dq_is_difference.size(); ++j)
-    noise.no_velocity[j] = model.dq_is_difference[j] != 0;
-  return noise;
+  return noise_against(model.usual_noise, level, model.noise_range);
 }
 
 LogNoise survey_noise(LogSource& log, const MotionModel& model) {

@@ -50,7 +50,7 @@ void add_rotor_candidate(const Robot& robot, int i, std::vector<BaseCandidate>& 
   BaseCandidate c = candidate("jr" + std::to_string(i + 1), turns ? "kg m^2" : "kg", robot.joints());
   c.parameter.is_rotor = true;
   c.direction[robot.joints() * kLinkParameters + i] = 1.0;
-  c.joint = i;
+  c.parameter.joint = i;
   out.push_back(std::move(c));
 }
 

@@ -13,7 +13,6 @@ namespace faultline {
 struct BaseCandidate {
   BaseParameter parameter;
   Eigen::VectorXd direction;  ///< 11 n: the links' numbers, then the rotors' inertia
-  int joint = 0;              ///< from 0, of a rotor
 };
 
 /// Whether the robot's base parameters are a, b, c and m3 of the SCARA.

@@ -98,7 +98,7 @@ ParameterSpace parameter_space(const Robot& robot) {
     kept.rightCols<1>() = column;
     lift.rightCols<1>() = c.direction;
     space.base.push_back(c.parameter);
-    if (c.parameter.is_rotor) space.chain.rotor_inertia[c.joint] = 0.0;
+    if (c.parameter.is_rotor) space.chain.rotor_inertia[c.parameter.joint] = 0.0;
   }
   space.lift = lift;
   if (is_scara(robot)) return space;

@@ -18,6 +18,7 @@ struct BaseParameter {
   std::string meaning;    ///< what it adds up, such as "I2 + 0.09 m3" at the lengths of `chain`
   bool is_mass = false;   ///< the mass that a vertical prismatic axis carries: one that gravity weighs
   bool is_rotor = false;  ///< what turns faster than the joint and that nothing else feels
+  int joint = 0;          ///< of a rotor, from 0
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every

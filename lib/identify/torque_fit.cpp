@@ -26,7 +26,7 @@ bool is_not_negative(const ParameterSpace& space, int p) {
 /// An inertia that next to that of its joint nobody would miss.
 double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) {
   const Chain<double> chain = chain_from(space, torque.fit.parameters);
-  const int joint = space.base[p].name.back() - '1';
+  const int joint = space.base[p].joint;
   return kSmallRotor *
          std::abs(inertia_matrix(chain, JointVector<double>::Zero(space.joints()).eval())(joint, joint));
 }

@@ -7,6 +7,7 @@
 
 #include "lib/identify/identify.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/robot/dynamics.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline {
@@ -41,9 +42,9 @@ void expect_masses(const Identification& id, const ClosedFormScara& scara, doubl
 
 /// Torque of friction alone of joint `j` at `dq`.
 double friction_at(const Identification& id, int j, double dq) {
-  const Friction<double>& f = id.robot.chain.friction[j];
-  return f.viscous * dq + f.coulomb * std::tanh(dq / f.width) + f.offset +
-         f.bend * std::tanh(dq / f.bend_width) + f.skew * std::abs(dq);
+  JointVector<double> speed = JointVector<double>::Zero(3);
+  speed[j] = dq;
+  return friction_torque(id.robot.chain, speed)[j];
 }
 
 TEST(FrictionTerms, APlainRobotGetsNeitherBendNorSkew) {

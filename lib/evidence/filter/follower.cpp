@@ -107,8 +107,7 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
     out.q[j] = segment.q[j][row];
-    const double logged_dq = segment.dq.empty() ? kNaN : segment.dq[j][row];
-    out.dq[j] = noise_.no_velocity[j] ? kNaN : logged_dq;
+    out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;

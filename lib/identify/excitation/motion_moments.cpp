@@ -13,7 +13,6 @@ namespace {
 constexpr double kStep_s = 0.02;
 constexpr double kWindow_s = 0.16;
 constexpr int kManyWindows = 1 << 20;  // none is dropped
-constexpr int kUsualWidth = 4;         // the friction width of the robot file
 constexpr double kRank = 1e-13;        // of the largest eigenvalue
 
 Stretch stretch_of(const Motion& reference, int joints, double duration_s) {
@@ -42,7 +41,7 @@ Eigen::RowVectorXd row_of(const ParameterSpace& space, const WeakWindow& w, int 
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(space.linear());
   row.head(space.rigid()) = w.base.row(j);
   row[space.viscous(j)] = w.viscous[j];
-  row[space.coulomb(j)] = w.coulomb(j, kUsualWidth);
+  row[space.coulomb(j)] = w.coulomb(j, kOwnWidth);
   return row;
 }
 

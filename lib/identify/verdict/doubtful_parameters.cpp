@@ -6,13 +6,13 @@
 #include <cmath>
 #include <string>
 
+#include "lib/identify/weak_form/chooser.hpp"
 #include "lib/identify/weak_form/column_selection.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kShown = 1e-6;          // share of the squared column that moving joints must carry
-constexpr double kUndriven = 0.05;       // of the largest torque of joints of the same kind
 constexpr double kFrictionAlone = 0.95;  // of what is explained of a torque: nothing drives that joint
 constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints tell another value,
 constexpr double kOtherwiseStd = 3;      // by so many standard deviations
@@ -67,7 +67,7 @@ std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& t
   for (int j = 0; j < n; ++j)
     for (int other = 0; other < n; ++other)
       if (space.chain.geometry[other].kind == space.chain.geometry[j].kind && rows[j] > 0.0 &&
-          (rms[j] < kUndriven * rms[other] || (rms[j] < rms[other] && friction[j] > kFrictionAlone))) {
+          (rms[j] < kUndrivenShare * rms[other] || (rms[j] < rms[other] && friction[j] > kFrictionAlone))) {
         undriven.push_back(j + 1);
         break;
       }
@@ -98,7 +98,7 @@ std::vector<int> doubt_beside_offsets(const ParameterSpace& space, const Robot& 
   const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
   for (int rotor = 0; rotor < space.rigid(); ++rotor) {
     if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || torque.fit.confounded[rotor]) continue;
-    const int joint = space.name(rotor).back() - '1';
+    const int joint = space.base[rotor].joint;
     if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
       continue;
     std::vector<bool> wanted = torque.fit.free;

@@ -7,6 +7,9 @@
 
 namespace faultline {
 
+/// Of the largest torque of joints of the same kind: a joint with less asks for no mass at all.
+inline constexpr double kUndrivenShare = 0.05;
+
 /// Judges choices of windows, shifts, widths and terms by what they leave of torque, on held-out data and on
 /// all.
 class Chooser {

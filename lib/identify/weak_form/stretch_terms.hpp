@@ -12,6 +12,7 @@ namespace faultline {
 /// widest serve bent friction alone.
 inline constexpr int kWidths = 12;
 inline constexpr int kCoulombWidths = 9;
+inline constexpr int kOwnWidth = 4;  ///< the robot's own
 double weak_width(const ParameterSpace& space, int joint, int k);
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample

@@ -149,8 +149,7 @@ Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space,
 /// The joint that a parameter is judged by: its own for friction and rotors, for others the first.
 int joint_of(const ParameterSpace& space, int p) {
   if (p >= space.rigid()) return (p - space.rigid()) % space.joints();
-  const std::string& name = space.base[p].name;
-  return space.base[p].is_rotor ? name.back() - '1' : 0;
+  return space.base[p].joint;
 }
 
 void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,

@@ -15,7 +15,9 @@ namespace {
 
 const Identification& identified() {
   static const Identification id = [] {
-    MemorySource source(testing::simulate_closed_form({}, {}), "<b>log</b>.csv");
+    testing::ClosedFormRun run;
+    run.duration_s = 12.0;  // a spectrum takes some seconds of windows
+    MemorySource source(testing::simulate_closed_form({}, run), "<b>log</b>.csv");
     LogSource* logs[] = {&source};
     Robot robot = preset_robot("RRP");
     robot.name = "<script>arm";
@@ -30,7 +32,7 @@ const Identification& identified() {
 TEST(IdentificationPage, ShowsEveryJointAndEveryPart) {
   const std::string page = render_identification_html(identified());
   for (const char* id : {"parameters", "fit", "joint-1", "joint-3", "motion", "logs", "torque-2",
-                         "friction-2", "left-position-2", "left-speed-2"})
+                         "friction-2", "left-position-2", "left-speed-2", "spectrum-2"})
     EXPECT_NE(page.find(std::string("id=\"") + id + "\""), std::string::npos) << id;
 }
 
