@@ -168,6 +168,8 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   }
   TorqueFit torque = fit_torque(gathered, choice, nominal, id);
   choice.weak.shift = torque.shift;
+  for (ModelTerm& term : choice.terms)
+    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = torque.shift[term.joint] != 0;
   settle_method(logs, gathered, torque, nominal, options, progress, id);
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);

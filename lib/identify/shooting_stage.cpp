@@ -142,9 +142,10 @@ ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered
   }
   shooting.max_iterations = options.max_iterations;
   shooting.max_rounds = ShootingOptions{}.max_rounds;
+  const Eigen::VectorXd& start = trial.converged ? trial.parameters : problem.start;
   out.fit = fit_shooting(
-      {problem.space, excerpts, problem.start, problem.free, problem.priors, problem.noise, problem.floor},
-      shooting, progress);
+      {problem.space, excerpts, start, problem.free, problem.priors, problem.noise, problem.floor}, shooting,
+      progress);
   out.refused = refusal(out.fit, gathered, torque, id);
   return out;
 }

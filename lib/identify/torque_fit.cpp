@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -116,6 +117,28 @@ void settle_timing(const WeakSets& windows, const ParameterSpace& space, const E
   }
 }
 
+/// A delay of its own was chosen with the torque's timing not yet known: half a sample looks like one. A
+/// joint keeps it only where none of the others' delays explains its torque as well.
+void drop_own_delays(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
+                     WeakChoice choice, TorqueFit& torque) {
+  choice.shift = torque.shift;
+  for (int j = 0; j < space.joints(); ++j)
+    for (const int other : std::set<int>(torque.shift.begin(), torque.shift.end())) {
+      if (other == torque.shift[j] ||
+          std::count(torque.shift.begin(), torque.shift.end(), torque.shift[j]) > 1)
+        continue;
+      TorqueFit tried = torque;
+      WeakChoice changed = choice;
+      changed.shift[j] = other;
+      tried.system = assemble(windows, changed);
+      tried.shift = changed.shift;
+      tried.fit = fit_weak_form(tried.system, space, nominal, tried.wanted);
+      if (tried.fit.residual_rms[j] > torque.fit.residual_rms[j]) continue;
+      choice = changed;
+      torque = std::move(tried);
+    }
+}
+
 }  // namespace
 
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
@@ -125,6 +148,7 @@ TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const 
   TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift};
   out.fit = fit_weak_form(out.system, id.space, nominal, out.wanted);
   settle_timing(gathered.windows, id.space, nominal, choice.weak, out);
+  drop_own_delays(gathered.windows, id.space, nominal, choice.weak, out);
   drop_driving_friction(id.space, nominal, out);
   hold_at_zero(id.space, nominal, out);
   add_doubt(choice.width_doubt, out.fit);

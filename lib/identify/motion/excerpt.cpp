@@ -21,8 +21,8 @@ Excerpt cut(const Stretch& s, int begin, int rows) {
   if (!s.has_dq) e.weight.bottomRows(n).setZero();
   e.start.resize(2 * n);
   e.start << s.q_smooth.col(begin), s.dq_smooth.col(begin);
-  const auto speed = s.dq_smooth.middleCols(begin, rows);
-  e.travel = (speed.rowwise().maxCoeff() - speed.rowwise().minCoeff()).sum();
+  e.speed = s.dq_smooth.middleCols(begin, rows);
+  e.travel = (e.speed.rowwise().maxCoeff() - e.speed.rowwise().minCoeff()).sum();
   return e;
 }
 

@@ -16,6 +16,7 @@ struct Excerpt {
   Eigen::MatrixXd measured;  ///< 2 joints x rows: q over dq
   Eigen::MatrixXd weight;    ///< of each measurement, 0 to 1; 0 for outliers and for a velocity not measured
   Eigen::MatrixXd tau;       ///< joints x rows
+  Eigen::MatrixXd speed;     ///< joints x rows, smoothed
   Eigen::VectorXd start;     ///< guess of (q, dq) at the first row
   double travel = 0.0;       ///< how much the joints move in it against the usual noise
 

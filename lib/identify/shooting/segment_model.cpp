@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/robot/dynamics.hpp"
+
 namespace faultline {
 namespace {
 
 constexpr double kDifference = 1e-5;  ///< rad or m, of the slopes with respect to position
+constexpr double kLongestStep_s = 0.01;
+constexpr double kTurns = 6.0;  ///< widths of the Coulomb friction: beyond, it is constant
 
 Chain<double> direction_chain(const ParameterSpace& space, int base) {
   Chain<double> chain = space.chain;
@@ -38,11 +42,24 @@ void invert(JointMatrix<double>& m) {
 
 JointVector<double> rigid_torque(const FastDynamics& dynamics, const JointVector<double>& q,
                                  const JointVector<double>& dq, const JointVector<double>& ddq) {
+  if (!dynamics.planar()) return rigid_body_torque(dynamics.chain(), q, dq, ddq, dynamics.chain().gravity);
   JointMatrix<double> m;
   JointVector<double> bias;
   dynamics.inertia_and_bias(q, dq, m, bias);
   bias.noalias() += m.lazyProduct(ddq);
   return bias;
+}
+
+/// out = a b for an `a` of few rows, column after column: Eigen's products are made for larger ones.
+void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b, Eigen::MatrixXd& out) {
+  const Eigen::Index inner = b.rows();
+  for (Eigen::Index c = 0; c < b.cols(); ++c) {
+    double sum[kMaxJoints] = {};
+    const double* column = b.data() + c * inner;
+    for (Eigen::Index k = 0; k < inner; ++k)
+      for (Eigen::Index r = 0; r < rows; ++r) sum[r] += a[k * rows + r] * column[k];
+    std::copy_n(sum, rows, out.data() + c * rows);
+  }
 }
 
 }  // namespace
@@ -53,6 +70,7 @@ struct SegmentModel::Workspace {
   JointMatrix<double> inverse_inertia;
   Eigen::MatrixXd by_state, by_parameter;  ///< of ddq: n x 2n, n x free
   Eigen::MatrixXd rhs_state, rhs_parameter;
+  LinkRegressor regressor;
   Eigen::VectorXd x, stage, slope, sum;  ///< 2n
   Eigen::MatrixXd s, term, next, bend;   ///< 2n x (2n + free); n x the same
 };
@@ -64,8 +82,13 @@ SegmentModel::SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& p
       free_(free),
       longest_step_s_(longest_step_s),
       dynamics_(chain_from(space, parameters)) {
-  for (int p : free_)
-    if (p < space.rigid()) directions_.emplace_back(direction_chain(space, p));
+  for (int p : free_) {
+    if (p >= space.rigid()) continue;
+    if (dynamics_.planar())
+      directions_.emplace_back(direction_chain(space, p));
+    else
+      shares_.push_back(space.lift.col(p).sparseView());
+  }
 }
 
 void SegmentModel::accelerate(const JointVector<double>& tau, Workspace& w) const {
@@ -102,18 +125,35 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
     const double wide = std::tanh(w.dq[j] / f.bend_width);
     w.rhs_state(j, n + j) -= f.bend * (1.0 - wide * wide) / f.bend_width + std::copysign(f.skew, w.dq[j]);
   }
-  w.by_state.noalias() = w.inverse_inertia.lazyProduct(w.rhs_state);
+  multiply_small(w.inverse_inertia.data(), n, w.rhs_state, w.by_state);
+}
+
+/// Torque of the `direction`-th free base parameter alone, with its sign turned.
+void SegmentModel::base_slope(std::size_t direction, const Workspace& w,
+                              Eigen::Ref<Eigen::VectorXd> slope) const {
+  if (dynamics_.planar()) {
+    slope = -rigid_torque(directions_[direction], w.q, w.dq, w.ddq);
+    return;
+  }
+  const Eigen::Index links = static_cast<Eigen::Index>(space_.joints()) * kLinkParameters;
+  slope.setZero();
+  for (Eigen::SparseVector<double>::InnerIterator it(shares_[direction]); it; ++it)
+    if (it.index() < links)
+      slope -= it.value() * w.regressor.col(it.index());
+    else
+      slope[it.index() - links] -= it.value() * w.ddq[it.index() - links];
 }
 
 void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const {
   const int n = space_.joints();
   std::size_t direction = 0;
   w.rhs_parameter.setZero();
+  if (!shares_.empty()) torque_regressor(dynamics_.chain(), w.q, w.dq, w.ddq, w.regressor);
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const int p = free_[k];
     auto column = w.rhs_parameter.col(k);
     if (p < space_.rigid()) {
-      column = -rigid_torque(directions_[direction++], w.q, w.dq, w.ddq);
+      base_slope(direction++, w, column);
     } else if (p == space_.timing()) {
       column = tau_step;
     } else {
@@ -128,7 +168,7 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
                                                : -w.dq[joint];
     }
   }
-  w.by_parameter.noalias() = w.inverse_inertia.lazyProduct(w.rhs_parameter);
+  multiply_small(w.inverse_inertia.data(), n, w.rhs_parameter, w.by_parameter);
 }
 
 /// Over one step with the slopes of its middle, S' = A S + B is linear with constant coefficients: four terms
@@ -138,7 +178,7 @@ void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
   w.next = w.s;
   w.term = w.s;
   for (int order = 1; order <= 4; ++order) {
-    w.bend.noalias() = w.by_state.lazyProduct(w.term);
+    multiply_small(w.by_state.data(), n, w.term, w.bend);
     if (order == 1) w.bend.rightCols(w.by_parameter.cols()) += w.by_parameter;
     w.term.topRows(n) = (h / order) * w.term.bottomRows(n);
     w.term.bottomRows(n) = (h / order) * w.bend;
@@ -169,6 +209,17 @@ void SegmentModel::step(double h, const JointVector<double>& tau, const JointVec
   w.x = w.sum;
 }
 
+/// By the logged speed, so that the steps are the same for all parameters.
+int SegmentModel::steps(const Excerpt& e, int k) const {
+  double longest = kLongestStep_s;
+  for (int j = 0; j < space_.joints(); ++j) {
+    const double from = e.speed(j, k), to = e.speed(j, k + 1);
+    const double slowest = std::min(std::abs(from), std::abs(to)) - 0.25 * std::abs(to - from);
+    if (from * to <= 0.0 || slowest < kTurns * space_.chain.friction[j].width) longest = longest_step_s_;
+  }
+  return std::max(1, static_cast<int>(std::ceil((e.time[k + 1] - e.time[k]) / longest - 1e-9)));
+}
+
 void SegmentModel::run(const Excerpt& e, const Eigen::VectorXd& start, bool with_sensitivity,
                        SegmentMotion& motion) const {
   const int n = space_.joints(), rows = e.rows(), free = static_cast<int>(free_.size());
@@ -187,7 +238,7 @@ void SegmentModel::run(const Excerpt& e, const Eigen::VectorXd& start, bool with
   motion.state.col(0) = start;
   for (int k = 0; k + 1 < rows; ++k) {
     const double dt = e.time[k + 1] - e.time[k];
-    const int pieces = std::max(1, static_cast<int>(std::ceil(dt / longest_step_s_ - 1e-9)));
+    const int pieces = steps(e, k);
     const JointVector<double> tau_step = e.tau.col(k + 1) - e.tau.col(k);
     const JointVector<double> tau = e.tau.col(k) + parameters_[space_.timing()] * tau_step;
     for (int i = 0; i < pieces; ++i) step(dt / pieces, tau, tau_step, with_sensitivity, w);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "lib/identify/motion/excerpt.hpp"
@@ -22,7 +23,8 @@ struct SegmentMotion {
 /// number of threads.
 class SegmentModel {
  public:
-  /// `free` lists the parameters that sensitivities are wanted of.
+  /// `free` lists the parameters that sensitivities are wanted of. No step is longer than 10 ms, and where a
+  /// joint is so slow that its Coulomb friction turns none longer than `longest_step_s`.
   SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& parameters, const std::vector<int>& free,
                double longest_step_s);
 
@@ -31,8 +33,10 @@ class SegmentModel {
 
  private:
   struct Workspace;
+  int steps(const Excerpt& excerpt, int row) const;
   void accelerate(const JointVector<double>& tau, Workspace& w) const;
   void slopes_by_state(Workspace& w) const;
+  void base_slope(std::size_t direction, const Workspace& w, Eigen::Ref<Eigen::VectorXd> slope) const;
   void slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const;
   void carry_sensitivity(double h, Workspace& w) const;
   void step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
@@ -43,7 +47,8 @@ class SegmentModel {
   std::vector<int> free_;
   double longest_step_s_;
   FastDynamics dynamics_;
-  std::vector<FastDynamics> directions_;  ///< of each free base parameter: its own torque
+  std::vector<FastDynamics> directions_;  ///< of each free base parameter: its own torque; of parallel axes
+  std::vector<Eigen::SparseVector<double>> shares_;  ///< or what it is of links and rotors; of other chains
 };
 
 }  // namespace faultline

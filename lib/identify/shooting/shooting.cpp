@@ -31,6 +31,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evalua
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-12;
   options.initial_trust_region_radius = 1e6;
+  options.max_num_line_search_step_size_iterations = 0;  // a step is cut at its bounds, not searched along
   options.num_threads = 1;  // Ceres adds up in the order of threads; the evaluation is parallel itself
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

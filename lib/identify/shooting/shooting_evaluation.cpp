@@ -85,23 +85,27 @@ void ShootingEvaluation::evaluate(const SegmentModel& model, int i, bool jacobia
   SegmentMotion motion;
   model.run(e, start_of(i), jacobians, motion);
   const int n2 = 2 * space_.joints(), width = n2 + static_cast<int>(free_.size());
-  Eigen::MatrixXd stacked(n2 * e.rows(), jacobians ? width + 1 : 1);
-  Eigen::Index used = 0;
+  std::vector<Eigen::Index> used;
+  std::vector<double> weight;
   for (int k = 0; k < e.rows(); ++k)
-    for (int c = 0; c < n2; ++c) {
-      const double weight = std::sqrt(robust_[i](c, k)) / noise_[c];
-      if (weight == 0.0) continue;
-      double r = weight * (motion.state(c, k) - e.measured(c, k));
-      if (!(std::abs(r) < kDiverged)) r = kDiverged;
-      stacked(used, stacked.cols() - 1) = r;
-      if (jacobians) stacked.row(used).head(width) = weight * motion.sensitivity.row(n2 * k + c);
-      ++used;
-    }
-  store(reduced[i], stacked.topRows(used), jacobians);
+    for (int c = 0; c < n2; ++c)
+      if (robust_[i](c, k) > 0.0) {
+        used.push_back(n2 * k + c);
+        weight.push_back(std::sqrt(robust_[i](c, k)) / noise_[c]);
+      }
+  const auto count = static_cast<Eigen::Index>(used.size());
+  Eigen::MatrixXd stacked(count, jacobians ? width + 1 : 1);
+  for (Eigen::Index u = 0; u < count; ++u) {
+    const double r = weight[u] * (motion.state(used[u]) - e.measured(used[u]));
+    stacked(u, stacked.cols() - 1) = std::abs(r) < kDiverged ? r : kDiverged;
+  }
+  if (jacobians)
+    for (int c = 0; c < width; ++c)
+      for (Eigen::Index u = 0; u < count; ++u) stacked(u, c) = weight[u] * motion.sensitivity(used[u], c);
+  store(reduced[i], stacked, jacobians);
 }
 
-void ShootingEvaluation::store(ReducedExcerpt& out, const Eigen::Ref<const Eigen::MatrixXd>& stacked,
-                               bool jacobians) const {
+void ShootingEvaluation::store(ReducedExcerpt& out, Eigen::MatrixXd& stacked, bool jacobians) const {
   const int n2 = 2 * space_.joints();
   out.residual.setZero(rows());
   if (!jacobians) {
@@ -110,7 +114,7 @@ void ShootingEvaluation::store(ReducedExcerpt& out, const Eigen::Ref<const Eigen
   }
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(rows(), rows());
   if (stacked.allFinite()) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
+    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(stacked);
     const Eigen::Index height = std::min<Eigen::Index>(rows(), stacked.rows());
     factor.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
   }

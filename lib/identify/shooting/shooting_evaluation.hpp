@@ -49,7 +49,8 @@ class ShootingEvaluation : public ceres::EvaluationCallback {
  private:
   Eigen::VectorXd start_of(int i) const;
   void evaluate(const SegmentModel& model, int i, bool jacobians);
-  void store(ReducedExcerpt& out, const Eigen::Ref<const Eigen::MatrixXd>& stacked, bool jacobians) const;
+  /// Takes the triangular factor of `stacked`, which it destroys.
+  void store(ReducedExcerpt& out, Eigen::MatrixXd& stacked, bool jacobians) const;
 
   const ParameterSpace& space_;
   const std::vector<Excerpt>& excerpts_;
