@@ -335,7 +335,11 @@ class Peer:
         motion_hz, torque_hz, _ = JUDGE[self.name]
         out = []
         for log in logs:
-            w, t, at, tau, _ = judged_part(self.robot, log, motion_hz, torque_hz, width, self.coupled)
+            t, rate = log[0], 1 / (log[0][1] - log[0][0])
+            w = full_regressor(self.robot, motion_of(log, motion_hz), width, self.coupled)
+            at = kept_samples(log, torque_hz)
+            w = low_pass(w.reshape(len(t), -1), torque_hz, rate).reshape(w.shape)[at]
+            tau = low_pass(log[3], torque_hz, rate)
             for rows in np.array_split(np.arange(len(at)), 5 if len(logs) == 1 else 1):
                 out.append({"w": w[rows][:, :, self.base],
                             "tau": [[np.interp(t[at[rows]] - d, t, c) for d in DELAYS] for c in tau.T]})
