@@ -11,8 +11,16 @@
 namespace faultline {
 namespace {
 
+constexpr double kCalm_s = 1.0;  // between two faults that are not one
+
 double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
+}
+
+/// Whether `later` is what `earlier` looks like a while on: nothing was healthy for long between them.
+bool continues(const FaultFinding& earlier, const FaultFinding& later) {
+  return later.decided_by != DecidedBy::criterion && !describe(earlier.label.kind).passes &&
+         earlier.label.joint == later.label.joint && !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
 }
 
 std::tuple<double, double, int> order_key(const FaultFinding& finding) {
@@ -24,10 +32,8 @@ std::tuple<double, double, int> order_key(const FaultFinding& finding) {
 std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults) {
   std::vector<FaultFinding> merged;
   for (FaultFinding& fault : faults) {
-    const auto same = std::find_if(merged.begin(), merged.end(), [&](const FaultFinding& earlier) {
-      return fault.decided_by != DecidedBy::criterion && !describe(earlier.label.kind).passes &&
-             earlier.label.joint == fault.label.joint;
-    });
+    const auto same = std::find_if(merged.begin(), merged.end(),
+                                   [&](const FaultFinding& earlier) { return continues(earlier, fault); });
     if (same == merged.end())
       merged.push_back(std::move(fault));
     else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/evidence/bank.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/evidence/trigger.hpp"
@@ -32,8 +33,16 @@ double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, in
 
 }  // namespace
 
-Bank::Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses)
-    : model_(model), dynamics_(dynamics), hypotheses_(hypotheses) {}
+Bank::Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses,
+           const JointFlags& closed)
+    : model_(model), dynamics_(dynamics), hypotheses_(hypotheses), closed_(closed) {}
+
+bool Bank::asks_for(const Hypothesis& hypothesis) const {
+  const int joint = hypothesis.joint_index();
+  if (is_everywhere(hypothesis))
+    return std::none_of(closed_.begin(), closed_.end(), [](bool closed) { return closed; });
+  return joint < 0 || !closed_[joint];
+}
 
 RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const FollowedSample& before,
                               const FollowedSample& at) const {

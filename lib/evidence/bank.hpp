@@ -22,7 +22,9 @@ struct RunningHypothesis {
 /// samples; sample 0 is never compared, it only gives states to start from.
 class Bank {
  public:
-  Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses);
+  /// At the joints that are `closed` no fault is asked for, and no push on all.
+  Bank(const MotionModel& model, const FaultDynamics& dynamics, const std::vector<Hypothesis>& hypotheses,
+       const JointFlags& closed = {});
 
   /// A filter that starts from the healthy state before `onset` (>= 1), advanced by that one sample.
   RunningHypothesis start(int hypothesis, std::int64_t onset, const FollowedSample& before,
@@ -31,6 +33,7 @@ class Bank {
   void advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const;
 
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  bool asks_for(const Hypothesis& hypothesis) const;
   HypothesisEvidence evidence_of(const RunningHypothesis& running) const;
 
  private:
@@ -41,6 +44,7 @@ class Bank {
   const MotionModel& model_;
   const FaultDynamics& dynamics_;
   const std::vector<Hypothesis>& hypotheses_;
+  JointFlags closed_;
 };
 
 }  // namespace faultline

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "lib/core/parallel.hpp"
-#include "lib/evidence/episode_detector.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
 #include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
 
 namespace faultline {
 namespace {

@@ -58,7 +58,8 @@ void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
   if (onset < earliest_ || history_[trigger_].time - history_[onset].time > kLookBack_s) return;
   for (std::size_t h = 0; h < bank_.hypotheses().size(); ++h)
     if (const Hypothesis& hypothesis = bank_.hypotheses()[h];
-        !slow_only || describe(hypothesis.label.kind).creeps || hypothesis.form == HypothesisForm::work_piece)
+        bank_.asks_for(hypothesis) && (!slow_only || describe(hypothesis.label.kind).creeps ||
+                                       hypothesis.form == HypothesisForm::work_piece))
       running_.push_back(run(static_cast<int>(h), onset));
 }
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "lib/evidence/episode_detector.hpp"
 #include "lib/evidence/log_noise.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/evidence/episode_detector.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
 
 namespace faultline {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/diagnosis/monitored_episode.hpp"
-#include "lib/evidence/episode_detector.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {

@@ -17,10 +17,11 @@ constexpr double kStandstill = 0.1;               // of the usual velocity: slow
 constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
 constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
-constexpr double kFarBeyond = 20.0;  // times the usual speed or the largest torque: a filter gone astray
-constexpr double kLostStep = 0.75;   // of a period: a stamp farther off is believed
-constexpr double kLeastStep = 0.1;   // of a period
-constexpr double kClockGain = 0.01;  // of what a stamp is off: drift of a clock is slow
+constexpr double kFarBeyond = 20.0;    // times the usual speed or the largest torque: a filter gone astray
+constexpr double kLostStep = 0.75;     // of a period: a stamp farther off is believed
+constexpr double kLeastStep = 0.1;     // of a period
+constexpr double kMostTakenOff = 1.8;  // times half of what is carried: less would leave hardly any mass
+constexpr double kClockGain = 0.01;    // of what a stamp is off: drift of a clock is slow
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 }  // namespace
@@ -86,6 +87,34 @@ Follower::Follower(const MotionModel& model, const LogNoise& noise)
   }
 }
 
+Follower::Follower(const Follower& before, const MotionModel& model, const KnownFaults& faults)
+    : model_(model),
+      noise_(before.noise_),
+      faults_(faults),
+      dynamics_(model),
+      state_(before.state_),
+      started_(before.started_),
+      last_time_(before.last_time_),
+      usual_dt_(before.usual_dt_),
+      clock_(before.clock_),
+      last_torque_missing_(before.last_torque_missing_),
+      last_q_(before.last_q_),
+      last_dq_(before.last_dq_),
+      last_torque_(before.last_torque_),
+      low_(before.low_),
+      high_(before.high_) {}
+
+void Follower::hold_slow_states(const GaussianState& before) {
+  const int n = model_.joints();
+  for (int s = 2 * n; s < state_.size; ++s) {
+    const SlowState& slow = model_.slow[s - 2 * n];
+    const bool passes = slow.memory_s > 0.0;
+    for (int i = 0; i < state_.size; ++i) state_.p(s, i) = state_.p(i, s) = 0.0;
+    state_.mean[s] = passes ? 0.0 : before.mean[s];
+    state_.p(s, s) = passes ? slow.day_std * slow.day_std : before.p(s, s);
+  }
+}
+
 void Follower::learn_range(const FollowedSample& sample) {
   for (int j = 0; j < model_.joints(); ++j) {
     const double margin = kRangeMargin * (model_.q_high[j] - model_.q_low[j]);
@@ -106,13 +135,14 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
   out.row = segment.first_row + row;
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
-    out.q[j] = segment.q[j][row];
-    out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    const double q = segment.q[j][row], dq = segment.dq.empty() ? kNaN : segment.dq[j][row];
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
-    out.repeats[j] =
-        started_ && out.q[j] == last_q_[j] && (std::isnan(out.dq[j]) || out.dq[j] == last_dq_[j]);
+    out.repeats[j] = started_ && !faults_.held[j] && !faults_.blind[j] && q == last_q_[j] &&
+                     (std::isnan(dq) || dq == last_dq_[j]);
+    out.q[j] = faults_.blind[j] ? kNaN : q - faults_.bias[j] - faults_.drift[j] * out.time;
+    out.dq[j] = faults_.blind[j] ? kNaN : dq - faults_.velocity_bias[j];
   }
 }
 
@@ -170,6 +200,15 @@ void Follower::start(FollowedSample& out) {
   started_ = true;
 }
 
+/// A filter that has lost its robot may take the tip for lighter than nothing, which no step survives.
+void Follower::keep_some_mass() {
+  for (std::size_t s = 0; s < model_.slow.size(); ++s)
+    if (model_.slow[s].kind == SlowKind::tip_mass) {
+      double& mass = state_.mean[2 * model_.joints() + static_cast<int>(s)];
+      mass = std::max(mass, -kMostTakenOff * model_.priors.payload);
+    }
+}
+
 void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   const int n = model_.joints();
   read_row(segment, row, out);
@@ -181,7 +220,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   } else {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + kPeriodForgetting * (dt - usual_dt_) : dt;
     out.dt = dt;
-    for (int j = 0; j < n; ++j) out.pressed[j] = is_pressed(out, j);
+    for (int j = 0; j < n; ++j) out.pressed[j] = faults_.held[j] || is_pressed(out, j);
     const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
     set_measurement_noise(speed_before, out);
@@ -195,10 +234,13 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
       out.total_log_likelihood += seen.log_likelihood;
     }
   }
+  keep_some_mass();
   out.posterior = state_;
   last_time_ = out.time;
-  last_q_ = out.q;
-  last_dq_ = out.dq;
+  for (int j = 0; j < n; ++j) {
+    last_q_[j] = segment.q[j][row];
+    last_dq_[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+  }
   last_torque_ = out.torque;
   last_torque_missing_ = out.torque_missing;
 }

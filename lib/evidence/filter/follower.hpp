@@ -55,10 +55,23 @@ struct JointObservation {
 JointObservation observe_joint(GaussianState& state, int joints, const FollowedSample& sample, int j,
                                const SensorError& error = {});
 
+/// Faults that are known and stay, as far as sensors and whole joints go; one a joint.
+struct KnownFaults {
+  JointArray bias{};           ///< a position reads too much: rad or m
+  JointArray drift{};          ///< and more by this a second, since time 0
+  JointArray velocity_bias{};  ///< rad/s or m/s
+  JointFlags held{};           ///< nobody knows what moves or stops the joint: its readings say nothing
+  JointFlags blind{};          ///< and they are not even read
+};
+
 /// Follows a log with the healthy filter, row by row; its state crosses segment borders.
 class Follower {
  public:
   explicit Follower(const MotionModel& model, const LogNoise& noise = {});
+  /// Goes on where `before` is, with another robot.
+  Follower(const Follower& before, const MotionModel& model, const KnownFaults& faults);
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
 
   /// Takes row `row` of the segment and fills `out`.
   void follow(const Log& segment, int row, FollowedSample& out);
@@ -66,6 +79,9 @@ class Follower {
   void learn_range(const FollowedSample& sample);
   /// Goes on from another state at the last sample: of a filter that did not believe a wild value.
   void restore(const GaussianState& state) { state_ = state; }
+  /// What stays within a day is as it was in that state, what passes is not known: rows since then told of
+  /// another robot.
+  void hold_slow_states(const GaussianState& before);
   /// A work piece of that mass (kg) is picked up, or put down (less than 0), before the next row.
   void change_work_piece(double kg);
   const FaultDynamics& dynamics() const { return dynamics_; }
@@ -76,10 +92,12 @@ class Follower {
   void start(FollowedSample& out);
   void restart_slow_states(double gap_s);
   double step_to_stamp(double stamp);
+  void keep_some_mass();
   void set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const;
 
   const MotionModel& model_;
   LogNoise noise_;
+  KnownFaults faults_;
   FaultDynamics dynamics_;
   GaussianState state_;
   bool started_ = false;

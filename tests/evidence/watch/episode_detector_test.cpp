@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/episode_detector.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,15 +8,10 @@
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/watch/work_piece_change.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
-
-/// A work piece that the robot carries every day was picked up, or put down (less than 0).
-struct WorkPieceChange {
-  std::int64_t row = 0;
-  double kg = 0.0;
-};
 
 /// Finds the stretches of a log that the healthy robot does not explain, with what each hypothesis of the
 /// bank makes of them. The state crosses segment borders; where they fall changes nothing.

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/watch/episode_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "lib/evidence/watch/watch.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kMostFaults = 4;  // at a time: beyond, nothing is left to hold the log against
+/// Times the usual: a robot with a fault is known less well than a healthy one.
+constexpr double kLessKnown = 1.5;
+constexpr double kRecent = 0.4;  // of a new row in what was of late: some three rows
+constexpr double kOdd = 4.0;     // chi-square of a number in the mean, that no filter leaves which is right
+
+/// Log likelihood of what both filters were asked to explain at this row.
+double advantage(const FollowedSample& a, const FollowedSample& b, int joints) {
+  double sum = 0.0;
+  for (int j = 0; j < joints; ++j)
+    if (!a.pressed[j] && !b.pressed[j]) sum += a.log_likelihood[j] - b.log_likelihood[j];
+  return sum;
+}
+
+/// Chi-square of a measured number at this row, in the mean.
+double surprise(const FollowedSample& sample, int joints) {
+  double sum = 0.0, count = 0.0;
+  for (int j = 0; j < joints; ++j) {
+    if (sample.pressed[j]) continue;
+    sum += sample.chi_square[j];
+    count += std::isfinite(sample.dq[j]) ? 2.0 : 1.0;
+  }
+  return sum / std::max(count, 1.0);
+}
+
+EvidenceOptions less_sure(EvidenceOptions options) {
+  options.trigger *= kLessKnown;
+  options.threshold *= kLessKnown;
+  return options;
+}
+
+}  // namespace
+
+/// A stack of watches: the healthy robot, above it the robot with the first fault that was named, then with
+/// the second ... The topmost looks for faults. Those above a level are over when it explains the log better
+/// than the topmost does; where one of them took a joint out of sight, when it sees nothing odd for a while.
+class EpisodeDetector::Impl {
+ public:
+  Impl(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options,
+       const LogNoise& noise)
+      : hypotheses_(hypotheses), options_(options), joints_(model.joints()) {
+    stack_.push_back({std::make_unique<Watch>(model, hypotheses, options, noise)});
+  }
+
+  void take(const Log& segment, int row) {
+    for (Level& level : stack_) level.watch->follow(segment, row);
+    while (stack_.size() > 1 && !top().watch->is_sound()) end_above(stack_.size() - 2);
+    const FollowedSample& sample = top().watch->sample();
+    if (sample.dt <= 0.0) interrupt();
+    last_time_s_ = sample.time;
+    if (stack_.size() <= kMostFaults)
+      if (auto found = top().watch->look()) open_episode(std::move(*found));
+    look_for_ends();
+  }
+
+  void interrupt() {
+    if (auto found = top().watch->interrupt()) open_episode(std::move(*found));
+  }
+
+  const Watch& healthy() const { return *stack_.front().watch; }
+
+  std::vector<EpisodeEvidence> episodes;
+
+ private:
+  struct Level {
+    std::unique_ptr<Watch> watch;
+    std::size_t episode = 0;  ///< whose fault it has more than the level below
+    double better = 0.0;      ///< nats by which it has explained the log better than the topmost of late,
+    double since_s = -1.0;    ///< and since when
+    double odd = 1.0;         ///< chi-square of a number it is shown, of late
+  };
+
+  Level& top() { return stack_.back(); }
+
+  void open_episode(HypothesisTest::Conclusion found) {
+    if (const std::optional<std::size_t> level = healed()) {
+      end_above(*level);
+      return;
+    }
+    const double now_s = last_time_s_;
+    const Hypothesis& hypothesis = hypotheses_[found.best.hypothesis];
+    episodes.push_back(std::move(found.evidence));
+    EpisodeEvidence& episode = episodes.back();
+    episode.end_s = now_s;
+    if (describe(hypothesis.label.kind).passes) {
+      episode.end_s = std::min(now_s, std::max(found.best.onset_s + hypothesis.duration_s, episode.alarm_s));
+      top().watch->go_on_after(found.best);
+      return;
+    }
+    Level level;
+    FaultyRobot robot = with_fault(top().watch->robot(), hypothesis, found.best);
+    level.watch = std::make_unique<Watch>(*top().watch, std::move(robot), less_sure(options_));
+    level.episode = episodes.size() - 1;
+    for (Level& below : stack_) below.better = 0.0, below.since_s = now_s;
+    top().watch->stand_by(found.best.onset);
+    stack_.push_back(std::move(level));
+  }
+
+  /// The lowest level that explains the log of late: what the topmost takes for another fault is the end of
+  /// one.
+  std::optional<std::size_t> healed() const {
+    for (std::size_t i = 0; i + 1 < stack_.size(); ++i)
+      if (stack_[i].better > options_.clear_margin && stack_[i].odd < kOdd) return i;
+    return std::nullopt;
+  }
+
+  void look_for_ends() {
+    for (std::size_t i = 0; i + 1 < stack_.size(); ++i) {
+      if (!explains_again(i)) continue;
+      end_above(i);
+      return;
+    }
+  }
+
+  void end_above(std::size_t i) {
+    if (stack_[i].better > 0.0)
+      for (std::size_t above = i + 1; above < stack_.size(); ++above)
+        episodes[stack_[above].episode].end_s = stack_[i].since_s;
+    while (stack_.size() > i + 1) stack_.pop_back();
+    for (Level& level : stack_) level.better = 0.0;
+    top().watch->begin_anew();
+  }
+
+  /// Whether the faults above level `i` are over. What a joint does that a fault took out of sight is told by
+  /// the level below alone.
+  bool explains_again(std::size_t i) {
+    Level& level = stack_[i];
+    const FollowedSample& sample = level.watch->sample();
+    level.odd += kRecent * (surprise(sample, joints_) - level.odd);
+    const bool in_sight = std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(i) + 1, stack_.end(),
+                                      [](const Level& above) { return above.watch->robot().explains; });
+    if (!in_sight) {
+      if (level.watch->suspicious() || level.since_s < 0.0) level.since_s = sample.time;
+    } else {
+      level.better += advantage(sample, top().watch->sample(), joints_);
+      if (level.better <= 0.0 || level.odd > kOdd) level.better = 0.0, level.since_s = sample.time;
+    }
+    const bool again =
+        in_sight ? level.better > options_.threshold : sample.time - level.since_s > options_.recover_s;
+    for (std::size_t above = i + 1; above < stack_.size(); ++above)
+      episodes[stack_[above].episode].end_s = again || !in_sight ? level.since_s : sample.time;
+    return again;
+  }
+
+  const std::vector<Hypothesis>& hypotheses_;
+  EvidenceOptions options_;
+  int joints_;
+  std::vector<Level> stack_;
+  double last_time_s_ = 0.0;
+};
+
+EpisodeDetector::EpisodeDetector(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
+                                 const EvidenceOptions& options, const LogNoise& noise)
+    : impl_(std::make_unique<Impl>(model, hypotheses, options, noise)) {}
+EpisodeDetector::~EpisodeDetector() = default;
+
+void EpisodeDetector::take(const Log& segment) {
+  for (int row = 0; row < segment.rows(); ++row) impl_->take(segment, row);
+}
+
+void EpisodeDetector::finish() { impl_->interrupt(); }
+const std::vector<EpisodeEvidence>& EpisodeDetector::episodes() const { return impl_->episodes; }
+const std::vector<WorkPieceChange>& EpisodeDetector::work_piece_changes() const {
+  return impl_->healthy().work_piece_changes();
+}
+int EpisodeDetector::rejected_alarms() const { return impl_->healthy().rejected_alarms(); }
+double EpisodeDetector::largest_trigger() const { return impl_->healthy().largest_trigger(); }
+double EpisodeDetector::largest_ratio() const { return impl_->healthy().largest_ratio(); }
+
+}  // namespace faultline

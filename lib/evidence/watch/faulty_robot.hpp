@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/evidence/bank.hpp"
+#include "lib/evidence/filter/joint_array.hpp"
+#include "lib/evidence/motion_model.hpp"
+
+namespace faultline {
+
+/// A robot whose faults were named, so that the filter can go on with them: what is not in the model or in
+/// the state stands here.
+struct FaultyRobot {
+  MotionModel model;    ///< with the friction that was added
+  KnownFaults faults;   ///< of its sensors, and joints of which nothing is known any more
+  GaussianState state;  ///< of the healthy filter, with torques and masses as they are now
+  JointFlags closed{};  ///< joints at which nothing else can be told any more
+  /// False where the fault took a joint out of sight: how well the log is explained then tells nothing.
+  bool explains = true;
+};
+
+/// What `robot` is from now on, if it has the fault that `found` says.
+FaultyRobot with_fault(FaultyRobot robot, const Hypothesis& hypothesis, const RunningHypothesis& found);
+
+}  // namespace faultline

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/watch/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faultline {
+
+Watch::Watch(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
+             const EvidenceOptions& options, const LogNoise& noise)
+    : robot_{model, {}, {}, {}, true},
+      options_(options),
+      follower_(robot_.model, noise),
+      trigger_(robot_.model),
+      bank_(robot_.model, follower_.dynamics(), hypotheses),
+      history_(kHistory) {}
+
+Watch::Watch(const Watch& before, FaultyRobot robot, const EvidenceOptions& options)
+    : robot_(std::move(robot)),
+      options_(options),
+      follower_(before.follower_, robot_.model, robot_.faults),
+      trigger_(robot_.model),
+      bank_(robot_.model, follower_.dynamics(), before.bank_.hypotheses(), robot_.closed),
+      history_(kHistory) {
+  follower_.restore(robot_.state);
+  FollowedSample& first = history_.push();
+  first = before.history_.back();
+  first.posterior = robot_.state;
+}
+
+void Watch::follow(const Log& segment, int row) {
+  FollowedSample& sample = history_.push();
+  follower_.follow(segment, row, sample);
+  statistic_ = trigger_.take(sample);
+  if (kept_) follower_.hold_slow_states(*kept_);
+}
+
+bool Watch::is_sound() const {
+  const GaussianState& state = sample().posterior;
+  return std::all_of(state.mean.begin(), state.mean.begin() + state.size,
+                     [](double x) { return std::isfinite(x); });
+}
+
+bool Watch::suspicious() const {
+  return statistic_ > options_.trigger || trigger_.repeated_codes() >= kSuspiciousRepeats;
+}
+
+std::optional<HypothesisTest::Conclusion> Watch::look() {
+  if (sample().dt <= 0.0) restart_ = history_.last();
+  if (!test_) {
+    watch();
+    return std::nullopt;
+  }
+  test_->advance();
+  return test_->ready() ? conclude() : std::nullopt;
+}
+
+std::optional<HypothesisTest::Conclusion> Watch::interrupt() { return test_ ? conclude() : std::nullopt; }
+
+void Watch::stand_by(std::int64_t onset) {
+  kept_ = history_[std::max(onset - 1, history_.first())].posterior;
+}
+
+void Watch::begin_anew() {
+  kept_.reset();
+  restart_ = history_.last();
+  rearm_row_ = -1;
+  test_.reset();
+  trigger_.forget();
+}
+
+void Watch::watch() {
+  const FollowedSample& now = sample();
+  const int repeats = trigger_.repeated_codes();
+  // A statistic that a rejected suspicion already looked into is old news until it grows or decays.
+  if (now.row < rearm_row_ && statistic_ < kNewSuspicion * looked_into_ && repeats != kSuspiciousRepeats)
+    return;
+  largest_trigger_ = std::max(largest_trigger_, statistic_);
+  if (statistic_ < kCalm * options_.trigger) follower_.learn_range(now);
+  if (!suspicious()) return;
+  looked_into_ = statistic_;
+  test_.emplace(bank_, history_, options_, restart_, repeats);
+}
+
+/// Names the fault, or lets the suspicion go when its evidence did not last.
+std::optional<HypothesisTest::Conclusion> Watch::conclude() {
+  rearm_row_ = sample().row + kRearm;
+  std::optional<HypothesisTest::Conclusion> named;
+  if (const RunningHypothesis* no_fault = test_->no_fault()) {
+    go_on_from(*no_fault);
+  } else if (!test_->alarmed()) {
+    largest_ratio_ = std::max(largest_ratio_, test_->largest_ratio());
+  } else if (test_->best_ratio() < options_.threshold) {
+    ++rejected_alarms_;
+  } else {
+    HypothesisTest::Conclusion found = test_->conclude();
+    if (is_healthy(bank_.hypotheses()[found.best.hypothesis]))
+      go_on_from(found.best);
+    else
+      named = std::move(found);
+  }
+  test_.reset();
+  return named;
+}
+
+/// The robot is healthy all the same. Filters before a change of the work piece know nothing of it.
+void Watch::go_on_from(const RunningHypothesis& no_fault) {
+  follower_.restore(no_fault.state);
+  const Hypothesis& hypothesis = bank_.hypotheses()[no_fault.hypothesis];
+  if (is_misread(hypothesis)) {
+    rejected_alarms_ += test_->alarmed();
+    return;
+  }
+  restart_ = history_.last();
+  trigger_.forget();
+  work_piece_changes_.push_back({history_[no_fault.onset].row, hypothesis.work_piece_kg});
+}
+
+void Watch::go_on_after(const RunningHypothesis& passed) {
+  robot_ = with_fault(std::move(robot_), bank_.hypotheses()[passed.hypothesis], passed);
+  follower_.restore(robot_.state);
+  begin_anew();
+}
+
+}  // namespace faultline
