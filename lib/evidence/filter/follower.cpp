@@ -23,6 +23,10 @@ constexpr double kLeastStep = 0.1;   // of a period
 constexpr double kClockGain = 0.01;  // of what a stamp is off: drift of a clock is slow
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
+double velocity_read(const Log& segment, int row, int joint) {
+  return segment.dq.empty() ? kNaN : segment.dq[joint][row];
+}
+
 }  // namespace
 
 JointObservation observe_joint(GaussianState& state, int n, const FollowedSample& sample, int j,
@@ -83,6 +87,7 @@ Follower::Follower(const MotionModel& model, const LogNoise& noise)
     const double margin = kRangeMargin * (model.q_high[j] - model.q_low[j]);
     low_[j] = model.q_low[j] - margin;
     high_[j] = model.q_high[j] + margin;
+    if (!model.dq_is_difference.empty() && model.dq_is_difference[j]) noise_.dq_is_difference[j] = true;
   }
 }
 
@@ -107,12 +112,12 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
     out.q[j] = segment.q[j][row];
-    out.dq[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    const double dq = velocity_read(segment, row, j);
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
-    out.repeats[j] =
-        started_ && out.q[j] == last_q_[j] && (std::isnan(out.dq[j]) || out.dq[j] == last_dq_[j]);
+    out.repeats[j] = started_ && out.q[j] == last_q_[j] && (std::isnan(dq) || dq == last_dq_[j]);
+    out.dq[j] = noise_.dq_is_difference[j] ? kNaN : dq;
   }
 }
 
@@ -198,7 +203,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   out.posterior = state_;
   last_time_ = out.time;
   last_q_ = out.q;
-  last_dq_ = out.dq;
+  for (int j = 0; j < n; ++j) last_dq_[j] = velocity_read(segment, row, j);
   last_torque_ = out.torque;
   last_torque_missing_ = out.torque_missing;
 }
