@@ -127,14 +127,18 @@ std::vector<RunningHypothesis> HypothesisTest::best_of_each() const {
 }
 
 double HypothesisTest::margin() const {
-  const std::vector<RunningHypothesis> best = best_of_each();
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
   const auto& hypotheses = bank_.hypotheses();
-  const auto top = std::min_element(best.begin(), best.end(), better);
-  double second = -std::numeric_limits<double>::infinity();
+  std::vector<double> best(hypotheses.size(), kNever);
+  for (const RunningHypothesis& gone : dropped_)
+    best[gone.hypothesis] = std::max(best[gone.hypothesis], gone.log_likelihood_ratio + best_ratio_);
+  for (const RunningHypothesis& running : running_)
+    best[running.hypothesis] = std::max(best[running.hypothesis], running.log_likelihood_ratio);
+  const auto top = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
+  double second = kNever;
   for (std::size_t h = 0; h < best.size(); ++h)
-    if (hypotheses[h].label != hypotheses[top->hypothesis].label)
-      second = std::max(second, best[h].log_likelihood_ratio);
-  return top->log_likelihood_ratio - second;
+    if (hypotheses[h].label != hypotheses[top].label) second = std::max(second, best[h]);
+  return best[top] - second;
 }
 
 const RunningHypothesis* HypothesisTest::no_fault() const {
