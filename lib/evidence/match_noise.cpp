@@ -12,12 +12,14 @@
 namespace faultline {
 namespace {
 
-constexpr int kSettlingRows = 10;     // at the start of a log, which the filter needs to forget its guess
-constexpr double kFirstFactor = 4.0;  // of the search; each round takes the square root of the one before,
-constexpr double kLastFactor = 1.2;   // but by no less than this: likelihood is flat within it
-// A round looks at this many rows of all logs together, the coarse ones at fewer.
-constexpr int kCoarseRounds = 4, kCoarseRows = 3000;
-constexpr int kFineRounds = 2, kFineRows = 6000;
+constexpr int kSettlingRows = 10;  // at the start of a log, which the filter needs to forget its guess
+// Factors of the search: each round takes the square root of the one before, but by no less than the last,
+// for likelihood is flat within it.
+constexpr double kCoarseFactor = 4.0, kFineFactor = 2.0, kLastFactor = 1.2;
+// The coarse rounds look at this many rows of all logs together; the fine ones at all of the excerpts, since
+// what wanders shows in long pieces only.
+constexpr int kCoarseRounds = 3, kCoarseRows = 3000;
+constexpr int kFineRounds = 3;
 constexpr int kFewestPieces = 6;  // that the rows are spread over, so that every kind of motion is among them
 constexpr int kFewestPieceRows = 250;  // shorter ones say little of what wanders
 constexpr double kGain = 1e-9;         // of the likelihood: less is rounding
@@ -197,12 +199,10 @@ class Search {
   double best_ = 0.0;
 };
 
-/// Coarsely on few rows, then finely on more.
+/// Coarsely on few rows, then finely on all.
 void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const MatchOptions& options) {
   std::vector<Group> groups = free_numbers(model, logs, options.held);
-  double factor = kFirstFactor;
-  auto rounds = [&](int count, int rows) {
-    const std::vector<HealthyExcerpt> pieces = spread(logs, rows);
+  auto rounds = [&](int count, double factor, const std::vector<HealthyExcerpt>& pieces) {
     Search on_pieces(model, pieces, groups, options.threads);
     for (Group& group : groups) group.settled_at = std::numeric_limits<double>::infinity();
     for (int round = 0; round < count; ++round) {
@@ -210,8 +210,8 @@ void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const M
       factor = std::max(std::sqrt(factor), kLastFactor);
     }
   };
-  rounds(kCoarseRounds, kCoarseRows);
-  rounds(kFineRounds, kFineRows);
+  rounds(kCoarseRounds, kCoarseFactor, spread(logs, kCoarseRows));
+  rounds(kFineRounds, kFineFactor, logs);
 }
 
 /// The stamps of the logs differ from steps of a period.

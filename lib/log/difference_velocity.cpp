@@ -10,6 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr int kFewestRows = 8;
+constexpr std::size_t kEnoughRows = 1000;  // in motion
 constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q
 constexpr double kMostRows = 0.8;   // share of the rows that have to agree: where rows were lost, some do not
 constexpr double kBendGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance of white noise
@@ -31,7 +32,7 @@ struct Form {
 /// What most rows keep to: the distance of dq from a difference of q.
 double distance(const Joint& m, const Form& form) {
   std::vector<double> distances;
-  for (int k = 1; k + 1 < m.rows(); ++k) {
+  for (int k = 1; k + 1 < m.rows() && distances.size() < kEnoughRows; ++k) {
     const double step = m.q[k + form.ahead] - m.q[k - form.back];
     const double dt =
         form.by_period ? (form.back + form.ahead) * m.period : m.time[k + form.ahead] - m.time[k - form.back];
