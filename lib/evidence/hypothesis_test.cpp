@@ -24,6 +24,7 @@ constexpr double kWorthRefining = 25.0;  // nats: from farther behind a finer on
 constexpr int kMostRefined = 6;          // hypotheses
 constexpr int kRefineReach = 3;          // onsets tried on either side of the best,
 constexpr int kRefineFactor = 4;         // at spacings that shrink by this
+constexpr int kOnsetTold = 64;           // samples after the trigger by which an onset has told all it does
 constexpr double kRanAway = 300.0;       // nats: no row that a filter still follows can cost so much
 constexpr int kFewestConfirm = 16;       // samples
 constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
@@ -48,9 +49,9 @@ HypothesisTest::HypothesisTest(const Bank& bank, const History& history, const E
   update();
 }
 
-RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset) const {
+RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset, std::int64_t until) const {
   RunningHypothesis running = bank_.start(hypothesis, onset, history_[onset - 1], history_[onset]);
-  for (std::int64_t k = onset + 1; k <= now_; ++k) bank_.advance(running, history_[k - 1], history_[k]);
+  for (std::int64_t k = onset + 1; k <= until; ++k) bank_.advance(running, history_[k - 1], history_[k]);
   return running;
 }
 
@@ -60,7 +61,7 @@ void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
     if (const Hypothesis& hypothesis = bank_.hypotheses()[h];
         bank_.asks_for(hypothesis) && (!slow_only || describe(hypothesis.label.kind).creeps ||
                                        hypothesis.form == HypothesisForm::work_piece))
-      running_.push_back(run(static_cast<int>(h), onset));
+      running_.push_back(run(static_cast<int>(h), onset, now_));
 }
 
 void HypothesisTest::advance() {
@@ -127,14 +128,18 @@ std::vector<RunningHypothesis> HypothesisTest::best_of_each() const {
 }
 
 double HypothesisTest::margin() const {
-  const std::vector<RunningHypothesis> best = best_of_each();
+  constexpr double kNever = -std::numeric_limits<double>::infinity();
   const auto& hypotheses = bank_.hypotheses();
-  const auto top = std::min_element(best.begin(), best.end(), better);
-  double second = -std::numeric_limits<double>::infinity();
+  std::vector<double> best(hypotheses.size(), kNever);
+  for (const RunningHypothesis& gone : dropped_)
+    best[gone.hypothesis] = std::max(best[gone.hypothesis], gone.log_likelihood_ratio + best_ratio_);
+  for (const RunningHypothesis& running : running_)
+    best[running.hypothesis] = std::max(best[running.hypothesis], running.log_likelihood_ratio);
+  const auto top = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
+  double second = kNever;
   for (std::size_t h = 0; h < best.size(); ++h)
-    if (hypotheses[h].label != hypotheses[top->hypothesis].label)
-      second = std::max(second, best[h].log_likelihood_ratio);
-  return top->log_likelihood_ratio - second;
+    if (hypotheses[h].label != hypotheses[top].label) second = std::max(second, best[h]);
+  return best[top] - second;
 }
 
 const RunningHypothesis* HypothesisTest::no_fault() const {
@@ -157,20 +162,26 @@ bool HypothesisTest::ready() const {
   return since_s >= options_.longest_isolate_s || margin() > options_.clear_margin;
 }
 
+/// Onsets are held against each other by what a while after the trigger tells: what comes later tells them
+/// apart no more.
 RunningHypothesis HypothesisTest::refined(const RunningHypothesis& coarse) const {
-  RunningHypothesis best = coarse;
+  const std::int64_t until = std::min(now_, trigger_ + kOnsetTold);
+  RunningHypothesis best = until == now_ ? coarse : run(coarse.hypothesis, coarse.onset, until);
   const int distance = static_cast<int>(std::max<std::int64_t>(trigger_ - coarse.onset, 1));
   for (int spacing = std::max(distance / kRefineFactor, 1);; spacing /= kRefineFactor) {
     const std::int64_t centre = best.onset;
     for (int k = -kRefineReach; k <= kRefineReach; ++k) {
       const std::int64_t onset = centre + k * spacing;
       if (k == 0 || onset < earliest_ || onset > trigger_) continue;
-      const RunningHypothesis candidate = run(coarse.hypothesis, onset);
+      const RunningHypothesis candidate = run(coarse.hypothesis, onset, until);
       if (better(candidate, best)) best = candidate;
     }
-    if (spacing == 1) return best;
+    if (spacing == 1) break;
     spacing = std::max(spacing, kRefineFactor);
   }
+  if (until == now_ || best.onset == coarse.onset) return until == now_ ? best : coarse;
+  const RunningHypothesis to_the_end = run(best.hypothesis, best.onset, now_);
+  return better(to_the_end, coarse) ? to_the_end : coarse;
 }
 
 HypothesisTest::Conclusion HypothesisTest::conclude() const {

@@ -42,7 +42,7 @@ class HypothesisTest {
   void prune();
   double margin() const;
   std::vector<RunningHypothesis> best_of_each() const;
-  RunningHypothesis run(int hypothesis, std::int64_t onset) const;
+  RunningHypothesis run(int hypothesis, std::int64_t onset, std::int64_t until) const;
   RunningHypothesis refined(const RunningHypothesis& coarse) const;
 
   const Bank& bank_;

@@ -58,8 +58,21 @@ std::vector<HealthyExcerpt> excerpts(std::span<LogSource* const> logs, int rows,
   if (!options.normal) return out;
   model.usual_noise = usual_level(levels);
   model.noise_range = options.normal->noise;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].noise = log_noise(model, levels[i]);
+  for (HealthyExcerpt& excerpt : out) excerpt.noise = log_noise(model, excerpt.log);
   return out;
+}
+
+/// Velocities that are differences of positions in most healthy logs tell nothing of their own; their noise
+/// is that of the difference.
+void leave_out_differences(MotionModel& model, const std::vector<HealthyExcerpt>& pieces, double period_s) {
+  for (int j = 0; j < model.joints(); ++j) {
+    const auto derived = std::count_if(pieces.begin(), pieces.end(), [j](const HealthyExcerpt& piece) {
+      return piece.noise.dq_is_difference[j];
+    });
+    const bool most = 2 * derived > static_cast<std::ptrdiff_t>(pieces.size());
+    model.dq_is_difference.push_back(most ? 1 : 0);
+    if (most && period_s > 0.0) model.dq_std[j] = std::sqrt(2.0) * model.q_std[j] / period_s;
+  }
 }
 
 /// What of the healthy days is neither noise nor the identified robot.
@@ -67,6 +80,7 @@ void learn_family(MotionModel& model, std::vector<HealthyExcerpt>& pieces, const
                   const NormalRange& normal) {
   const std::vector<SlowState> before = slow_states(model, normal);
   if (learn_tails(model, pieces, matching.threads)) match_noise(model, pieces, matching);
+  model.work_pieces_kg = normal.work_pieces_kg;
   learn_work_pieces(model, pieces, matching.threads);
   if (!model.work_pieces_kg.empty()) {  // what they shook was taken for noise
     model.slow = before;
@@ -106,6 +120,7 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   if (options.normal) {
     model.slow = slow_states(model, *options.normal);
     model.clock_std = kFirstClockShare * period_s;
+    leave_out_differences(model, pieces, period_s);
   }
   const MatchOptions matching{identified.torque_is_held, period_s, options.threads};
   match_noise(model, pieces, matching);

@@ -12,6 +12,8 @@ struct LogNoise {
   std::array<double, kMaxJoints> q_scale;   ///< noise over that of MotionModel::q_std, by joint
   std::array<double, kMaxJoints> dq_scale;  ///< the same of dq
 
+  std::array<bool, kMaxJoints> dq_is_difference{};  ///< of q: no measurement of its own
+
   LogNoise() {
     q_scale.fill(1.0);
     dq_scale.fill(1.0);

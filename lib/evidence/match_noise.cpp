@@ -12,11 +12,17 @@
 namespace faultline {
 namespace {
 
-constexpr int kSettlingRows = 10;     // at the start of a log, which the filter needs to forget its guess
-constexpr int kSearchRounds = 6;      // the first by this factor, each further one by its square root,
-constexpr double kFirstFactor = 4.0;  // but by no less than the last: likelihood is flat within it
-constexpr double kLastFactor = 1.2;
-constexpr double kGain = 1e-9;  // of the likelihood: less is rounding
+constexpr int kSettlingRows = 10;  // at the start of a log, which the filter needs to forget its guess
+// Factors of the search: each round takes the square root of the one before, but by no less than the last,
+// for likelihood is flat within it.
+constexpr double kCoarseFactor = 4.0, kFineFactor = 2.0, kLastFactor = 1.2;
+// The coarse rounds look at this many rows of all logs together; the fine ones at all of the excerpts, since
+// what wanders shows in long pieces only.
+constexpr int kCoarseRounds = 3, kCoarseRows = 3000;
+constexpr int kFineRounds = 3;
+constexpr int kFewestPieces = 6;  // that the rows are spread over, so that every kind of motion is among them
+constexpr int kFewestPieceRows = 250;  // shorter ones say little of what wanders
+constexpr double kGain = 1e-9;         // of the likelihood: less is rounding
 
 // A torque that is missed for longer than this is an offset, for less than this white noise.
 constexpr double kLongestMemory_s = 2.0;
@@ -52,11 +58,34 @@ double log_likelihood(const std::vector<HealthyExcerpt>& logs, const MotionModel
   return sum;
 }
 
+/// Pieces of the excerpts with about `rows` rows in all, spread evenly; the excerpts themselves where they
+/// have no more.
+std::vector<HealthyExcerpt> spread(const std::vector<HealthyExcerpt>& excerpts, int rows) {
+  const int count = static_cast<int>(excerpts.size());
+  const int each = (kFewestPieces + count - 1) / std::max(count, 1);
+  const int piece = std::max(rows / std::max(each * count, 1), kFewestPieceRows);
+  std::vector<HealthyExcerpt> out;
+  for (const HealthyExcerpt& excerpt : excerpts) {
+    const int all = excerpt.log.rows(), pieces = std::min(each, all / piece);
+    if (pieces * piece * 2 > all * 2 - piece || pieces == 0) {
+      out.push_back(excerpt);
+      continue;
+    }
+    for (int p = 0; p < pieces; ++p) {
+      const int begin = pieces > 1 ? p * (all - piece) / (pieces - 1) : (all - piece) / 2;
+      out.push_back({slice(excerpt.log, begin, begin + piece), excerpt.noise, excerpt.work_piece_changes});
+    }
+  }
+  return out;
+}
+
 /// Numbers that the search moves together, by factors, between bounds.
 struct Group {
   std::vector<double*> numbers;
   double low = 0.0;
   double high = std::numeric_limits<double>::infinity();
+  bool last_up = true;                                          ///< the direction that helped last
+  double settled_at = std::numeric_limits<double>::infinity();  ///< a factor that helped in no direction
 
   bool scale(double by) {
     for (const double* number : numbers)
@@ -70,6 +99,13 @@ struct Group {
 void add_each(std::vector<double>& values, const std::vector<double>& low, std::vector<Group>& groups) {
   for (std::size_t j = 0; j < values.size(); ++j)
     groups.push_back({{&values[j]}, j < low.size() ? low[j] : 0.0});
+}
+
+/// Of the velocities that are measured.
+void add_measured(MotionModel& model, const std::vector<double>& low, std::vector<Group>& groups) {
+  for (std::size_t j = 0; j < model.dq_std.size(); ++j)
+    if (model.dq_is_difference.empty() || !model.dq_is_difference[j])
+      groups.push_back({{&model.dq_std[j]}, low[j]});
 }
 
 void add_slow_groups(MotionModel& model, std::vector<Group>& groups) {
@@ -118,31 +154,64 @@ std::vector<Group> free_numbers(MotionModel& model, const std::vector<HealthyExc
   std::vector<Group> groups = {{{&model.noise.torque_share}}, {{&model.noise.rest_share}}};
   add_each(model.noise.floor, {}, groups);
   add_each(model.q_std, code_stds(logs, model.joints(), false), groups);
-  add_each(model.dq_std, code_stds(logs, model.joints(), true), groups);
+  add_measured(model, code_stds(logs, model.joints(), true), groups);
   if (!held) groups.push_back({{&model.noise.step_share}});
   add_each(model.noise.compliance, {}, groups);
   add_slow_groups(model, groups);
   return groups;
 }
 
-/// Coordinate search by shrinking factors.
-void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, bool held, int threads) {
-  std::vector<Group> groups = free_numbers(model, logs, held);
-  double best = log_likelihood(logs, model, threads), factor = kFirstFactor;
-  for (int round = 0; round < kSearchRounds; ++round, factor = std::sqrt(factor)) {
-    for (Group& group : groups) {
-      for (const double by : {factor, 1.0 / factor}) {
-        if (!group.scale(by)) continue;
-        const double moved = log_likelihood(logs, model, threads);
-        if (moved > best + kGain * std::abs(best)) {
-          best = moved;
-          break;
-        }
-        for (double* number : group.numbers) *number *= 1.0 / by;
-      }
-    }
-    factor = std::max(factor, kLastFactor);
+/// Coordinate search by factors of the likelihood of the pieces: one round a factor.
+class Search {
+ public:
+  Search(MotionModel& model, const std::vector<HealthyExcerpt>& pieces, std::vector<Group>& groups,
+         int threads)
+      : model_(model), pieces_(pieces), groups_(groups), threads_(threads) {
+    best_ = log_likelihood(pieces_, model_, threads_);
   }
+
+  void round(double factor) {
+    for (Group& group : groups_) {
+      if (group.settled_at <= factor) continue;
+      const bool up = group.last_up;
+      const bool moved = move(group, up ? factor : 1.0 / factor) || move(group, up ? 1.0 / factor : factor);
+      group.settled_at = moved ? std::numeric_limits<double>::infinity() : factor;
+    }
+  }
+
+ private:
+  bool move(Group& group, double by) {
+    if (!group.scale(by)) return false;
+    const double moved = log_likelihood(pieces_, model_, threads_);
+    if (moved > best_ + kGain * std::abs(best_)) {
+      best_ = moved;
+      group.last_up = by > 1.0;
+      return true;
+    }
+    for (double* number : group.numbers) *number *= 1.0 / by;
+    return false;
+  }
+
+  MotionModel& model_;
+  const std::vector<HealthyExcerpt>& pieces_;
+  std::vector<Group>& groups_;
+  int threads_;
+  double best_ = 0.0;
+};
+
+/// Coarsely on few rows, then finely on all.
+void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const MatchOptions& options) {
+  std::vector<Group> groups = free_numbers(model, logs, options.held);
+  auto rounds = [&](int count, double factor, const std::vector<HealthyExcerpt>& pieces) {
+    Search on_pieces(model, pieces, groups, options.threads);
+    for (Group& group : groups) group.settled_at = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < count; ++round) {
+      on_pieces.round(factor);
+      factor = std::max(std::sqrt(factor), kLastFactor);
+    }
+  };
+  rounds(kCoarseRounds, kCoarseFactor, spread(logs, kCoarseRows));
+  rounds(kFineRounds, kFineFactor, logs);
 }
 
 /// The stamps of the logs differ from steps of a period.
@@ -164,7 +233,7 @@ void match_noise(MotionModel& model, const std::vector<HealthyExcerpt>& logs, co
     model.steady_period_s = options.period_s;
     if (log_likelihood(logs, model, options.threads) < as_stamped) model.steady_period_s = 0.0;
   }
-  search(model, logs, options.held, options.threads);
+  search(model, logs, options);
 }
 
 }  // namespace faultline

@@ -36,6 +36,9 @@ struct MotionModel {
   double clock_std = 0.0;      ///< s: error of the time stamps, which moves readings by the speed
   std::vector<double> q_std;   ///< measurement noise, rad or m, one a joint; positive
   std::vector<double> dq_std;  ///< rad/s or m/s
+  /// By joint: dq of the healthy logs is a difference of q, so it is taken for no measurement; empty for
+  /// none.
+  std::vector<char> dq_is_difference;
   /// Standard deviations of the innovations of q and dq beyond which healthy rows stray (springs, play,
   /// coarse codes): farther ones count for less, in the filters and in the evidence. One a joint; empty for
   /// none.

@@ -96,6 +96,7 @@ void read_later_lists(const nlohmann::json& json, MotionModel& model) {
 void to_json(nlohmann::json& json, const MotionModel& model) {
   json = nlohmann::json::object();
   json["slow"] = slow_to_json(model.slow);
+  json["dq_is_difference"] = std::vector<int>(model.dq_is_difference.begin(), model.dq_is_difference.end());
   json["clock_std"] = model.clock_std;
   json["q_tail"] = model.q_tail;
   json["compliance"] = model.noise.compliance;
@@ -126,6 +127,9 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
   model.slow = slow_from_json(json, robot.joints(), where);
   model.clock_std = json.contains("clock_std") ? number_from_json(json, "clock_std", where) : 0.0;
   read_later_lists(json, model);
+  if (json.contains("dq_is_difference"))
+    for (const int flag : json.at("dq_is_difference").get<std::vector<int>>())
+      model.dq_is_difference.push_back(flag != 0 ? 1 : 0);
   if (json.contains("steady_period_s"))
     model.steady_period_s = number_from_json(json, "steady_period_s", where);
   if (json.contains("usual_noise")) {

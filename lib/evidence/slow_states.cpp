@@ -6,6 +6,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/evidence/filter/follower.hpp"
+#include "lib/log/difference_velocity.hpp"
 
 namespace faultline {
 namespace {
@@ -29,11 +30,12 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
   };
   for (int j = 0; j < n; ++j) {
     const double largest = model.torque_scale[j];
-    const double offset = normal.torque_offset * largest;  // before all that acts likewise (transition.cpp)
-    if (largest > 0.0) add(SlowKind::torque_offset, j, offset, kDayPace * offset);
-    if (rubs(model.chain.friction[j])) add(SlowKind::friction, j, normal.friction, normal.friction_pace);
+    const double offset = normal.torque_offset * largest;
+    if (offset > 0.0) add(SlowKind::torque_offset, j, offset, kDayPace * offset);
+    if (normal.friction > 0.0 && rubs(model.chain.friction[j]))
+      add(SlowKind::friction, j, normal.friction, normal.friction_pace);
     if (largest <= 0.0) continue;
-    add(SlowKind::torque_gain, j, normal.torque_constant, 0.0);
+    if (normal.torque_constant > 0.0) add(SlowKind::torque_gain, j, normal.torque_constant, 0.0);
     states.push_back({SlowKind::coloured_torque, j, kColourShare * largest, 0.0, kFirstMemory_s});
   }
   const double carried = kCarriedInPriors * model.priors.payload;
@@ -75,8 +77,11 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
   }
 }
 
-LogNoise log_noise(const MotionModel& model, const NoiseLevel& level) {
-  return noise_against(model.usual_noise, level, model.noise_range);
+LogNoise log_noise(const MotionModel& model, const Log& rows) {
+  LogNoise noise = noise_against(model.usual_noise, noise_level(rows), model.noise_range);
+  const std::vector<char> differences = velocities_by_difference(rows);
+  for (std::size_t j = 0; j < differences.size(); ++j) noise.dq_is_difference[j] = differences[j] != 0;
+  return noise;
 }
 
 LogNoise survey_noise(LogSource& log, const MotionModel& model) {
@@ -85,7 +90,7 @@ LogNoise survey_noise(LogSource& log, const MotionModel& model) {
   for (Log segment; first.rows() < kSurveyedRows && log.next(segment);)
     append(first, slice(segment, 0, std::min(segment.rows(), kSurveyedRows - first.rows())));
   log.rewind();
-  return log_noise(model, noise_level(first));
+  return log_noise(model, first);
 }
 
 }  // namespace faultline

@@ -18,8 +18,8 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
 /// the expected square of the state given a day's log.
 void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, int threads);
 
-/// How a log of that level measures, against the model's logs.
-LogNoise log_noise(const MotionModel& model, const NoiseLevel& level);
+/// How a log of these rows, or of that level, measures against the model's logs.
+LogNoise log_noise(const MotionModel& model, const Log& rows);
 
 /// The same of a log that is not judged yet, from its first rows. Rewinds the log before and after.
 LogNoise survey_noise(LogSource& log, const MotionModel& model);

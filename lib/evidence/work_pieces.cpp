@@ -51,6 +51,16 @@ double usual_mass(const std::vector<double>& changes, double least) {
   return most && mass > least ? mass : 0.0;
 }
 
+/// The work piece that the excerpts show; 0 for none.
+double shown_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+  std::vector<std::vector<double>> found(excerpts.size());
+  parallel_for(static_cast<int>(excerpts.size()), threads,
+               [&](int i) { found[i] = mass_changes(model, excerpts[i]); });
+  std::vector<double> changes;
+  for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
+  return usual_mass(changes, kLeastOfCarried * model.priors.payload);
+}
+
 }  // namespace
 
 void allow_work_pieces(MotionModel& model) {
@@ -62,13 +72,11 @@ void allow_work_pieces(MotionModel& model) {
 
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
   const int count = static_cast<int>(excerpts.size());
-  std::vector<std::vector<double>> found(excerpts.size());
-  parallel_for(count, threads, [&](int i) { found[i] = mass_changes(model, excerpts[i]); });
-  std::vector<double> changes;
-  for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
-  const double mass = usual_mass(changes, kLeastOfCarried * model.priors.payload);
-  if (mass <= 0.0) return;
-  model.work_pieces_kg = {mass};
+  if (model.work_pieces_kg.empty()) {
+    const double mass = shown_mass(model, excerpts, threads);
+    if (mass <= 0.0) return;
+    model.work_pieces_kg = {mass};
+  }
   allow_work_pieces(model);
   const std::vector<Hypothesis> bank = explanations(model.joints(), model.work_pieces_kg);
   parallel_for(count, threads, [&](int i) {

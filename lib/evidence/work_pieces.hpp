@@ -8,8 +8,9 @@
 namespace faultline {
 
 /// Finds the work piece that healthy excerpts show to come and go: changes of the tip's mass that no other
-/// explanation fits, several times and by the same mass. Sets MotionModel::work_pieces_kg and notes in each
-/// excerpt when they came and went. Nothing changes where there is none.
+/// explanation fits, several times and by the same mass; those that the model has already are taken as
+/// declared. Sets MotionModel::work_pieces_kg and notes in each excerpt when they came and went. Nothing
+/// changes where there is none.
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
 
 /// The tip may carry a work piece or not when a log begins, and the identified robot anything in between.

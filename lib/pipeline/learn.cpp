@@ -143,8 +143,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   tell(progress, "matching the noise", kResidualsLearned);
-  model.motion =
-      learn_motion_model(acting, identified_motion(out.identification), {.threads = options.threads});
+  model.motion = learn_motion_model(acting, identified_motion(out.identification),
+                                    {.normal = model.robot.normal, .threads = options.threads});
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   tell(progress, "checking the alarm threshold", kResidualsLearned);
   model.evidence = calibrate_thresholds(acting, model.motion, model.bank, {}, options.threads);

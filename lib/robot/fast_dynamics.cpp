@@ -13,8 +13,8 @@ double fast_tanh(double x) { return 1.0 - 2.0 / (std::exp(2.0 * x) + 1.0); }
 
 }  // namespace
 
-void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, double* inertia,
-                                           double* bias) const {
+void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, const Bodies& bodies,
+                                           double* inertia, double* bias) const {
   const int n = joints_;
   for (int i = 0; i < n * n; ++i) inertia[i] = 0.0;
   PerJoint<PerJoint<double>> a;  // A_ij
@@ -25,10 +25,10 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
     w += sign_[joint] * dq[joint];
     rate[i] = w;
     torque[i] = 0.0;
-    a[i][i] = diagonal_[i];
+    a[i][i] = bodies.diagonal[i];
     if (gravity_in_plane_) {
       theta += sign_[joint] * q[joint];
-      torque[i] = gravity_[i].alpha * std::cos(theta) + gravity_[i].beta * std::sin(theta);
+      torque[i] = bodies.gravity[i].alpha * std::cos(theta) + bodies.gravity[i].beta * std::sin(theta);
     }
     if (i == 0) continue;
     const double angle = sign_[joint] * q[joint];
@@ -36,7 +36,7 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
     cosine[i] = c;
     sine[i] = s;
     for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
-      const Pair& pair = pairs_[k][i];
+      const Pair& pair = bodies.pairs[k][i];
       a[k][i] = pair.alpha * c + pair.beta * s;
       const double slope = pair.beta * c - pair.alpha * s;
       torque[k] += slope * rate[i] * rate[i];
@@ -63,18 +63,18 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
       inertia[joint * n + other] = inertia[other * n + joint] = sign_[joint] * sign_[other] * sum;
     }
   }
-  add_prismatic(inertia, bias);
-  for (int i = 0; i < n; ++i) inertia[i * n + i] += chain_.rotor_inertia[i];
+  add_prismatic(bodies, inertia, bias);
+  for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies.rotor_inertia[i];
 }
 
-void FastDynamics::add_prismatic(double* inertia, double* bias) const {
+void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* bias) const {
   for (int i = 0; i < prismatic_; ++i) {
     const int joint = prismatic_joint_[i];
-    bias[joint] = weight_[joint];
+    bias[joint] = bodies.weight[joint];
     for (int k = 0; k <= i; ++k) {
       const int other = prismatic_joint_[k];
       inertia[joint * joints_ + other] = inertia[other * joints_ + joint] =
-          sign_[joint] * sign_[other] * carried_mass_[joint];
+          sign_[joint] * sign_[other] * bodies.carried_mass[joint];
     }
   }
 }
@@ -84,11 +84,48 @@ void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVec
   inertia.resize(joints_, joints_);
   bias.resize(joints_);
   if (planar_) {
-    planar_inertia_and_bias(q.data(), dq.data(), inertia.data(), bias.data());
+    planar_inertia_and_bias(q.data(), dq.data(), bodies_, inertia.data(), bias.data());
   } else {
     inertia = inertia_matrix(chain_, q);
     bias = bias_torque(chain_, q, dq);
   }
+}
+
+void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
+                                    const Bodies& bodies, JointMatrix<double>& inertia,
+                                    JointVector<double>& bias) const {
+  inertia.resize(joints_, joints_);
+  bias.resize(joints_);
+  planar_inertia_and_bias(q.data(), dq.data(), bodies, inertia.data(), bias.data());
+}
+
+template <typename Mix>
+void FastDynamics::mix_bodies(const Bodies& others, const Mix& mix, Bodies& out) const {
+  auto mix_pair = [&](const Pair& mine, const Pair& theirs) {
+    return Pair{mix(mine.alpha, theirs.alpha), mix(mine.beta, theirs.beta)};
+  };
+  for (int j = 0; j < revolute_; ++j) {
+    out.diagonal[j] = mix(bodies_.diagonal[j], others.diagonal[j]);
+    out.gravity[j] = mix_pair(bodies_.gravity[j], others.gravity[j]);
+    for (int i = 0; i < j; ++i) out.pairs[i][j] = mix_pair(bodies_.pairs[i][j], others.pairs[i][j]);
+  }
+  for (int j = 0; j < joints_; ++j) {
+    out.carried_mass[j] = mix(bodies_.carried_mass[j], others.carried_mass[j]);
+    out.weight[j] = mix(bodies_.weight[j], others.weight[j]);
+    out.rotor_inertia[j] = mix(bodies_.rotor_inertia[j], others.rotor_inertia[j]);
+  }
+}
+
+FastDynamics::Bodies FastDynamics::bodies_more_in(const FastDynamics& other) const {
+  Bodies out{};
+  mix_bodies(
+      other.bodies_, [](double mine, double theirs) { return theirs - mine; }, out);
+  return out;
+}
+
+void FastDynamics::add_bodies(const Bodies& more, double share, Bodies& out) const {
+  mix_bodies(
+      more, [share](double mine, double theirs) { return mine + share * theirs; }, out);
 }
 
 void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& torque) const {

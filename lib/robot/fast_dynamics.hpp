@@ -15,6 +15,22 @@ namespace faultline {
 /// construction; safe to share between threads.
 class FastDynamics {
  public:
+  template <typename T>
+  using PerJoint = std::array<T, kMaxJoints>;
+  struct Pair {
+    double alpha, beta;
+  };
+  /// What of the fast path depends on the masses, linear in masses, first moments and inertias; only the
+  /// entries of the chain's joints are set.
+  struct Bodies {
+    PerJoint<double> diagonal;       ///< A_ii of each revolute body
+    PerJoint<PerJoint<Pair>> pairs;  ///< A_ij, i < j
+    PerJoint<Pair> gravity;  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
+    PerJoint<double> carried_mass;  ///< of the joint's link and all beyond
+    PerJoint<double> weight;        ///< gravity force on a prismatic joint
+    PerJoint<double> rotor_inertia;
+  };
+
   explicit FastDynamics(const Chain<double>& chain);
 
   int joints() const { return joints_; }
@@ -25,6 +41,13 @@ class FastDynamics {
   /// M(q) and h(q, dq) + G(q).
   void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
                         JointMatrix<double>& inertia, JointVector<double>& bias) const;
+  /// The same of the chain with other bodies; for planar() only.
+  void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq, const Bodies& bodies,
+                        JointMatrix<double>& inertia, JointVector<double>& bias) const;
+  /// What the bodies of `other`, the same chain but for its masses, have more than those of this chain.
+  Bodies bodies_more_in(const FastDynamics& other) const;
+  /// This chain's bodies and `share` times `more`.
+  void add_bodies(const Bodies& more, double share, Bodies& out) const;
   /// F(dq).
   void friction(const JointVector<double>& dq, JointVector<double>& torque) const;
   /// ddq = M^-1 (tau - h - G - F). Joints whose bit is set in `locked` (bit 0 the first) do not accelerate.
@@ -32,15 +55,12 @@ class FastDynamics {
                     const JointVector<double>& tau, JointVector<double>& ddq, unsigned locked = 0) const;
 
  private:
-  struct Pair {
-    double alpha = 0.0, beta = 0.0;
-  };
-  template <typename T>
-  using PerJoint = std::array<T, kMaxJoints>;
-
+  template <typename Mix>
+  void mix_bodies(const Bodies& others, const Mix& mix, Bodies& out) const;
   void set_up_planar(const Eigen::Vector3d& normal);
-  void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
-  void add_prismatic(double* inertia, double* bias) const;
+  void planar_inertia_and_bias(const double* q, const double* dq, const Bodies& bodies, double* inertia,
+                               double* bias) const;
+  void add_prismatic(const Bodies& bodies, double* inertia, double* bias) const;
 
   Chain<double> chain_;
   int joints_ = 0;
@@ -51,12 +71,8 @@ class FastDynamics {
   int prismatic_ = 0;
   PerJoint<int> revolute_joint_{};
   PerJoint<int> prismatic_joint_{};
-  PerJoint<double> sign_{};           ///< of each joint's axis along the common normal
-  PerJoint<double> diagonal_{};       ///< A_ii of each revolute body
-  PerJoint<PerJoint<Pair>> pairs_{};  ///< A_ij, i < j
-  PerJoint<Pair> gravity_{};  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
-  PerJoint<double> carried_mass_{};  ///< of the joint's link and all beyond
-  PerJoint<double> weight_{};        ///< gravity force on a prismatic joint
+  PerJoint<double> sign_{};  ///< of each joint's axis along the common normal
+  Bodies bodies_{};
 };
 
 /// Solves a x = b for a symmetric positive definite n x n matrix (column-major, destroyed) by LDL^T; x over

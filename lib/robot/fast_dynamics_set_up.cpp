@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What FastDynamics works out once for a chain; its equations at a state are in fast_dynamics.cpp.
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "lib/robot/fast_dynamics.hpp"
 
@@ -63,22 +64,23 @@ void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {
     body.inertia +=
         normal.dot(link.inertia * normal) + 2.0 * place.dot(moment) + link.mass * place.squaredNorm();
   }
+  std::copy_n(chain_.rotor_inertia.begin(), joints_, bodies_.rotor_inertia.begin());
   double carried = 0.0;
   for (int i = joints_ - 1; i >= 0; --i) {
     carried += chain_.links[i].mass;
-    carried_mass_[i] = carried;
-    weight_[i] = -sign_[i] * normal.dot(chain_.gravity) * carried;
+    bodies_.carried_mass[i] = carried;
+    bodies_.weight[i] = -sign_[i] * normal.dot(chain_.gravity) * carried;
   }
   const Eigen::Vector2d g = plane * chain_.gravity;
   gravity_in_plane_ = g.norm() > 1e-14 * chain_.gravity.norm();
   double beyond = 0.0;
   for (int j = revolute_ - 1; j >= 0; --j) {
     const Eigen::Vector2d s = bodies[j].first_moment + beyond * bodies[j].reach;
-    diagonal_[j] = bodies[j].inertia + beyond * bodies[j].reach.squaredNorm();
-    gravity_[j] = {g.x() * s.y() - g.y() * s.x(), g.x() * s.x() + g.y() * s.y()};
+    bodies_.diagonal[j] = bodies[j].inertia + beyond * bodies[j].reach.squaredNorm();
+    bodies_.gravity[j] = {g.x() * s.y() - g.y() * s.x(), g.x() * s.x() + g.y() * s.y()};
     for (int i = 0; i < j; ++i) {
       const Eigen::Vector2d& d = bodies[i].reach;
-      pairs_[i][j] = {d.dot(s), d.y() * s.x() - d.x() * s.y()};
+      bodies_.pairs[i][j] = {d.dot(s), d.y() * s.x() - d.x() * s.y()};
     }
     beyond += bodies[j].mass;
   }

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
+
+#include "lib/robot/toml_table.hpp"
 
 namespace faultline {
 
-/// How far a healthy robot may be from the one that was identified, on another day and within a day. The
-/// defaults suit an ordinary machine; learning widens what its healthy logs show to be wider. Ranges are
-/// two standard deviations to either side.
+/// How far a healthy robot may be from the one that was identified, on another day and within a day ([normal]
+/// of the robot file). The defaults suit an ordinary machine; learning widens what its healthy logs show to
+/// be wider. Ranges are two standard deviations to either side.
 struct NormalRange {
   double friction = 0.3;          ///< share of each joint's friction: temperature, grease, load
   double friction_pace = 0.02;    ///< share of it by which it wanders in a second, with the root of time
@@ -16,6 +19,14 @@ struct NormalRange {
   double torque_offset = 0.01;    ///< share of the largest torque
   double tip_mass = 0.02;         ///< share of what the robot carries: tools, hoses
   std::array<double, 2> noise = {0.5, 2.0};  ///< times the measurement noise of the healthy logs
+  std::vector<double> work_pieces_kg;        ///< that come and go; empty to learn whether one does
+
+  bool operator==(const NormalRange&) const = default;
 };
+
+/// [normal]; what it leaves out keeps its default. Fails as TomlTable does.
+NormalRange normal_range_from_table(const TomlTable& normal);
+/// [normal]; "" where all is as by default.
+std::string normal_range_text(const NormalRange& normal);
 
 }  // namespace faultline

@@ -8,6 +8,7 @@
 
 #include "lib/log/channels.hpp"
 #include "lib/robot/chain.hpp"
+#include "lib/robot/normal_range.hpp"
 
 namespace faultline {
 
@@ -58,6 +59,7 @@ struct Robot {
   /// was identified from; s. Empty when all act when they are logged.
   std::vector<double> torque_delay_s;
   LogMeaning log;
+  NormalRange normal;
 
   int joints() const { return chain.joints(); }
 };

@@ -137,6 +137,7 @@ Robot robot_from_table(const TomlTable& table) {
   read_known(robot, table);
   read_dh(robot, table, joints);
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
+  robot.normal = normal_range_from_table(table.table("normal"));
   read_identified(robot, table);
   return robot;
 }

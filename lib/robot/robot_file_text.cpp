@@ -105,7 +105,7 @@ std::string robot_file_text(const Robot& robot) {
   text += fmt::format("gravity = {}\n", toml_numbers(robot.chain.gravity));
   for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i);
   for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
-  text += facts_text(robot) + log_text(robot.log);
+  text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
   if (robot.identified) text += identified_text(robot);
   return text;
 }

@@ -118,12 +118,63 @@ TEST(HealthyFamily, StampsThatWobbleAreTakenInStep) {
   EXPECT_TRUE(watched(log, model).episodes.empty());
 }
 
+/// dq as many controllers log it.
+Log with_backward_differences(Log log) {
+  for (std::size_t j = 0; j < log.q.size(); ++j)
+    for (int k = log.rows() - 1; k > 0; --k)
+      log.dq[j][k] = (log.q[j][k] - log.q[j][k - 1]) / (log.time[k] - log.time[k - 1]);
+  return log;
+}
+
+TEST(HealthyFamily, AVelocityByDifferenceIsNoSecondMeasurementAndNoFault) {
+  const Log log = with_backward_differences(simulate(known_rrp(), rrp_run(10.0), 38).log);
+  MemorySource source(log);
+  const LogNoise noise = survey_noise(source, rrp_motion_model());
+  for (int j = 0; j < 3; ++j) EXPECT_TRUE(noise.dq_is_difference[j]);
+  EXPECT_TRUE(watched(log).episodes.empty());
+}
+
+TEST(HealthyFamily, AFaultIsFoundWithAVelocityByDifference) {
+  const Log log = with_backward_differences(
+      simulate(known_rrp(), rrp_run_with(FaultKind::free_swinging, 2, kOnset_s, 0.0), 39).log);
+  const std::vector<EpisodeEvidence> episodes = watched(log).episodes;
+  ASSERT_FALSE(episodes.empty());
+  EXPECT_GE(episodes.front().alarm_s, kOnset_s);
+  EXPECT_LT(episodes.front().alarm_s, kOnset_s + 0.3);
+}
+
+TEST(HealthyFamily, AModelOfVelocitiesByDifferenceFollowsThePositionsAlone) {
+  Log log = simulate(known_rrp(), rrp_run(5.0), 40).log;
+  MotionModel model = rrp_motion_model();
+  model.dq_is_difference = {1, 1, 1};
+  for (std::vector<double>& dq : log.dq) dq.assign(dq.size(), 7.0);
+  EXPECT_TRUE(watched(log, model).episodes.empty()) << "what dq says does not count";
+}
+
+TEST(HealthyFamily, WhatIsNormalIsTheDoubtOfTheSlowStates) {
+  NormalRange normal;
+  normal.friction = 0.5;
+  normal.torque_constant = 0.0;
+  normal.torque_offset = 0.04;
+  const MotionModel& model = rrp_motion_model();
+  for (const SlowState& slow : slow_states(model, normal)) {
+    EXPECT_NE(slow.kind, SlowKind::torque_gain) << "it never differs";
+    if (slow.kind == SlowKind::friction) {
+      EXPECT_EQ(slow.day_std, 0.25);
+    }
+    if (slow.kind == SlowKind::torque_offset) {
+      EXPECT_DOUBLE_EQ(slow.day_std, 0.02 * model.torque_scale[slow.joint]);
+    }
+  }
+}
+
 TEST(HealthyFamily, TheModelsFileKeepsAllOfIt) {
   MotionModel model = rrp_motion_model();
   model.work_pieces_kg = {0.7, 1.3};
   model.q_tail = {3.0, 3.0, 1e6};
   model.noise.compliance = {1e-5, 2e-5, 0.0};
   model.steady_period_s = 0.01;
+  model.dq_is_difference = {0, 1, 0};
   nlohmann::json json;
   to_json(json, model);
   const MotionModel read = motion_model_from_json(json, known_rrp(), "test");
@@ -135,6 +186,7 @@ TEST(HealthyFamily, TheModelsFileKeepsAllOfIt) {
     EXPECT_EQ(read.slow[s].memory_s, model.slow[s].memory_s);
   }
   EXPECT_EQ(read.work_pieces_kg, model.work_pieces_kg);
+  EXPECT_EQ(read.dq_is_difference, model.dq_is_difference);
   EXPECT_EQ(read.q_tail, model.q_tail);
   EXPECT_EQ(read.noise.compliance, model.noise.compliance);
   EXPECT_EQ(read.steady_period_s, model.steady_period_s);

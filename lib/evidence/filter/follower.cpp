@@ -24,6 +24,10 @@ constexpr double kMostTakenOff = 1.8;  // times half of what is carried: less wo
 constexpr double kClockGain = 0.01;    // of what a stamp is off: drift of a clock is slow
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
+double velocity_read(const Log& segment, int row, int joint) {
+  return segment.dq.empty() ? kNaN : segment.dq[joint][row];
+}
+
 }  // namespace
 
 JointObservation observe_joint(GaussianState& state, int n, const FollowedSample& sample, int j,
@@ -84,6 +88,7 @@ Follower::Follower(const MotionModel& model, const LogNoise& noise)
     const double margin = kRangeMargin * (model.q_high[j] - model.q_low[j]);
     low_[j] = model.q_low[j] - margin;
     high_[j] = model.q_high[j] + margin;
+    if (!model.dq_is_difference.empty() && model.dq_is_difference[j]) noise_.dq_is_difference[j] = true;
   }
 }
 
@@ -135,14 +140,14 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
   out.row = segment.first_row + row;
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
-    const double q = segment.q[j][row], dq = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    const double q = segment.q[j][row], dq = velocity_read(segment, row, j);
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
     out.repeats[j] = started_ && !faults_.held[j] && !faults_.blind[j] && q == last_q_[j] &&
                      (std::isnan(dq) || dq == last_dq_[j]);
     out.q[j] = faults_.blind[j] ? kNaN : q - faults_.bias[j] - faults_.drift[j] * out.time;
-    out.dq[j] = faults_.blind[j] ? kNaN : dq - faults_.velocity_bias[j];
+    out.dq[j] = faults_.blind[j] || noise_.dq_is_difference[j] ? kNaN : dq - faults_.velocity_bias[j];
   }
 }
 
@@ -239,7 +244,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   last_time_ = out.time;
   for (int j = 0; j < n; ++j) {
     last_q_[j] = segment.q[j][row];
-    last_dq_[j] = segment.dq.empty() ? kNaN : segment.dq[j][row];
+    last_dq_[j] = velocity_read(segment, row, j);
   }
   last_torque_ = out.torque;
   last_torque_missing_ = out.torque_missing;

@@ -36,8 +36,8 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
       dynamics.integrate(motion, torque, step.dt, circumstances(state.mean, model, hypothesis));
   set_motion(state.mean, motion, n);
   const MotionRows a = step.dt <= kAnalyticStep_s ? analytic_transition(state, at, model, step.dt, hypothesis)
-                                                  : numeric_transition(before, state.size, model, dynamics,
-                                                                       torque, step.dt, hypothesis);
+                                                  : stepwise_transition(before, state.size, model, dynamics,
+                                                                        torque, step.dt, hypothesis);
   propagate_covariance(state, a, 2 * n);
   return at;
 }

@@ -10,7 +10,8 @@ namespace faultline {
 namespace {
 
 constexpr double kSeriesSuffices = 0.01;  // of dt M^-1 D: two terms are then good to 1e-4
-constexpr double kDifference = 1e-6;      // of a state, or of 1 in its unit: between rounding and curvature
+constexpr double kCoarseSubstep_s = 0.04;
+constexpr double kDifference = 1e-6;  // of a state, or of 1 in its unit: between rounding and curvature
 
 /// V = (1 + dt M^-1 D)^-1 with D the friction slope, by two terms of the series or Gauss-Jordan.
 JointSquare velocity_transition(const Acceleration& at, int n, double dt) {
@@ -67,22 +68,80 @@ UnitTorque unit_torque(const Hypothesis& hypothesis, int s, const Acceleration& 
   return at_joint(joint, at.size_torque[s][joint]);
 }
 
-/// A column that is another one, further to the left, times a factor; column -1 for one of its own.
-struct Likeness {
-  int column = -1;
-  double factor = 1.0;
+/// The acceleration that a unit of a slow state or of a fault's size adds.
+JointArray unit_acceleration(int column, const MotionModel& model, const Acceleration& at,
+                             const Hypothesis* hypothesis) {
+  const int n = model.joints(), first_size = model.healthy_states();
+  const UnitTorque unit = column < first_size ? unit_torque(model.slow[column - 2 * n], at, n)
+                                              : unit_torque(*hypothesis, column - first_size, at, n);
+  JointArray slope;
+  for (int i = 0; i < n; ++i) {
+    slope[i] = 0.0;
+    for (int j = unit.first; j <= unit.last; ++j) slope[i] += at.inverse_inertia[i * n + j] * unit.torque[j];
+  }
+  return slope;
+}
+
+/// How the acceleration changes with position and velocity, by differences.
+struct Slopes {
+  JointSquare by_position, by_velocity;
 };
 
-/// Torques on one joint move it alike: the first of them that is in the state stands for all.
-Likeness likeness(int column, const MotionModel& model, const Acceleration& at) {
-  const int first = 2 * model.joints(), s = column - first;
-  if (s < 0 || column >= model.healthy_states() || model.slow[s].kind == SlowKind::tip_mass) return {};
-  for (int other = 0; other < s; ++other) {
-    if (model.slow[other].kind != SlowKind::torque_offset || model.slow[other].joint != model.slow[s].joint)
-      continue;
-    return {first + other, unit_torque(model.slow[s], at, model.joints()).torque[model.slow[s].joint]};
+Slopes slopes_at(const MotionState& state, const Acceleration& at, const SizedDynamics& dynamics,
+                 const JointArray& torque, int n) {
+  Slopes slopes;
+  for (int column = 0; column < 2 * n; ++column) {
+    const int joint = column % n;
+    MotionState moved = state;
+    double& number = column < n ? moved.q[joint] : moved.dq[joint];
+    const double delta = kDifference * std::max(1.0, std::abs(number));
+    number += delta;
+    const Acceleration there = dynamics.evaluate(moved, torque, false);
+    JointSquare& out = column < n ? slopes.by_position : slopes.by_velocity;
+    for (int i = 0; i < n; ++i) out[i * n + joint] = (there.value[i] - at.value[i]) / delta;
   }
-  return {};
+  return slopes;
+}
+
+/// (1 - h/2 Kv - h^2/4 Kq)^-1, Kq and Kv the slopes by position and velocity.
+JointSquare trapezoidal_inverse(const Slopes& slopes, int n, double h) {
+  JointSquare system, inverse;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      system[i * n + j] = (i == j ? 1.0 : 0.0) - 0.5 * h * slopes.by_velocity[i * n + j] -
+                          0.25 * h * h * slopes.by_position[i * n + j];
+  invert_general(system, n, inverse);
+  return inverse;
+}
+
+/// Takes the rows of q and dq through a substep of length h.
+void advance_rows(MotionRows& a, int size, const Slopes& slopes, const MotionModel& model,
+                  const Acceleration& at, const Hypothesis* hypothesis, double h) {
+  const int n = model.joints(), columns = hypothesis ? size : model.healthy_states();
+  const JointSquare inverse = trapezoidal_inverse(slopes, n, h);
+  JointSquare on_q, on_dq;  // h Kq and 1 + h/2 Kv + h^2/4 Kq
+  for (int i = 0; i < n * n; ++i) {
+    on_q[i] = h * slopes.by_position[i];
+    on_dq[i] = 0.5 * h * slopes.by_velocity[i] + 0.25 * h * on_q[i];
+  }
+  for (int i = 0; i < n; ++i) on_dq[i * n + i] += 1.0;
+  for (int column = 0; column < columns; ++column) {
+    JointArray right{};
+    if (column >= 2 * n) {
+      right = unit_acceleration(column, model, at, hypothesis);
+      for (int i = 0; i < n; ++i) right[i] *= h;
+    }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        right[i] += on_q[i * n + j] * a[j * size + column] + on_dq[i * n + j] * a[(n + j) * size + column];
+    for (int i = 0; i < n; ++i) {
+      double velocity = 0.0;
+      for (int j = 0; j < n; ++j) velocity += inverse[i * n + j] * right[j];
+      double& before = a[(n + i) * size + column];
+      a[i * size + column] += 0.5 * h * (before + velocity);
+      before = velocity;
+    }
+  }
 }
 
 }  // namespace
@@ -107,46 +166,34 @@ MotionRows analytic_transition(const GaussianState& state, const Acceleration& a
     for (int j = 0; j < n; ++j) a[(n + i) * size + n + j] = v[i * n + j];
   }
   for (int column = 2 * n; column < columns; ++column) {
-    const UnitTorque unit = column < first_size ? unit_torque(model.slow[column - 2 * n], at, n)
-                                                : unit_torque(*hypothesis, column - first_size, at, n);
+    const JointArray slope = unit_acceleration(column, model, at, hypothesis);
     for (int i = 0; i < n; ++i) {
-      double slope = 0.0;
-      for (int j = unit.first; j <= unit.last; ++j) slope += at.inverse_inertia[i * n + j] * unit.torque[j];
-      a[(n + i) * size + column] = dt * slope;
-      a[i * size + column] = 0.5 * dt * dt * slope;
+      a[(n + i) * size + column] = dt * slope[i];
+      a[i * size + column] = 0.5 * dt * dt * slope[i];
     }
   }
   return a;
 }
 
-MotionRows numeric_transition(const StateVector& before, int size, const MotionModel& model,
-                              const FaultDynamics& dynamics, const JointArray& torque, double dt,
-                              const Hypothesis* hypothesis) {
+MotionRows stepwise_transition(const StateVector& before, int size, const MotionModel& model,
+                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
+                               const Hypothesis* hypothesis) {
   MotionRows a;
   const int n = model.joints();
-  auto integrate = [&](StateVector& x) {
-    MotionState motion = motion_of(x, n);
-    dynamics.integrate_coarsely(motion, torque, dt, circumstances(x, model, hypothesis));
-    set_motion(x, motion, n);
-  };
-  StateVector base;
-  std::copy_n(before.begin(), size, base.begin());
-  integrate(base);
-  const Acceleration at =
-      dynamics.evaluate(motion_of(before, n), torque, circumstances(before, model, hypothesis));
-  for (int column = 0; column < size; ++column) {
-    const Likeness like = likeness(column, model, at);
-    if (like.column >= 0) {
-      for (int row = 0; row < 2 * n; ++row)
-        a[row * size + column] = like.factor * a[row * size + like.column];
-      continue;
-    }
-    StateVector moved;
-    std::copy_n(before.begin(), size, moved.begin());
-    const double delta = kDifference * std::max(1.0, std::abs(moved[column]));
-    moved[column] += delta;
-    integrate(moved);
-    for (int row = 0; row < 2 * n; ++row) a[row * size + column] = (moved[row] - base[row]) / delta;
+  std::fill_n(a.begin(), 2 * n * size, 0.0);
+  for (int i = 0; i < 2 * n; ++i) a[i * size + i] = 1.0;
+  const SizedDynamics sized = dynamics.at(circumstances(before, model, hypothesis));
+  MotionState state = motion_of(before, n);
+  Acceleration start = sized.evaluate(state, torque, false);
+  const int steps = SizedDynamics::substeps(start, dt, kCoarseSubstep_s);
+  const double h = dt / steps;
+  for (int step = 0; step < steps; ++step) {
+    if (step > 0) start = sized.evaluate(state, torque, false);
+    MotionState middle = state;
+    sized.advance(middle, start, 0.5 * h);
+    const Acceleration at = sized.evaluate(middle, torque, true);
+    advance_rows(a, size, slopes_at(middle, at, sized, torque, n), model, at, hypothesis, h);
+    sized.advance(state, SizedDynamics::is_stiff(start, h) ? start : at, h);
   }
   return a;
 }

@@ -9,9 +9,6 @@ namespace faultline {
 /// d(q, dq after the step) / d(state before), row by row, `size` numbers each; all else stays what it is.
 using MotionRows = std::array<double, 2 * kMaxJoints * kMaxStates>;
 
-/// Steps up to this long (s) take the analytic transition, longer ones the numeric.
-inline constexpr double kAnalyticStep_s = 0.012;
-
 /// The slow states and the fault sizes in a state vector, behind q and dq.
 SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis);
 
@@ -20,10 +17,10 @@ SizedFault circumstances(const StateVector& vector, const MotionModel& model, co
 MotionRows analytic_transition(const GaussianState& state, const Acceleration& at, const MotionModel& model,
                                double dt, const Hypothesis* hypothesis);
 
-/// For any step, by differences of an integration that is coarser than that of the mean, which a derivative
-/// can bear.
-MotionRows numeric_transition(const StateVector& before, int size, const MotionModel& model,
-                              const FaultDynamics& dynamics, const JointArray& torque, double dt,
-                              const Hypothesis* hypothesis);
+/// For any step: the product of those of substeps, each with the slopes of the acceleration in its middle (by
+/// differences) and the implicit trapezoidal rule, which friction of any stiffness leaves stable.
+MotionRows stepwise_transition(const StateVector& before, int size, const MotionModel& model,
+                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
+                               const Hypothesis* hypothesis);
 
 }  // namespace faultline

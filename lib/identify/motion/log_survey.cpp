@@ -5,20 +5,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <span>
 
 #include "lib/core/make_issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
+#include "lib/log/difference_velocity.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kNoiseRows = 1000;
-constexpr double kFewRepeats = 0.005;      // of the rows in motion: less changes nothing
-constexpr double kCaughtUp = 1.5;          // usual steps after a repeated row: the motion went on meanwhile
-constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q
+constexpr double kFewRepeats = 0.005;  // of the rows in motion: less changes nothing
+constexpr double kCaughtUp = 1.5;      // usual steps after a repeated row: the motion went on meanwhile
 
 /// Steps of q around the rows that repeat the one before, by the joint that moves most there.
 class RepeatCounter {
@@ -52,34 +51,11 @@ class RepeatCounter {
   std::vector<double> ratios_;
 };
 
-/// Root mean square distance of dq from a difference of q, from row k - back to row k + ahead.
-double distance_from_difference(const JointMotion& m, double period, int back, int ahead) {
-  double sum = 0.0;
-  const int n = m.rows();
-  for (int k = 1; k + 1 < n; ++k) {
-    const double d = m.dq[k] - (m.q[k + ahead] - m.q[k - back]) / ((back + ahead) * period);
-    sum += d * d;
-  }
-  return std::sqrt(sum / std::max(n - 2, 1));
-}
-
-/// White noise of a difference of q as its third differences show it.
-double difference_noise(const JointMotion& m, double period) {
-  std::vector<double> bends;
-  for (int k = 4; k < m.rows(); ++k)
-    bends.push_back(std::abs(m.q[k] - 4.0 * m.q[k - 1] + 6.0 * m.q[k - 2] - 4.0 * m.q[k - 3] + m.q[k - 4]));
-  double sum = 0.0;
-  for (double b : bends) sum += b * b;
-  return bends.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(bends.size()) / 20.0) / period;
-}
-
-bool is_difference(const JointMotion& m, double period) {
-  if (m.dq.size() == 0 || m.rows() < 8) return false;
-  const double noise = difference_noise(m, period);
-  constexpr std::array<std::array<int, 2>, 3> kForms = {{{1, 0}, {1, 1}, {0, 1}}};
-  return std::any_of(kForms.begin(), kForms.end(), [&](const auto& form) {
-    return distance_from_difference(m, period, form[0], form[1]) < kSameAsDifference * noise;
-  });
+bool dq_is_difference(const JointMotion& m) {
+  auto span = [](const Eigen::VectorXd& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  return is_difference(span(m.time), span(m.q), span(m.dq));
 }
 
 /// Rows in the middle of a stretch, enough to tell noise from.
@@ -140,7 +116,7 @@ LogSurvey survey_log(LogSource& source, int joints) {
       survey.noise.emplace_back();
       continue;
     }
-    survey.dq_is_difference.push_back(is_difference(b.motion, survey.summary.period_s) ? 1 : 0);
+    survey.dq_is_difference.push_back(dq_is_difference(b.motion) ? 1 : 0);
     survey.velocity.emplace_back();
     if (b.motion.dq.size() > 0 && !survey.dq_is_difference.back())
       survey.velocity.back() = velocity_agreement(b.motion);

@@ -135,7 +135,7 @@ std::string urdf_more_text(const Robot& robot) {
     text += each_joint(robot, "bend_width", [&](int i) { return chain.friction[i].bend_width; });
   }
   for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
-  return text + facts_text(robot) + log_text(robot.log);
+  return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
 }
 
 void read_urdf_more(Robot& robot, const std::string& text, const std::string& where) {
@@ -152,6 +152,7 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   read_known(robot, table);
   if (robot.identified) robot.chain = chain;  // what was identified stands above what was known
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
+  robot.normal = normal_range_from_table(table.table("normal"));
   table.finish();
 }
 

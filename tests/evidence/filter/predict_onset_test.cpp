@@ -89,8 +89,9 @@ TEST(PredictOnset, BlendsAFaultOfAllTheStepAndOneOfNone) {
         for (int j = 0; j < 6; ++j)
           EXPECT_NEAR(p(i, j), expected.covariance(i, j), tolerance * std[i] * std[j] + 1e-10) << what;
         for (int s = 0; s < hypothesis.sizes; ++s)
-          EXPECT_NEAR(p(i, 6 + s), expected.with_size(i, s),
-                      0.2 * std::abs(expected.with_size(i, s)) + 0.01 * std[i] * std::sqrt(p(6 + s, 6 + s)))
+          EXPECT_NEAR(
+              p(i, 6 + s), expected.with_size(i, s),
+              0.2 * std::abs(expected.with_size(i, s)) + 0.01 * std[i] * std::sqrt(p(6 + s, 6 + s)) + 1e-12)
               << what;
       }
     }

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
-// How FaultDynamics goes from one sample to the next.
+// How SizedDynamics goes from one sample to the next.
 #include <algorithm>
 #include <cmath>
 
-#include "lib/evidence/filter/fault_dynamics.hpp"
+#include "lib/evidence/filter/sized_dynamics.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kMostSubsteps = 40;  // in a step: sharper friction than this follows is taken implicitly
-constexpr double kCoarseSubstep_s = 0.025;
-constexpr double kStiff = 1.0;  // friction rate times step from which explicit rules need shorter steps
+constexpr double kStiff = 1.0;     // friction rate times step from which explicit rules need shorter steps
 
 }  // namespace
 
 /// Returns the accelerations at the middle of the step.
-Acceleration FaultDynamics::midpoint_step(MotionState& state, const Acceleration& start,
-                                          const JointArray& torque, double h, const SizedFault& fault) const {
+Acceleration SizedDynamics::midpoint_step(MotionState& state, const Acceleration& start,
+                                          const JointArray& torque, double h) const {
   MotionState middle;
   for (int j = 0; j < joints_; ++j) {
     middle.dq[j] = state.dq[j] + 0.5 * h * start.value[j];
     middle.q[j] = state.q[j] + 0.5 * h * state.dq[j];
   }
-  const Acceleration at = evaluate(middle, torque, fault);
+  const Acceleration at = evaluate(middle, torque, true);
   for (int j = 0; j < joints_; ++j) {
     state.q[j] += h * middle.dq[j];
     state.dq[j] += h * at.value[j];
@@ -30,7 +29,7 @@ Acceleration FaultDynamics::midpoint_step(MotionState& state, const Acceleration
   return at;
 }
 
-void FaultDynamics::implicit_step(MotionState& state, const Acceleration& at, double h) const {
+void SizedDynamics::implicit_step(MotionState& state, const Acceleration& at, double h) const {
   const int n = joints_;
   JointSquare system;  // (1 + h/2 M^-1 D) dv = h a, D the friction slope: second order, stable however stiff
   JointArray change;
@@ -57,8 +56,7 @@ void FaultDynamics::implicit_step(MotionState& state, const Acceleration& at, do
   }
 }
 
-void FaultDynamics::runge_kutta_step(MotionState& state, const JointArray& torque, double h,
-                                     const SizedFault& fault) const {
+void SizedDynamics::runge_kutta_step(MotionState& state, const JointArray& torque, double h) const {
   // The classical rule of fourth order: where its stages stand in the step, and their weights.
   static constexpr double kFraction[4] = {0.0, 0.5, 0.5, 1.0};
   static constexpr double kWeight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -70,7 +68,7 @@ void FaultDynamics::runge_kutta_step(MotionState& state, const JointArray& torqu
       at_stage.q[j] = state.q[j] + kFraction[stage] * h * v[j];
       at_stage.dq[j] = state.dq[j] + kFraction[stage] * h * a[j];
     }
-    const Acceleration at = evaluate(at_stage, torque, fault);
+    const Acceleration at = evaluate(at_stage, torque, false);
     for (int j = 0; j < n; ++j) {
       v[j] = at_stage.dq[j];
       a[j] = at.value[j];
@@ -84,36 +82,35 @@ void FaultDynamics::runge_kutta_step(MotionState& state, const JointArray& torqu
   }
 }
 
-Acceleration FaultDynamics::integrate(MotionState& state, const JointArray& torque, double dt,
-                                      const SizedFault& fault) const {
-  const Acceleration first = evaluate(state, torque, fault);
-  const bool stiff = first.stiffness * dt > kStiff;
-  if (dt <= kShortStep_s && !stiff) return midpoint_step(state, first, torque, dt, fault);
-  const double wanted = std::max(dt / kLongestSubstep_s, first.stiffness * dt / kStiff);
-  const int steps = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
-  const double h = dt / steps;
-  if (first.stiffness * h <= kStiff) {
-    for (int step = 0; step < steps; ++step) runge_kutta_step(state, torque, h, fault);
-  } else {
-    implicit_step(state, first, h);
-    for (int step = 1; step < steps; ++step) implicit_step(state, evaluate(state, torque, fault), h);
+void SizedDynamics::advance(MotionState& state, const Acceleration& at, double h) const {
+  if (at.stiffness * h > kStiff) return implicit_step(state, at, h);
+  for (int j = 0; j < joints_; ++j) {
+    state.q[j] += h * (state.dq[j] + 0.5 * h * at.value[j]);
+    state.dq[j] += h * at.value[j];
   }
-  return first;
 }
 
-void FaultDynamics::integrate_coarsely(MotionState& state, const JointArray& torque, double dt,
-                                       const SizedFault& fault) const {
-  Acceleration at = evaluate(state, torque, fault);
-  const double wanted = std::max(dt / kCoarseSubstep_s, at.stiffness * dt / kStiff);
-  const int steps = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
+int SizedDynamics::substeps(const Acceleration& at, double dt, double longest_s) {
+  const double wanted = std::max(dt / longest_s, at.stiffness * dt / kStiff);
+  return std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
+}
+
+bool SizedDynamics::is_stiff(const Acceleration& at, double h) { return at.stiffness * h > kStiff; }
+
+Acceleration SizedDynamics::integrate(MotionState& state, const JointArray& torque, double dt) const {
+  const bool is_short = dt <= kShortStep_s;
+  Acceleration first = evaluate(state, torque, !is_short && dt <= kAnalyticStep_s);
+  if (is_short && !is_stiff(first, dt)) return midpoint_step(state, first, torque, dt);
+  if (is_short) first = evaluate(state, torque, true);
+  const int steps = substeps(first, dt, kLongestSubstep_s);
   const double h = dt / steps;
-  for (int step = 0; step < steps; ++step) {
-    if (step > 0) at = evaluate(state, torque, fault);
-    if (at.stiffness * h <= kStiff)
-      midpoint_step(state, at, torque, h, fault);
-    else
-      implicit_step(state, at, h);
+  if (!is_stiff(first, h)) {
+    for (int step = 0; step < steps; ++step) runge_kutta_step(state, torque, h);
+  } else {
+    implicit_step(state, first, h);
+    for (int step = 1; step < steps; ++step) implicit_step(state, evaluate(state, torque, false), h);
   }
+  return first;
 }
 
 }  // namespace faultline

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/normal_range.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+
+#include "lib/robot/toml_text.hpp"
+#include "lib/robot/toml_values.hpp"
+
+namespace faultline {
+namespace {
+
+double share(const TomlTable& table, const char* key, double fallback) {
+  const double value = table.number(key, fallback);
+  if (value < 0.0 || value >= 1.0)
+    table.fail(key,
+               fmt::format("expected a share from 0 to less than 1, such as {}, found {}", fallback, value));
+  return value;
+}
+
+std::array<double, 2> noise_factors(const TomlTable& table, const std::array<double, 2>& fallback) {
+  if (!table.has("noise")) return fallback;
+  const std::vector<double> factors = table.numbers("noise", 2);
+  if (!(factors[0] > 0.0 && factors[0] <= 1.0 && factors[1] >= 1.0))
+    table.fail("noise", fmt::format("expected a factor of at most 1 and one of at least 1, such as [0.5, 2], "
+                                    "found [{}, {}]",
+                                    factors[0], factors[1]));
+  return {factors[0], factors[1]};
+}
+
+std::string list_text(const double* numbers, std::size_t count) {
+  return toml_numbers(Eigen::Map<const Eigen::VectorXd>(numbers, static_cast<Eigen::Index>(count)));
+}
+
+}  // namespace
+
+NormalRange normal_range_from_table(const TomlTable& normal) {
+  NormalRange range;
+  range.friction = share(normal, "friction", range.friction);
+  range.friction_pace = share(normal, "friction_pace", range.friction_pace);
+  range.torque_constant = share(normal, "torque_constant", range.torque_constant);
+  range.torque_offset = share(normal, "torque_offset", range.torque_offset);
+  range.tip_mass = share(normal, "tip_mass", range.tip_mass);
+  range.noise = noise_factors(normal, range.noise);
+  if (normal.has("work_pieces_kg")) {
+    range.work_pieces_kg = normal.numbers("work_pieces_kg", -1);
+    check_signs(normal, "work_pieces_kg", range.work_pieces_kg, false);
+  }
+  return range;
+}
+
+std::string normal_range_text(const NormalRange& normal) {
+  if (normal == NormalRange{}) return "";
+  std::string text = fmt::format(
+      "\n[normal]\nfriction = {}\nfriction_pace = {}\ntorque_constant = {}\ntorque_offset = {}\ntip_mass = {}\n"
+      "noise = {}\n",
+      toml_number(normal.friction), toml_number(normal.friction_pace), toml_number(normal.torque_constant),
+      toml_number(normal.torque_offset), toml_number(normal.tip_mass), list_text(normal.noise.data(), 2));
+  if (!normal.work_pieces_kg.empty())
+    text +=
+        "work_pieces_kg = " + list_text(normal.work_pieces_kg.data(), normal.work_pieces_kg.size()) + "\n";
+  return text;
+}
+
+}  // namespace faultline
