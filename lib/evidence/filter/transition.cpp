@@ -109,7 +109,7 @@ JointSquare trapezoidal_inverse(const Slopes& slopes, int n, double h) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       system[i * n + j] = (i == j ? 1.0 : 0.0) - 0.5 * h * slopes.by_velocity[i * n + j] -
-                          0.25 * h * h * slopes.by_position[i * n + j];
+                          0.5 * h * 0.5 * h * slopes.by_position[i * n + j];
   invert_general(system, n, inverse);
   return inverse;
 }
@@ -122,7 +122,7 @@ void advance_rows(MotionRows& a, int size, const Slopes& slopes, const MotionMod
   JointSquare on_q, on_dq;  // h Kq and 1 + h/2 Kv + h^2/4 Kq
   for (int i = 0; i < n * n; ++i) {
     on_q[i] = h * slopes.by_position[i];
-    on_dq[i] = 0.5 * h * slopes.by_velocity[i] + 0.25 * h * on_q[i];
+    on_dq[i] = 0.5 * h * slopes.by_velocity[i] + 0.5 * 0.5 * h * on_q[i];
   }
   for (int i = 0; i < n; ++i) on_dq[i * n + i] += 1.0;
   for (int column = 0; column < columns; ++column) {
