@@ -109,12 +109,16 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       low_(before.low_),
       high_(before.high_) {}
 
-void Follower::hold_slow_states(const GaussianState& before) {
-  const int n = model_.joints();
-  for (int s = 2 * n; s < state_.size; ++s) {
-    const SlowState& slow = model_.slow[s - 2 * n];
+void Follower::stand_by(const GaussianState& before, const GaussianState& motion) {
+  const int moving = 2 * model_.joints(), size = state_.size;
+  std::fill_n(state_.covariance.begin(), size * size, 0.0);
+  for (int i = 0; i < moving; ++i) {
+    state_.mean[i] = motion.mean[i];
+    for (int j = 0; j < moving; ++j) state_.p(i, j) = motion.p(i, j);
+  }
+  for (int s = moving; s < size; ++s) {
+    const SlowState& slow = model_.slow[s - moving];
     const bool passes = slow.memory_s > 0.0;
-    for (int i = 0; i < state_.size; ++i) state_.p(s, i) = state_.p(i, s) = 0.0;
     state_.mean[s] = passes ? 0.0 : before.mean[s];
     state_.p(s, s) = passes ? slow.day_std * slow.day_std : before.p(s, s);
   }

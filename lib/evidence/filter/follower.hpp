@@ -79,9 +79,9 @@ class Follower {
   void learn_range(const FollowedSample& sample);
   /// Goes on from another state at the last sample: of a filter that did not believe a wild value.
   void restore(const GaussianState& state) { state_ = state; }
-  /// What stays within a day is as it was in that state, what passes is not known: rows since then told of
-  /// another robot.
-  void hold_slow_states(const GaussianState& before);
+  /// The log tells of another robot, whose motion this one takes over; what stays within a day is as it was
+  /// in the state `before`, what passes is not known.
+  void stand_by(const GaussianState& before, const GaussianState& motion);
   /// A work piece of that mass (kg) is picked up, or put down (less than 0), before the next row.
   void change_work_piece(double kg);
   const FaultDynamics& dynamics() const { return dynamics_; }

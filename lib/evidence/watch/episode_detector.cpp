@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kMostFaults = 4;  // at a time: beyond, nothing is left to hold the log against
 /// Times the usual: a robot with a fault is known less well than a healthy one.
 constexpr double kLessKnown = 1.5;
+constexpr double kAsGood = 0.5;  // of what a new fault would explain: the end of an old one costs no size
 constexpr double kRecent = 0.4;  // of a new row in what was of late: some three rows
 constexpr double kOdd = 4.0;     // chi-square of a number in the mean, that no filter leaves which is right
 
@@ -59,6 +60,7 @@ class EpisodeDetector::Impl {
     for (Level& level : stack_) level.watch->follow(segment, row);
     while (stack_.size() > 1 && !top().watch->is_sound()) end_above(stack_.size() - 2);
     const FollowedSample& sample = top().watch->sample();
+    for (std::size_t i = 0; i + 1 < stack_.size(); ++i) stack_[i].watch->move_with(likelier_motion(i));
     if (sample.dt <= 0.0) interrupt();
     last_time_s_ = sample.time;
     if (stack_.size() <= kMostFaults)
@@ -86,7 +88,7 @@ class EpisodeDetector::Impl {
   Level& top() { return stack_.back(); }
 
   void open_episode(HypothesisTest::Conclusion found) {
-    if (const std::optional<std::size_t> level = healed()) {
+    if (const std::optional<std::size_t> level = healed(found.best.log_likelihood_ratio)) {
       end_above(*level);
       return;
     }
@@ -109,11 +111,12 @@ class EpisodeDetector::Impl {
     stack_.push_back(std::move(level));
   }
 
-  /// The lowest level that explains the log of late: what the topmost takes for another fault is the end of
-  /// one.
-  std::optional<std::size_t> healed() const {
+  /// The lowest level that explains the log of late: what the topmost takes for another fault, by so many
+  /// nats, is the end of one.
+  std::optional<std::size_t> healed(double ratio) const {
     for (std::size_t i = 0; i + 1 < stack_.size(); ++i)
-      if (stack_[i].better > options_.clear_margin && stack_[i].odd < kOdd) return i;
+      if (stack_[i].better > std::max(options_.clear_margin, kAsGood * ratio) && stack_[i].odd < kOdd)
+        return i;
     return std::nullopt;
   }
 
@@ -134,22 +137,34 @@ class EpisodeDetector::Impl {
     top().watch->begin_anew();
   }
 
+  /// Where the joints are, after the topmost or after this one, whichever predicted the row better: while the
+  /// fault lasts a level's own motion goes astray.
+  const GaussianState& likelier_motion(std::size_t i) {
+    const FollowedSample &own = stack_[i].watch->sample(), &other = top().watch->sample();
+    const bool own_is = !all_in_sight_above(i) || advantage(own, other, joints_) > 0.0;
+    return own_is ? own.posterior : other.posterior;
+  }
+
+  bool all_in_sight_above(std::size_t i) const {
+    return std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(i) + 1, stack_.end(),
+                       [](const Level& above) { return above.watch->robot().explains; });
+  }
+
   /// Whether the faults above level `i` are over. What a joint does that a fault took out of sight is told by
   /// the level below alone.
   bool explains_again(std::size_t i) {
     Level& level = stack_[i];
     const FollowedSample& sample = level.watch->sample();
     level.odd += kRecent * (surprise(sample, joints_) - level.odd);
-    const bool in_sight = std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(i) + 1, stack_.end(),
-                                      [](const Level& above) { return above.watch->robot().explains; });
+    const bool in_sight = all_in_sight_above(i);
     if (!in_sight) {
       if (level.watch->suspicious() || level.since_s < 0.0) level.since_s = sample.time;
     } else {
       level.better += advantage(sample, top().watch->sample(), joints_);
       if (level.better <= 0.0 || level.odd > kOdd) level.better = 0.0, level.since_s = sample.time;
     }
-    const bool again =
-        in_sight ? level.better > options_.threshold : sample.time - level.since_s > options_.recover_s;
+    const double enough = std::max(options_.threshold, kAsGood * top().watch->ratio());
+    const bool again = in_sight ? level.better > enough : sample.time - level.since_s > options_.recover_s;
     for (std::size_t above = i + 1; above < stack_.size(); ++above)
       episodes[stack_[above].episode].end_s = again || !in_sight ? level.since_s : sample.time;
     return again;

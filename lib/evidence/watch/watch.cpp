@@ -33,7 +33,6 @@ void Watch::follow(const Log& segment, int row) {
   FollowedSample& sample = history_.push();
   follower_.follow(segment, row, sample);
   statistic_ = trigger_.take(sample);
-  if (kept_) follower_.hold_slow_states(*kept_);
 }
 
 bool Watch::is_sound() const {
@@ -57,6 +56,8 @@ std::optional<HypothesisTest::Conclusion> Watch::look() {
 }
 
 std::optional<HypothesisTest::Conclusion> Watch::interrupt() { return test_ ? conclude() : std::nullopt; }
+
+void Watch::move_with(const GaussianState& motion) { follower_.stand_by(*kept_, motion); }
 
 void Watch::stand_by(std::int64_t onset) {
   kept_ = history_[std::max(onset - 1, history_.first())].posterior;

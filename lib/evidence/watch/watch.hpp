@@ -34,6 +34,8 @@ class Watch {
   std::optional<HypothesisTest::Conclusion> interrupt();
   /// From the sample `onset` on the log tells of another robot: what this one is like is kept as it was.
   void stand_by(std::int64_t onset);
+  /// While standing by: the joints are where the other robot's filter has them.
+  void move_with(const GaussianState& motion);
   /// Rows so far were another's to judge: tests do not look back at them.
   void begin_anew();
   /// The fault was over by itself: goes on from its state.
@@ -44,6 +46,8 @@ class Watch {
   /// False where the filter lost the robot altogether.
   bool is_sound() const;
   bool suspicious() const;
+  /// What the best fault explains of the suspicion that is being looked into, nats; 0 for none.
+  double ratio() const { return test_ ? test_->best_ratio() : 0.0; }
   const std::vector<WorkPieceChange>& work_piece_changes() const { return work_piece_changes_; }
   int rejected_alarms() const { return rejected_alarms_; }
   double largest_trigger() const { return largest_trigger_; }
