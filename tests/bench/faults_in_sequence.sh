@@ -5,9 +5,5 @@
 # Usage: bash tests/bench/faults_in_sequence.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-export FAULTLINE=${FAULTLINE:-build/release/faultline} FAULTLINE_OUT=${FAULTLINE_OUT:-out}
-if [ ! -x "$FAULTLINE" ]; then
-  echo "faults_in_sequence: there is no $FAULTLINE; build it, or name it in FAULTLINE" >&2
-  exit 2
-fi
+source tests/bench/need_program.sh
 exec python3 tests/bench/faults_in_sequence.py "$@"

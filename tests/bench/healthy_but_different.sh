@@ -7,9 +7,5 @@
 # Usage: bash tests/bench/healthy_but_different.sh [ROW...]    ROW as the table names it, all by default
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-export FAULTLINE=${FAULTLINE:-build/release/faultline} FAULTLINE_OUT=${FAULTLINE_OUT:-out}
-if [ ! -x "$FAULTLINE" ]; then
-  echo "healthy_but_different: there is no $FAULTLINE; build it, or name it in FAULTLINE" >&2
-  exit 2
-fi
+source tests/bench/need_program.sh
 exec python3 tests/bench/healthy_but_different.py "$@"

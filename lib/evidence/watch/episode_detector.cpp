@@ -103,8 +103,9 @@ class EpisodeDetector::Impl {
       return;
     }
     Level level;
-    FaultyRobot robot = with_fault(top().watch->robot(), hypothesis, found.best);
-    level.watch = std::make_unique<Watch>(*top().watch, std::move(robot), less_sure(options_));
+    FaultyRobot robot = top().watch->robot();
+    const GaussianState state = take_fault(robot, hypothesis, found.best);
+    level.watch = std::make_unique<Watch>(*top().watch, std::move(robot), state, less_sure(options_));
     level.episode = episodes.size() - 1;
     for (Level& below : stack_) below.better = 0.0, below.since_s = now_s;
     top().watch->stand_by(found.best.onset);
@@ -122,9 +123,10 @@ class EpisodeDetector::Impl {
 
   void look_for_ends() {
     for (std::size_t i = 0; i + 1 < stack_.size(); ++i) {
-      if (!explains_again(i)) continue;
-      end_above(i);
-      return;
+      weigh(i);
+      const bool over = explains_again(i);
+      set_ends_above(i, over);
+      if (over) return end_above(i);
     }
   }
 
@@ -150,24 +152,32 @@ class EpisodeDetector::Impl {
                        [](const Level& above) { return above.watch->robot().explains; });
   }
 
-  /// Whether the faults above level `i` are over. What a joint does that a fault took out of sight is told by
-  /// the level below alone.
-  bool explains_again(std::size_t i) {
+  /// What this row says of level `i` against the topmost; what a joint does that a fault took out of sight is
+  /// told by the level alone.
+  void weigh(std::size_t i) {
     Level& level = stack_[i];
     const FollowedSample& sample = level.watch->sample();
     level.odd += kRecent * (surprise(sample, joints_) - level.odd);
-    const bool in_sight = all_in_sight_above(i);
-    if (!in_sight) {
+    if (!all_in_sight_above(i)) {
       if (level.watch->suspicious() || level.since_s < 0.0) level.since_s = sample.time;
-    } else {
-      level.better += advantage(sample, top().watch->sample(), joints_);
-      if (level.better <= 0.0 || level.odd > kOdd) level.better = 0.0, level.since_s = sample.time;
+      return;
     }
-    const double enough = std::max(options_.threshold, kAsGood * top().watch->ratio());
-    const bool again = in_sight ? level.better > enough : sample.time - level.since_s > options_.recover_s;
+    level.better += advantage(sample, top().watch->sample(), joints_);
+    if (level.better <= 0.0 || level.odd > kOdd) level.better = 0.0, level.since_s = sample.time;
+  }
+
+  /// Whether the faults above level `i` are over.
+  bool explains_again(std::size_t i) const {
+    const Level& level = stack_[i];
+    if (!all_in_sight_above(i)) return level.watch->sample().time - level.since_s > options_.recover_s;
+    return level.better > std::max(options_.threshold, kAsGood * stack_.back().watch->ratio());
+  }
+
+  /// Faults above level `i` last until this row, or until level `i` began to explain the log.
+  void set_ends_above(std::size_t i, bool over) {
+    const double end_s = over || !all_in_sight_above(i) ? stack_[i].since_s : stack_[i].watch->sample().time;
     for (std::size_t above = i + 1; above < stack_.size(); ++above)
-      episodes[stack_[above].episode].end_s = again || !in_sight ? level.since_s : sample.time;
-    return again;
+      episodes[stack_[above].episode].end_s = end_s;
   }
 
   const std::vector<Hypothesis>& hypotheses_;

@@ -9,24 +9,25 @@ namespace faultline {
 
 Watch::Watch(const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
              const EvidenceOptions& options, const LogNoise& noise)
-    : robot_{model, {}, {}, {}, true},
+    : robot_{model, {}, {}},
       options_(options),
       follower_(robot_.model, noise),
       trigger_(robot_.model),
       bank_(robot_.model, follower_.dynamics(), hypotheses),
       history_(kHistory) {}
 
-Watch::Watch(const Watch& before, FaultyRobot robot, const EvidenceOptions& options)
+Watch::Watch(const Watch& before, FaultyRobot robot, const GaussianState& state,
+             const EvidenceOptions& options)
     : robot_(std::move(robot)),
       options_(options),
       follower_(before.follower_, robot_.model, robot_.faults),
       trigger_(robot_.model),
       bank_(robot_.model, follower_.dynamics(), before.bank_.hypotheses(), robot_.closed),
       history_(kHistory) {
-  follower_.restore(robot_.state);
+  follower_.restore(state);
   FollowedSample& first = history_.push();
   first = before.history_.back();
-  first.posterior = robot_.state;
+  first.posterior = state;
 }
 
 void Watch::follow(const Log& segment, int row) {
@@ -119,8 +120,7 @@ void Watch::go_on_from(const RunningHypothesis& no_fault) {
 }
 
 void Watch::go_on_after(const RunningHypothesis& passed) {
-  robot_ = with_fault(std::move(robot_), bank_.hypotheses()[passed.hypothesis], passed);
-  follower_.restore(robot_.state);
+  follower_.restore(take_fault(robot_, bank_.hypotheses()[passed.hypothesis], passed));
   begin_anew();
 }
 

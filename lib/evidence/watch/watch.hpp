@@ -21,8 +21,8 @@ class Watch {
  public:
   Watch(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options,
         const LogNoise& noise);
-  /// Goes on from the last sample of another watch, with another robot.
-  Watch(const Watch& before, FaultyRobot robot, const EvidenceOptions& options);
+  /// Goes on from the last sample of another watch, with another robot and the state of its filter.
+  Watch(const Watch& before, FaultyRobot robot, const GaussianState& state, const EvidenceOptions& options);
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
