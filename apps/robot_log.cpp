@@ -14,8 +14,8 @@ std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& 
   options.columns = robot.log.columns;
   options.keep_extra = false;
   std::unique_ptr<LogSource> log = coupled(open_log(path, options), robot.log.coupling);
-  if (robot.torque_delay_s.empty()) return log;
-  return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s);
+  if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;
+  return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s, robot.torque_gain);
 }
 
 }  // namespace faultline

@@ -8,7 +8,7 @@
 #include "lib/core/error.hpp"
 #include "lib/golden/golden_set.hpp"
 #include "lib/robot/nearest_word.hpp"
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 namespace faultline {
 namespace {

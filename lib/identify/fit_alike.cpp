@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/make_issue.hpp"
+#include "lib/identify/extra_stage.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
@@ -23,11 +24,6 @@ namespace {
 
 constexpr double kGood = 0.97;           // of a joint's torque explained: below, columns are questioned
 constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion has nothing to add
-
-double nominal_timing(const Robot& robot) {
-  if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
-  return robot.torque_phi.value_or(0.5);
-}
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
@@ -55,11 +51,12 @@ void take_shooting(const ShootingFit& shot, const Gathered& gathered, Identifica
 }
 
 /// Sharp friction serves the regression; a robot that is to be simulated keeps the width of its file.
-void smooth_friction(const Eigen::VectorXd& nominal, const ParameterSpace& space,
-                     Eigen::VectorXd& parameters) {
+void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eigen::VectorXd& parameters) {
   for (int j = 0; j < space.joints(); ++j) {
     double& width = parameters[space.log_width(j)];
     width = std::max(width, nominal[space.log_width(j)]);
+    for (SharedDrive& f : space.chain.shared_drives)
+      if (f.along[j] != 0.0) f.width = std::max(f.width, std::exp(nominal[space.log_width(j)]));
   }
 }
 
@@ -104,6 +101,13 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
                              found.cure)));
 }
 
+/// Whether a gear was found to be a spring, so that the motion is not that of rigid gears.
+bool gives_way(const ParameterSpace& space, const TorqueFit& torque) {
+  for (int p = space.extra_begin(); p < space.timing(); ++p)
+    if (torque.wanted[p] && space.extra_at(p).kind == ExtraKind::gear_compliance) return true;
+  return false;
+}
+
 /// The motion's fit where it helps, else the torque balance's.
 void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, TorqueFit& torque,
                    const Eigen::VectorXd& nominal, const IdentifyOptions& options, const Progress& progress,
@@ -119,6 +123,10 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
                    fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
                                "fitted",
                                100.0 * std::max(worst, 0.0))));
+  } else if (options.method == IdentifyMethod::automatic && gives_way(id.space, torque)) {
+    id.issues.add(make_issue("gear_compliance", Severity::note,
+                             "a gear gives way: values and intervals come from the momentum balance, the "
+                             "motion of rigid gears was not fitted"));
   } else if (options.method != IdentifyMethod::weak_form && moves) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
@@ -137,6 +145,57 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
   take_torque_fit(torque, gathered, id);
 }
 
+/// The model that the logs ask for: chosen, and its torque fitted.
+ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, const std::vector<int>& still,
+                       const IdentifyOptions& options, Identification& id) {
+  ModelDraft draft;
+  draft.nominal = parameters_of(id.space, id.robot.chain, nominal_timing(id.robot));
+  draft.wanted = wanted_parameters(id.space, id.robot, still, options.estimate_offset && has_fast_log(id));
+  for (int p = id.space.bend(0); p < id.space.timing(); ++p)
+    if (draft.wanted.asked[p]) draft.nominal[p] = 0.0;
+  const auto choose = [&] {
+    return choose_model(WeakMoments(gathered.windows, nominal_timing(id.robot)), id.space, draft.nominal,
+                        draft.wanted.asked, draft.wanted.optional, gathered.windows.shifts,
+                        static_cast<int>(gathered.windows.sets.size()));
+  };
+  gathered.leave_out(repeated_logs(id));
+  draft.choice = choose();
+  if (const std::vector<int> odd = odd_logs(draft.choice); !odd.empty()) {
+    name_odd_logs(odd, options.keep_all, id);
+    if (!options.keep_all) {
+      gathered.leave_out(odd);
+      draft.choice = choose();
+    }
+  }
+  draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+  take_extra_terms(logs, gathered, id, draft);
+  draft.choice.weak.shift = draft.torque.shift;
+  for (ModelTerm& term : draft.choice.terms)
+    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = draft.torque.shift[term.joint] != 0;
+  if (!draft.torque.not_a_robot.empty())
+    id.issues.add(make_issue("infeasible", Severity::warning,
+                             draft.torque.not_a_robot +
+                                 "; the nearest robot that can be was taken instead: values next to that "
+                                 "bound are not told by these logs"));
+  return draft;
+}
+
+/// What is no part of the equations of motion: how the drives' torque is logged, how their gears give way.
+void tell_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Identification& id) {
+  const int n = id.space.joints();
+  if (!gathered.torque_gain.empty()) {
+    id.robot.torque_gain.resize(n, 1.0);
+    for (int j = 0; j < n; ++j) id.robot.torque_gain[j] *= gathered.torque_gain[j];
+  }
+  id.robot.gear_compliance.clear();
+  for (int p = id.space.extra_begin(); p < id.space.timing(); ++p) {
+    const ExtraTerm& term = id.space.extra_at(p);
+    if (term.kind != ExtraKind::gear_compliance) continue;
+    id.robot.gear_compliance.resize(n, 0.0);
+    id.robot.gear_compliance[term.joint] = parameters[p];
+  }
+}
+
 }  // namespace
 
 AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
@@ -148,39 +207,20 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   Gathered gathered = gather(logs, options.window_s, options.max_windows, progress, id);
   const std::vector<int> still = still_joints(gathered.measurements, id.space);
   gathered.leave_out_joints(still);
-  Eigen::VectorXd nominal = parameters_of(id.space, robot.chain, nominal_timing(robot));
-  nominal.segment(id.space.bend(0), 2 * id.space.joints()).setZero();
-  const WantedParameters wanted =
-      wanted_parameters(id.space, robot, still, options.estimate_offset && has_fast_log(id));
-  const auto choose = [&] {
-    return choose_model(WeakMoments(gathered.windows, nominal_timing(robot)), id.space, nominal, wanted.asked,
-                        wanted.optional, gathered.windows.shifts,
-                        static_cast<int>(gathered.windows.sets.size()));
-  };
-  gathered.leave_out(repeated_logs(id));
-  ModelChoice choice = choose();
-  if (const std::vector<int> odd = odd_logs(choice); !odd.empty()) {
-    name_odd_logs(odd, options.keep_all, id);
-    if (!options.keep_all) {
-      gathered.leave_out(odd);
-      choice = choose();
-    }
-  }
-  TorqueFit torque = fit_torque(gathered, choice, nominal, id);
-  choice.weak.shift = torque.shift;
-  for (ModelTerm& term : choice.terms)
-    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = torque.shift[term.joint] != 0;
-  settle_method(logs, gathered, torque, nominal, options, progress, id);
+  ModelDraft draft = draft_model(logs, gathered, still, options, id);
+  TorqueFit& torque = draft.torque;
+  settle_method(logs, gathered, torque, draft.nominal, options, progress, id);
+  tell_drives(gathered, torque.fit.parameters, id);
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);
   doubt_still_joints(id.space, still, torque);
   doubt_undriven_joints(id.space, undriven, torque);
   const std::vector<int> leaning = doubt_beside_offsets(id.space, robot, torque);
   id.condition_number = torque.fit.condition_number;
-  judge_fit(torque, choice, gathered, still, undriven, id);
-  tell_spread(choice, id);
+  judge_fit(torque, draft.choice, gathered, still, undriven, id);
+  tell_spread(draft.choice, id);
   question_columns(logs, still, id.issues.find("infeasible") != nullptr, id);
-  if (id.method == IdentifyMethod::weak_form) smooth_friction(nominal, id.space, id.estimate);
+  if (id.method == IdentifyMethod::weak_form) smooth_friction(draft.nominal, id.space, id.estimate);
   list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
   if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;

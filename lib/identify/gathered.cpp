@@ -22,11 +22,23 @@ int stretch_stride(const std::vector<LogSurvey>& surveys) {
   return static_cast<int>(1 + rows / kMostRows);
 }
 
-void visit_stretches(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys, int joints,
+/// Hands out the stretches of all logs, torques with their gains.
+void visit_stretches(std::span<LogSource* const> logs, const Gathered& gathered,
                      const std::function<void(const Stretch&)>& visit) {
-  const int stride = stretch_stride(surveys);
-  for (std::size_t i = 0; i < logs.size(); ++i)
-    for_each_stretch(*logs[i], static_cast<int>(i), joints, surveys[i], stride, visit);
+  const int stride = stretch_stride(gathered.surveys), joints = gathered.windows.space.joints();
+  const std::vector<double>& gain = gathered.torque_gain;
+  const auto visit_true = [&](const Stretch& s) {
+    Stretch scaled = s;
+    for (int j = 0; j < joints; ++j) scaled.tau.row(j) *= gain[j];
+    visit(scaled);
+  };
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const LogSurvey& survey = gathered.surveys[i];
+    if (gain.empty())
+      for_each_stretch(*logs[i], static_cast<int>(i), joints, survey, stride, visit);
+    else
+      for_each_stretch(*logs[i], static_cast<int>(i), joints, survey, stride, visit_true);
+  }
 }
 
 /// The torque of joint j in row k is that logged `shift` rows before; rows without it go.
@@ -66,7 +78,7 @@ Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int 
   out.windows.shifts = shift_range(period_s);
   for (const double length : window_lengths(shortest_window_s, std::max(period_s, 1e-9)))
     out.windows.sets.emplace_back(length, max_windows);
-  visit_stretches(logs, out.surveys, id.space.joints(), [&](const Stretch& s) {
+  visit_stretches(logs, out, [&](const Stretch& s) {
     out.windows.add(s);
     out.measurements.add(s);
   });
@@ -93,6 +105,16 @@ Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int 
   return out;
 }
 
+void gather_again(std::span<LogSource* const> logs, const ParameterSpace& space, const ExtraSetting& setting,
+                  Gathered& gathered) {
+  WeakSets& windows = gathered.windows;
+  windows.space = space;
+  windows.extra = setting;
+  for (WeakWindows& set : windows.sets) set = set.emptied();
+  visit_stretches(logs, gathered, [&](const Stretch& s) { windows.add(s); });
+  for (WeakWindows& set : windows.sets) set.leave_out(gathered.left_out);
+}
+
 void Gathered::leave_out(const std::vector<int>& logs) {
   for (const int log : logs) left_out[log] = true;
   for (WeakWindows& set : windows.sets) set.leave_out(left_out);
@@ -115,7 +137,7 @@ std::vector<int> still_joints(const Measurements& measurements, const ParameterS
 
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,
                                      const std::vector<int>& shift, Excerpts excerpts) {
-  visit_stretches(logs, gathered.surveys, gathered.windows.space.joints(), [&](const Stretch& s) {
+  visit_stretches(logs, gathered, [&](const Stretch& s) {
     if (gathered.left_out[s.log]) return;
     const Stretch acting = shifted(s, shift);
     if (acting.rows() > 0) excerpts.add(acting);

@@ -19,7 +19,8 @@ struct Gathered {
   std::vector<LogSurvey> surveys;
   WeakSets windows;
   Measurements measurements;
-  std::vector<bool> left_out;  ///< by log: its windows and excerpts do not count
+  std::vector<bool> left_out;       ///< by log: its windows and excerpts do not count
+  std::vector<double> torque_gain;  ///< by joint: true torque of each one logged; empty: all 1
 
   void leave_out(const std::vector<int>& logs);
   /// The balances of those joints, from 1, do not count.
@@ -30,6 +31,10 @@ struct Gathered {
 /// Error(input) when they give too few windows.
 Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
                 const Progress& progress, Identification& id);
+
+/// Reads every log once more for the windows of another space; `gathered` keeps all else.
+void gather_again(std::span<LogSource* const> logs, const ParameterSpace& space, const ExtraSetting& setting,
+                  Gathered& gathered);
 
 /// Joints, from 1, whose position hardly changed in all logs, against its noise or at all: less than 2 mrad
 /// or .2 mm.

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/core/text.hpp"
 #include "lib/identify/verdict/verdict_json.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -77,10 +80,37 @@ ModelTerm term_from(const Json& j) {
           number_or_nan(j.at("held_out_with"))};
 }
 
+constexpr const char* kExtraKinds[] = {"load_friction", "shared_inertia", "shared_viscous", "shared_coulomb",
+                                       "ripple_cosine", "ripple_sine",    "gear_compliance"};
+
+Json extra_json(const ExtraTerm& term) {
+  return {
+      {"kind", kExtraKinds[static_cast<int>(term.kind)]}, {"joint", term.joint + 1}, {"index", term.index}};
+}
+
+ExtraTerm extra_from(const Json& j, const Robot& robot, const std::string& where) {
+  ExtraTerm term;
+  const std::string kind = j.at("kind");
+  const auto* const found = std::find(std::begin(kExtraKinds), std::end(kExtraKinds), kind);
+  term.kind = static_cast<ExtraKind>(found - std::begin(kExtraKinds));
+  term.joint = j.at("joint").get<int>() - 1;
+  term.index = j.at("index");
+  const auto list = is_ripple(term.kind)            ? robot.chain.ripples.size()
+                    : is_of_shared_drive(term.kind) ? robot.chain.shared_drives.size()
+                                                    : static_cast<std::size_t>(robot.joints());
+  if (found == std::end(kExtraKinds) || term.joint < 0 || term.joint >= robot.joints() || term.index < 0 ||
+      static_cast<std::size_t>(term.index) >= list)
+    throw Error(ErrorCode::input, where,
+                fmt::format("names a model term \"{}\" that its robot does not have; identify again",
+                            printable(kind)));
+  return term;
+}
+
 Json state_json(const Identification& id) {
   std::vector<double> estimate(id.estimate.data(), id.estimate.data() + id.estimate.size());
   std::vector<double> covariance(id.covariance.data(), id.covariance.data() + id.covariance.size());
   return {{"robot_file", robot_file_text(id.robot)},
+          {"extra", list_of<Json>(id.space.extra, extra_json)},
           {"estimate", numbers_or_null(estimate)},
           {"covariance", numbers_or_null(covariance)}};
 }
@@ -141,6 +171,9 @@ Identification read(const Json& j, const std::string& where) {
   const Json& state = j.at("state");
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
+  id.space.extra.clear();
+  for (const Json& term : state.value("extra", Json::array()))
+    id.space.extra.push_back(extra_from(term, id.robot, where));
   auto estimate = numbers_or_nan(state.at("estimate")), covariance = numbers_or_nan(state.at("covariance"));
   const auto count = static_cast<std::size_t>(id.space.count());
   if (estimate.size() + 2 * id.space.joints() == count) add_bends(id.space, estimate, covariance);

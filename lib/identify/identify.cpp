@@ -27,7 +27,10 @@ void settle_physical(std::span<const BaseEstimate> estimates, Identification& id
   if (!physical.lengths) return;
   Robot sized = id.robot;
   sized.chain.length = *physical.lengths;
-  const ParameterSpace space = parameter_space(sized);
+  ParameterSpace space = parameter_space(sized);
+  space.extra = id.space.extra;
+  space.chain.ripples = id.space.chain.ripples;
+  space.chain.shared_drives = id.space.chain.shared_drives;
   if (space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space)) id.space = space;
 }
 

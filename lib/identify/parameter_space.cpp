@@ -55,11 +55,69 @@ void explain(ParameterSpace& space, const Eigen::VectorXd& coefficients, const s
   }
 }
 
+/// Such as "rc_1_100": the cosine of joint 1's ripple of 100 a rad.
+std::string extra_name(const ParameterSpace& space, const ExtraTerm& term) {
+  const int joint = term.joint + 1;
+  const auto shared = [&](const char* what) {
+    std::string joints;
+    const Eigen::VectorXd& along = space.chain.shared_drives[term.index].along;
+    for (int j = 0; j < space.joints(); ++j)
+      if (along[j] != 0.0) joints += fmt::format("{}{}", along[j] > 0.0 ? "+" : "-", j + 1);
+    return fmt::format("{}_{}", what, joints);
+  };
+  const auto ripple = [&](const char* what) {
+    return fmt::format("{}_{}_{:.5g}", what, joint, space.chain.ripples[term.index].rate);
+  };
+  switch (term.kind) {
+    case ExtraKind::load_friction:
+      return fmt::format("fl_{}", joint);
+    case ExtraKind::shared_inertia:
+      return shared("jr");
+    case ExtraKind::shared_viscous:
+      return shared("fv");
+    case ExtraKind::shared_coulomb:
+      return shared("fc");
+    case ExtraKind::ripple_cosine:
+      return ripple("rc");
+    case ExtraKind::ripple_sine:
+      return ripple("rs");
+    case ExtraKind::gear_compliance:
+      return fmt::format("gc_{}", joint);
+  }
+  return "";
+}
+
+std::string extra_unit(ExtraKind kind, AxisKind axis) {
+  switch (kind) {
+    case ExtraKind::load_friction:
+      return "1";
+    case ExtraKind::shared_inertia:
+      return axis == AxisKind::revolute ? "kg m^2" : "kg";
+    case ExtraKind::shared_viscous:
+      return viscous_unit(axis);
+    case ExtraKind::gear_compliance:
+      return axis == AxisKind::revolute ? "rad/(N m)" : "m/N";
+    case ExtraKind::shared_coulomb:
+    case ExtraKind::ripple_cosine:
+    case ExtraKind::ripple_sine:
+      break;
+  }
+  return torque_unit(axis);
+}
+
 }  // namespace
+
+int ParameterSpace::joint_of(int p) const {
+  if (p < rigid()) return base[p].joint;
+  if (p < extra_begin()) return (p - rigid()) % joints();
+  if (p < timing()) return extra_at(p).joint;
+  return p == timing() ? 0 : p - timing() - 1;
+}
 
 std::string ParameterSpace::name(int p) const {
   const int n = joints();
   if (p < rigid()) return base[p].name;
+  if (is_extra(p)) return extra_name(*this, extra_at(p));
   if (p == timing()) return "phi";
   if (p > timing()) return fmt::format("width{}", p - timing());
   constexpr const char* kFriction[] = {"fv_", "fc_", "offset_", "fb_", "fs_"};
@@ -69,10 +127,9 @@ std::string ParameterSpace::name(int p) const {
 std::string ParameterSpace::unit(int p) const {
   if (p < rigid()) return base[p].unit;
   if (p == timing()) return "samples";
-  const bool is_width = p > timing();
-  const int joint = is_width ? p - timing() - 1 : (p - rigid()) % joints();
-  const AxisKind axis = chain.geometry[joint].kind;
-  if (is_width) return velocity_unit(axis);
+  const AxisKind axis = chain.geometry[joint_of(p)].kind;
+  if (p > timing()) return velocity_unit(axis);
+  if (is_extra(p)) return extra_unit(extra_at(p).kind, axis);
   if (p < coulomb(0) || p >= skew(0)) return viscous_unit(axis);
   return torque_unit(axis);
 }
@@ -81,6 +138,7 @@ ParameterSpace parameter_space(const Robot& robot) {
   ParameterSpace space;
   space.chain = robot.chain;
   space.chain.rotor_inertia.resize(robot.joints(), 0.0);
+  space.extra = extra_terms_of(robot.chain, robot.gear_compliance);
   const Eigen::MatrixXd all = probe(robot.chain);
   const auto list = base_candidates(robot);
   Eigen::MatrixXd kept(all.rows(), 0), lift(all.cols(), 0);
@@ -125,6 +183,8 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
                          p[space.skew(i)],
                          space.chain.friction[i].bend_width};
   }
+  for (std::size_t k = 0; k < space.extra.size(); ++k)
+    set_extra_value(space.extra[k], p[space.extra_begin() + static_cast<int>(k)], chain);
   return chain;
 }
 
@@ -148,6 +208,8 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
     p[space.skew(i)] = chain.friction[i].skew;
     p[space.log_width(i)] = std::log(chain.friction[i].width);
   }
+  for (std::size_t k = 0; k < space.extra.size(); ++k)
+    p[space.extra_begin() + static_cast<int>(k)] = extra_value(chain, space.extra[k]);
   p[space.timing()] = phi;
   return p;
 }

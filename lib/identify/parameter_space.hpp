@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/identify/extra/extra_term.hpp"
 #include "lib/identify/regressor.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -22,15 +23,17 @@ struct BaseParameter {
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
-/// joint fv, fc, offset, bend, skew, then phi (torque timing), then ln(friction width) of every joint.
-/// Torques are linear in all but the widths.
+/// joint fv, fc, offset, bend, skew, then the extra terms, phi (torque timing) and ln(friction width) of
+/// every joint. Torques are linear in all but the widths.
 struct ParameterSpace {
-  Chain<double> chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter and the width
-                        ///< of bent friction; its links and other friction do not count
+  Chain<double> chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter, the width of
+                        ///< bent friction, the rates of ripples, the drives of shared friction and its width;
+                        ///< its links and other friction do not count
   std::vector<BaseParameter> base;
   /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
   /// parameters.
   Eigen::MatrixXd lift;
+  std::vector<ExtraTerm> extra;
 
   int joints() const { return chain.joints(); }
   int rigid() const { return static_cast<int>(base.size()); }
@@ -39,12 +42,18 @@ struct ParameterSpace {
   int offset(int joint) const { return rigid() + 2 * joints() + joint; }
   int bend(int joint) const { return rigid() + 3 * joints() + joint; }
   int skew(int joint) const { return rigid() + 4 * joints() + joint; }
-  int timing() const { return rigid() + 5 * joints(); }
+  int extra_begin() const { return rigid() + 5 * joints(); }
+  int timing() const { return extra_begin() + static_cast<int>(extra.size()); }
   int log_width(int joint) const { return timing() + 1 + joint; }
   int count() const { return timing() + 1 + joints(); }
   /// Those in which torques are linear: all before the widths.
   int linear() const { return timing() + 1; }
 
+  /// The joint that a parameter belongs to, from 0: of a base parameter and of the timing the first.
+  int joint_of(int parameter) const;
+  bool is_extra(int parameter) const { return parameter >= extra_begin() && parameter < timing(); }
+  /// Of a parameter that is_extra().
+  const ExtraTerm& extra_at(int parameter) const { return extra[parameter - extra_begin()]; }
   std::string name(int parameter) const;
   std::string unit(int parameter) const;
 };

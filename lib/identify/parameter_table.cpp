@@ -24,8 +24,7 @@ bool is_given(const Identification& id, int p) {
 /// Still joints that matter to a parameter: its own for friction, all for what they carry together.
 std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
   if (p < id.space.rigid() || p == id.space.timing()) return still;
-  const int first = p > id.space.timing() ? id.space.log_width(0) : id.space.rigid();
-  const int joint = (p - first) % id.space.joints() + 1;
+  const int joint = id.space.joint_of(p) + 1;
   return std::count(still.begin(), still.end(), joint) > 0 ? std::vector<int>{joint} : std::vector<int>{};
 }
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "lib/core/make_issue.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/robot/dynamics.hpp"
 
@@ -62,6 +61,17 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
     torque.fit.free[p] = true;
     torque.fit.confounded[p] = false;
   }
+}
+
+/// Extra terms of which the fit makes what no robot has.
+void drop_impossible_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+  bool dropped = false;
+  for (int p = space.extra_begin(); p < space.timing(); ++p)
+    if (torque.wanted[p] && !is_possible(space.extra_at(p).kind, torque.fit.parameters[p])) {
+      torque.wanted[p] = false;
+      dropped = true;
+    }
+  if (dropped) torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
 }
 
 /// Friction that drives its joint is none: bends that outdo the Coulomb friction and skews that outdo the
@@ -142,28 +152,26 @@ void drop_own_delays(const WeakSets& windows, const ParameterSpace& space, const
 }  // namespace
 
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
-                     Identification& id) {
-  for (int j = 0; j < id.space.joints(); ++j)
-    id.space.chain.friction[j].bend_width = weak_width(id.space, j, choice.weak.bend[j]);
-  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift};
-  out.fit = fit_weak_form(out.system, id.space, nominal, out.wanted);
-  settle_timing(gathered.windows, id.space, nominal, choice.weak, out);
-  drop_own_delays(gathered.windows, id.space, nominal, choice.weak, out);
-  drop_driving_friction(id.space, nominal, out);
-  hold_at_zero(id.space, nominal, out);
+                     const Robot& robot, ParameterSpace& space) {
+  for (int j = 0; j < space.joints(); ++j)
+    space.chain.friction[j].bend_width = weak_width(space, j, choice.weak.bend[j]);
+  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift, {}};
+  out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
+  settle_timing(gathered.windows, space, nominal, choice.weak, out);
+  drop_own_delays(gathered.windows, space, nominal, choice.weak, out);
+  drop_impossible_extra(space, nominal, out);
+  drop_driving_friction(space, nominal, out);
+  hold_at_zero(space, nominal, out);
   add_doubt(choice.width_doubt, out.fit);
-  const std::string wrong = what_is_wrong(out, gathered, id.space);
+  const std::string wrong = what_is_wrong(out, gathered, space);
   if (wrong.empty()) return out;
-  TorqueFit rotors = with_rotors(out, id.space, id.robot, nominal);
+  TorqueFit rotors = with_rotors(out, space, robot, nominal);
   add_doubt(choice.width_doubt, rotors.fit);
-  if (what_is_wrong(rotors, gathered, id.space).empty()) return rotors;
-  out.fit.parameters.head(id.space.linear()) =
-      nearest_feasible(id.space, id.robot, out.system, out.fit, out.wanted).head(id.space.linear());
-  out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(id.space.linear());
-  id.issues.add(make_issue(
-      "infeasible", Severity::warning,
-      wrong +
-          "; the nearest robot that can be was taken instead: values next to that bound are not told by these logs"));
+  if (what_is_wrong(rotors, gathered, space).empty()) return rotors;
+  out.fit.parameters.head(space.linear()) =
+      nearest_feasible(space, robot, out.system, out.fit, out.wanted).head(space.linear());
+  out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(space.linear());
+  out.not_a_robot = wrong;
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lib/identify/gathered.hpp"
@@ -15,12 +16,13 @@ struct TorqueFit {
   WeakSystem system;
   WeakFit fit;
   std::vector<bool> wanted;
-  std::vector<int> shift;  ///< by joint, samples
+  std::vector<int> shift;   ///< by joint, samples
+  std::string not_a_robot;  ///< why what fits best is none, so that the nearest one was taken; else ""
 };
 
-/// The fit of the torque balance of the chosen windows and terms, brought to a robot that can be; `id.issues`
-/// says where a bound binds. Parameters that are not wanted stay at `nominal`.
+/// The fit of the torque balance of the chosen windows and terms, brought to a robot that can be. Parameters
+/// that are not wanted stay at `nominal`. Bent friction of `space` gets the widths chosen.
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
-                     Identification& id);
+                     const Robot& robot, ParameterSpace& space);
 
 }  // namespace faultline

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/wanted_parameters.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace faultline {
@@ -25,6 +26,13 @@ WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& rob
     if (is_exact("fo" + number)) wanted.asked[space.offset(j)] = false;
     if (is_exact("fb" + number)) wanted.asked[space.bend(j)] = false;
     if (is_exact("fs" + number)) wanted.asked[space.skew(j)] = false;
+  }
+  for (int p = space.extra_begin(); p < space.timing(); ++p) {
+    const int joint = space.joint_of(p);
+    const bool given =
+        space.extra_at(p).kind == ExtraKind::load_friction && is_exact("fl" + std::to_string(joint + 1));
+    wanted.optional[p] = true;
+    wanted.asked[p] = !given && std::count(still.begin(), still.end(), joint + 1) == 0;
   }
   for (int joint : still)
     for (int p : {space.viscous(joint - 1), space.coulomb(joint - 1), space.offset(joint - 1),

@@ -45,10 +45,28 @@ void tell(const Progress& progress, const char* what, double share) {
   if (progress) progress(what, share);
 }
 
-std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const Model& model) {
+/// How the torques of logs that were opened with one robot are read with another.
+struct TorqueReading {
+  std::vector<double> delay_s, gain;
+
+  DelayedTorqueSource of(LogSource& log) const { return {log, delay_s, gain}; }
+};
+
+TorqueReading reading_of(const Robot& opened_with, const Robot& robot) {
+  TorqueReading out{robot.torque_delay_s, robot.torque_gain};
+  out.delay_s.resize(robot.joints(), 0.0);
+  out.gain.resize(robot.joints(), 1.0);
+  for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
+    out.delay_s[j] -= opened_with.torque_delay_s[j];
+  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
+  return out;
+}
+
+std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueReading& reading,
+                                    const Model& model) {
   std::vector<MonitoredRun> runs;
   for (const LabelledLog& entry : labelled) {
-    DelayedTorqueSource log(*entry.log, model.robot.torque_delay_s);
+    DelayedTorqueSource log = reading.of(*entry.log);
     log.rewind();
     runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(log, model)});
   }
@@ -64,11 +82,12 @@ std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
   return labels;
 }
 
-/// The logs that agree, told as if their torques acted when logged.
-std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const Identification& id) {
+/// The logs that agree, told as if their torques acted when and as logged.
+std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
+                                        const Identification& id) {
   std::deque<DelayedTorqueSource> out;
   for (std::size_t i = 0; i < logs.size(); ++i)
-    if (!id.logs[i].left_out) out.emplace_back(*logs[i], id.robot.torque_delay_s);
+    if (!id.logs[i].left_out) out.push_back(reading.of(*logs[i]));
   return out;
 }
 
@@ -80,8 +99,8 @@ std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
 
 /// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
 /// nothing was trained on measure all that.
-void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const LearnOptions& options,
-                     const Progress& progress) {
+void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueReading& reading,
+                     const LearnOptions& options, const Progress& progress) {
   Model& model = out.model;
   const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
                   options.twin};
@@ -96,7 +115,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.evidence.threshold = calm_threshold(model.evidence.threshold, runs_of(calm, kHealthySeeds, {}));
   std::vector<MonitoredRun> runs =
       runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kCalibrated, kSimulated));
-  for (MonitoredRun& run : monitored(labelled, model)) runs.push_back(std::move(run));
+  for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
   tell(progress, "training networks on episodes", kSimulated);
   const TrainingEpisodes training = training_episodes(runs, model);
@@ -136,7 +155,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   Model& model = out.model;
   out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
   model = identified_model(out.identification);
-  std::deque<DelayedTorqueSource> in_time_logs = in_time(logs.sources(), out.identification);
+  const TorqueReading reading = reading_of(robot, model.robot);
+  std::deque<DelayedTorqueSource> in_time_logs = in_time(logs.sources(), reading, out.identification);
   const std::vector<LogSource*> acting = pointers(in_time_logs);
   out.residual =
       learn_residual_generator(acting, model.robot, model.robot.torque_phi.value_or(0.0), options.residual,
@@ -148,7 +168,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   tell(progress, "checking the alarm threshold", kResidualsLearned);
   model.evidence = calibrate_thresholds(acting, model.motion, model.bank, {}, options.threads);
-  learn_from_twin(out, labelled, options, progress);
+  learn_from_twin(out, labelled, reading, options, progress);
   model.sources = sources_of(out.identification, labelled);
   model.twin = options.twin;
   return out;

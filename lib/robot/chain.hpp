@@ -40,7 +40,8 @@ struct LinkInertia {
 
 /// F(dq) = viscous dq + coulomb tanh(dq / width) + offset + bend tanh(dq / bend_width) + skew |dq|. A
 /// negative bend is friction that falls with speed (Stribeck; Makkar et al. 2005), a positive one friction
-/// that rises ever less; the skew is viscous friction that differs by direction.
+/// that rises ever less; the skew is viscous friction that differs by direction. Beside it a gear
+/// loses load |r| tanh(dq / width), r the torque M ddq + h + G that it carries (see extra_torque.hpp).
 template <typename S>
 struct Friction {
   S viscous = S(0.0);     ///< N m s/rad or N s/m
@@ -50,14 +51,36 @@ struct Friction {
   S bend = S(0.0);        ///< N m or N
   S skew = S(0.0);        ///< N m s/rad or N s/m
   S bend_width = S(1.0);  ///< rad/s or m/s
+  S load = S(0.0);        ///< share of the torque carried, below 1
 };
 
-/// Largest rise of F with dq, near rest.
+/// Largest rise of friction with dq, near rest, of a drive that carries at most `torque`.
 template <typename S>
-S steepest(const Friction<S>& f) {
+S steepest(const Friction<S>& f, const S& torque = S(0.0)) {
   using std::abs;
-  return f.viscous + abs(f.coulomb) / f.width + abs(f.bend) / f.bend_width + abs(f.skew);
+  return f.viscous + (abs(f.coulomb) + abs(f.load) * torque) / f.width + abs(f.bend) / f.bend_width +
+         abs(f.skew);
 }
+
+/// Torque that repeats with a joint's position, of its gear, motor or spindle: cosine cos(rate q) + sine
+/// sin(rate q).
+struct Ripple {
+  int joint = 0;                    ///< from 0
+  double rate = 0.0;                ///< 1/rad or 1/m
+  double cosine = 0.0, sine = 0.0;  ///< N m or N
+};
+
+/// A drive that turns with several joints, at the speed s = along . dq: its rotor and friction take
+/// along (rotor_inertia ds/dt + viscous s + coulomb tanh(s / width)).
+struct SharedDrive {
+  Eigen::VectorXd along;  ///< by joint
+  double viscous = 0.0, coulomb = 0.0, width = 0.01;
+  double rotor_inertia = 0.0;  ///< kg m^2 or kg
+
+  double speed(const double* dq) const {
+    return along.dot(Eigen::Map<const Eigen::VectorXd>(dq, along.size()));
+  }
+};
 
 /// Serial chain of revolute and prismatic axes with its parameters: all that dynamics needs.
 template <typename S>
@@ -67,7 +90,9 @@ struct Chain {
       length;  ///< of each link along the next joint's `direction`, m; the last one carries the tip
   std::vector<LinkInertia<S>> links;
   std::vector<Friction<S>> friction;
-  std::vector<S> rotor_inertia;                                ///< seen at the joint, kg m^2 or kg
+  std::vector<S> rotor_inertia;  ///< seen at the joint, kg m^2 or kg
+  std::vector<Ripple> ripples;
+  std::vector<SharedDrive> shared_drives;
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< in the base frame, m/s^2
 
   int joints() const { return static_cast<int>(geometry.size()); }
@@ -79,14 +104,16 @@ Chain<T> cast_chain(const Chain<S>& chain) {
   Chain<T> out;
   out.geometry = chain.geometry;
   out.gravity = chain.gravity;
+  out.ripples = chain.ripples;
+  out.shared_drives = chain.shared_drives;
   for (const S& l : chain.length) out.length.push_back(T(l));
   for (const S& i : chain.rotor_inertia) out.rotor_inertia.push_back(T(i));
   for (const auto& link : chain.links)
     out.links.push_back(
         {T(link.mass), link.first_moment.template cast<T>(), link.inertia.template cast<T>()});
   for (const auto& f : chain.friction)
-    out.friction.push_back(
-        {T(f.viscous), T(f.coulomb), T(f.offset), T(f.width), T(f.bend), T(f.skew), T(f.bend_width)});
+    out.friction.push_back({T(f.viscous), T(f.coulomb), T(f.offset), T(f.width), T(f.bend), T(f.skew),
+                            T(f.bend_width), T(f.load)});
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include "lib/robot/dh/dh_file.hpp"
 #include "lib/robot/robot_words.hpp"
-#include "lib/robot/toml_values.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/robot/chain.hpp"
+#include "lib/robot/extra_torque.hpp"
 #include "lib/robot/link_pose.hpp"
 
 /// Rigid-body dynamics of a chain: M(q) ddq + h(q, dq) + G(q) + F(dq) = tau. Templated on the scalar, so that
@@ -14,7 +15,7 @@
 /// (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6).
 namespace faultline {
 
-/// Rigid-body torque M(q) ddq + h(q, dq) + G(q), without friction.
+/// Rigid-body torque M(q) ddq + h(q, dq) + G(q), rotors included, without friction.
 template <typename S>
 JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
                                  const JointVector<S>& ddq, const Eigen::Vector3d& gravity) {
@@ -55,6 +56,11 @@ JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q,
     moment[i - 1] += pose[i].rotation * moment[i] + pose[i].position.cross(force_in_parent);
     force[i - 1] += force_in_parent;
   }
+  for (const SharedDrive& drive : chain.shared_drives) {
+    S rate(0.0);
+    for (int i = 0; i < n; ++i) rate += drive.along[i] * ddq[i];
+    for (int i = 0; i < n; ++i) tau[i] += drive.along[i] * drive.rotor_inertia * rate;
+  }
   return tau;
 }
 
@@ -70,11 +76,15 @@ JointVector<S> friction_torque(const Chain<S>& chain, const JointVector<S>& dq) 
   return torque;
 }
 
-/// tau = M ddq + h + G + F.
+/// tau = M ddq + h + G + F, F with ripples and all friction.
 template <typename S>
 JointVector<S> inverse_dynamics(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
                                 const JointVector<S>& ddq) {
-  return rigid_body_torque(chain, q, dq, ddq, chain.gravity) + friction_torque(chain, dq);
+  JointVector<S> tau = rigid_body_torque(chain, q, dq, ddq, chain.gravity);
+  for (int i = 0; i < chain.joints(); ++i) tau[i] += load_friction(chain.friction[i], dq[i], tau[i]);
+  tau += friction_torque(chain, dq);
+  add_extra_torque(chain, q, dq, tau);
+  return tau;
 }
 
 /// h(q, dq) + G(q): Coriolis, centrifugal and gravity torque.
@@ -135,6 +145,9 @@ JointMatrix<S> inertia_matrix(const Chain<S>& chain, const JointVector<S>& q) {
     parent.first_moment += h + body.mass * p;
     parent.mass += body.mass;
   }
+  for (const SharedDrive& drive : chain.shared_drives)
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) m(i, k) += drive.along[i] * drive.along[k] * drive.rotor_inertia;
   return m;
 }
 
@@ -142,7 +155,11 @@ JointMatrix<S> inertia_matrix(const Chain<S>& chain, const JointVector<S>& q) {
 template <typename S>
 JointVector<S> forward_dynamics(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
                                 const JointVector<S>& tau) {
-  const JointVector<S> net = tau - bias_torque(chain, q, dq) - friction_torque(chain, dq);
+  JointVector<S> drag = friction_torque(chain, dq);
+  add_extra_torque(chain, q, dq, drag);
+  JointVector<S> net = tau - drag;
+  for (int i = 0; i < chain.joints(); ++i) net[i] = carried_torque(chain.friction[i], dq[i], net[i]);
+  net -= bias_torque(chain, q, dq);
   return inertia_matrix(chain, q).ldlt().solve(net);
 }
 

@@ -65,6 +65,9 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, co
   }
   add_prismatic(bodies, inertia, bias);
   for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies.rotor_inertia[i];
+  for (const SharedDrive& drive : chain_.shared_drives)
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) inertia[i * n + k] += drive.along[i] * drive.along[k] * drive.rotor_inertia;
 }
 
 void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* bias) const {
@@ -143,15 +146,24 @@ void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& 
   }
 }
 
+void FastDynamics::drag(const JointVector<double>& q, const JointVector<double>& dq,
+                        const JointVector<double>& tau, JointVector<double>& torque) const {
+  friction(dq, torque);
+  if (!has_extra_) return;
+  add_extra_torque(chain_, q, dq, torque);
+  for (int i = 0; i < joints_; ++i)
+    torque[i] = tau[i] - carried_torque(chain_.friction[i], dq[i], tau[i] - torque[i]);
+}
+
 void FastDynamics::acceleration(const JointVector<double>& q, const JointVector<double>& dq,
                                 const JointVector<double>& tau, JointVector<double>& ddq,
                                 unsigned locked) const {
   JointMatrix<double> inertia;
-  JointVector<double> bias, drag;
+  JointVector<double> bias, lost;
   inertia_and_bias(q, dq, inertia, bias);
-  friction(dq, drag);
+  drag(q, dq, tau, lost);
   ddq.resize(joints_);
-  for (int i = 0; i < joints_; ++i) ddq[i] = tau[i] - bias[i] - drag[i];
+  for (int i = 0; i < joints_; ++i) ddq[i] = tau[i] - bias[i] - lost[i];
   solve_small(joints_, inertia.data(), ddq.data(), locked);
 }
 

@@ -50,7 +50,11 @@ class FastDynamics {
   void add_bodies(const Bodies& more, double share, Bodies& out) const;
   /// F(dq).
   void friction(const JointVector<double>& dq, JointVector<double>& torque) const;
-  /// ddq = M^-1 (tau - h - G - F). Joints whose bit is set in `locked` (bit 0 the first) do not accelerate.
+  /// All that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
+  void drag(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
+            JointVector<double>& torque) const;
+  /// ddq = M^-1 (tau - drag - h - G). Joints whose bit is set in `locked` (bit 0 the first) do not
+  /// accelerate.
   void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
                     const JointVector<double>& tau, JointVector<double>& ddq, unsigned locked = 0) const;
 
@@ -66,6 +70,7 @@ class FastDynamics {
   int joints_ = 0;
   bool planar_ = false;
   bool has_friction_ = false;
+  bool has_extra_ = false;  ///< ripples, load friction or friction that joints share
   bool gravity_in_plane_ = false;
   int revolute_ = 0;
   int prismatic_ = 0;

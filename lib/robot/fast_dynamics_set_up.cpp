@@ -31,6 +31,8 @@ FastDynamics::FastDynamics(const Chain<double>& chain) : chain_(chain), joints_(
   for (const auto& f : chain_.friction)
     has_friction_ = has_friction_ || f.viscous != 0.0 || f.coulomb != 0.0 || f.offset != 0.0 ||
                     f.bend != 0.0 || f.skew != 0.0;
+  has_extra_ = !chain_.ripples.empty() || !chain_.shared_drives.empty();
+  for (const auto& f : chain_.friction) has_extra_ = has_extra_ || f.load != 0.0;
   if (chain_.rotor_inertia.empty()) chain_.rotor_inertia.assign(joints_, 0.0);
   planar_ = joints_ > 0 && has_parallel_axes(chain_);
   if (planar_) set_up_planar(chain_.geometry[0].axis);

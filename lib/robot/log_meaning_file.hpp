@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/robot/robot.hpp"
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 namespace faultline {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "lib/robot/toml_text.hpp"
-#include "lib/robot/toml_values.hpp"
+#include "lib/robot/toml/toml_text.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
 namespace {

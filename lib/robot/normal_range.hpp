@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 namespace faultline {
 

@@ -7,7 +7,7 @@ namespace faultline {
 
 std::vector<std::string> parameter_names(int joints) {
   std::vector<std::string> names;
-  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "fb", "fs", "jr"})
+  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "fb", "fs", "fl", "jr"})
     for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
   return names;
 }
@@ -33,6 +33,8 @@ bool set_parameter(Robot& robot, const std::string& name, double value) {
     chain.friction[i].bend = value;
   else if (what == "fs")
     chain.friction[i].skew = value;
+  else if (what == "fl")
+    chain.friction[i].load = value;
   else if (what == "jr")
     chain.rotor_inertia[i] = value;
   else if (what != "m" && what != "l")

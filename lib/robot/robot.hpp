@@ -46,8 +46,8 @@ struct Robot {
   Chain<double> chain;
   std::vector<LinkShape> shapes;
   /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
-  /// friction), fo1.. (friction offset), jr1.. (rotor inertia seen at the joint). They are also set in
-  /// `chain`.
+  /// friction), fo1.. (friction offset), fl1.. (friction's share of the load), jr1.. (rotor inertia seen at
+  /// the joint). They are also set in `chain`.
   std::map<std::string, KnownValue> known;
   /// Known mass carried at the tip (kg) during single logs, by the log's file name without folders.
   std::map<std::string, KnownValue> payloads;
@@ -58,6 +58,11 @@ struct Robot {
   /// Identified, by joint: how much later the torque acts than it is logged, in whole samples of the logs it
   /// was identified from; s. Empty when all act when they are logged.
   std::vector<double> torque_delay_s;
+  /// Identified, by joint: true torque of each one logged, beside the units of the columns. Empty when all 1.
+  std::vector<double> torque_gain;
+  /// Identified, by joint: how far its gear gives way between drive and link, rad/(N m) or m/N. Empty when
+  /// all are rigid. The equations of motion here are those of rigid gears.
+  std::vector<double> gear_compliance;
   LogMeaning log;
   NormalRange normal;
 

@@ -8,14 +8,17 @@
 #include "lib/core/error.hpp"
 #include "lib/robot/chain_file.hpp"
 #include "lib/robot/dh/dh_file.hpp"
+#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"
-#include "lib/robot/toml_values.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kMostLoad = 0.9;  // of a drive's torque that its friction may take
 
 void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
   const int n = robot.joints();
@@ -35,6 +38,11 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
   set(friction, "bend", &Friction<double>::bend, true);
   set(friction, "bend_width", &Friction<double>::bend_width, false);
   set(friction, "skew", &Friction<double>::skew, true);
+  set(friction, "load", &Friction<double>::load, false);
+  for (const Friction<double>& f : robot.chain.friction)
+    if (f.load >= kMostLoad)
+      friction.fail("load",
+                    fmt::format("expected a share of the torque below {}, found {}", kMostLoad, f.load));
   if (table.has("rotor_inertia")) {
     robot.chain.rotor_inertia = table.each("rotor_inertia", n);
     check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
@@ -49,6 +57,9 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
     f.bend = own.number("bend", f.bend);
     f.bend_width = positive(own, "bend_width", f.bend_width);
     f.skew = own.number("skew", f.skew);
+    f.load = not_negative(own, "load", f.load);
+    if (f.load >= kMostLoad)
+      own.fail("load", fmt::format("expected a share of the torque below {}, found {}", kMostLoad, f.load));
     robot.chain.rotor_inertia[i] = not_negative(joints[i], "rotor_inertia", robot.chain.rotor_inertia[i]);
   }
 }
@@ -64,8 +75,7 @@ void read_identified(Robot& robot, const TomlTable& table) {
   const TomlTable identified = table.table("identified");
   if (!robot.identified) return;
   if (identified.has("torque_phi")) robot.torque_phi = identified.number("torque_phi");
-  if (identified.has("torque_delay_s"))
-    robot.torque_delay_s = identified.each("torque_delay_s", robot.joints());
+  read_drives(robot, identified);
   const auto joints = identified.tables("joint");
   if (static_cast<int>(joints.size()) != robot.joints())
     identified.fail("joint",
@@ -78,15 +88,31 @@ void read_identified(Robot& robot, const TomlTable& table) {
     chain.links[i].mass = joint.number("mass");
     chain.links[i].first_moment = vector3(joint, "first_moment", {0, 0, 0});
     chain.links[i].inertia = inertia_tensor(joint, "inertia");
-    chain.friction[i] = {
-        joint.number("viscous"),           joint.number("coulomb"),   joint.number("offset"),
-        positive(joint, "width", 0.01),    joint.number("bend", 0.0), joint.number("skew", 0.0),
-        positive(joint, "bend_width", 1.0)};
+    chain.friction[i] = {joint.number("viscous"),
+                         joint.number("coulomb"),
+                         joint.number("offset"),
+                         positive(joint, "width", 0.01),
+                         joint.number("bend", 0.0),
+                         joint.number("skew", 0.0),
+                         positive(joint, "bend_width", 1.0),
+                         joint.number("load", 0.0)};
     chain.rotor_inertia[i] = joint.number("rotor_inertia", 0.0);
   }
+  robot.chain.ripples.clear();
+  robot.chain.shared_drives.clear();
+  read_extra_torque(identified, robot.chain);
 }
 
 }  // namespace
+
+void read_drives(Robot& robot, const TomlTable& table) {
+  const auto read = [&](const char* key, std::vector<double>& values) {
+    if (table.has(key)) values = table.each(key, robot.joints());
+  };
+  read("torque_delay_s", robot.torque_delay_s);
+  read("torque_gain", robot.torque_gain);
+  read("gear_compliance", robot.gear_compliance);
+}
 
 void read_known(Robot& robot, const TomlTable& table) {
   const TomlTable known = table.table("known");
@@ -97,7 +123,7 @@ void read_known(Robot& robot, const TomlTable& table) {
       known.fail(
           key,
           fmt::format(
-              "is no parameter of this robot; expected m, l, fv, fc, fo, fb, fs or jr with a joint from 1 "
+              "is no parameter of this robot; expected m, l, fv, fc, fo, fb, fs, fl or jr with a joint from 1 "
               "to {}{}",
               robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
     }
@@ -134,6 +160,7 @@ Robot robot_from_table(const TomlTable& table) {
   read_geometry(robot, joints);
   read_links(robot, table);
   read_friction(robot, table, joints);
+  read_extra_torque(table, robot.chain);
   read_known(robot, table);
   read_dh(robot, table, joints);
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());

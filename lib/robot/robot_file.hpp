@@ -5,7 +5,7 @@
 
 #include "lib/robot/parameter.hpp"
 #include "lib/robot/robot.hpp"
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 namespace faultline {
 

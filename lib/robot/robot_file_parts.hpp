@@ -4,13 +4,17 @@
 #include <string>
 
 #include "lib/robot/robot.hpp"
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 /// Sections of a robot file that stand in other files, too, read and written.
 namespace faultline {
 
 /// [known] and [payload]; what is known is set in the chain.
 void read_known(Robot& robot, const TomlTable& table);
+
+/// What was identified of the drives and their torque columns: delay, gain, gear compliance.
+void read_drives(Robot& robot, const TomlTable& table);
+std::string drive_text(const Robot& robot);
 
 /// [known] and [payload]; "" when nothing is known.
 std::string facts_text(const Robot& robot);

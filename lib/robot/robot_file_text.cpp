@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"
-#include "lib/robot/toml_text.hpp"
+#include "lib/robot/toml/toml_text.hpp"
 
 namespace faultline {
 namespace {
 
-/// The bent and lopsided part of friction, where a joint has it.
-std::string bend_text(const Friction<double>& f, const char* separator) {
-  if (f.bend == 0.0 && f.skew == 0.0) return "";
-  return fmt::format("{0}bend = {1}{0}bend_width = {2}{0}skew = {3}", separator, toml_number(f.bend),
-                     toml_number(f.bend_width), toml_number(f.skew));
+/// The parts of friction that few joints have.
+std::string rare_friction_text(const Friction<double>& f, const char* separator) {
+  std::string text;
+  if (f.bend != 0.0 || f.skew != 0.0)
+    text = fmt::format("{0}bend = {1}{0}bend_width = {2}{0}skew = {3}", separator, toml_number(f.bend),
+                       toml_number(f.bend_width), toml_number(f.skew));
+  if (f.load != 0.0) text += fmt::format("{}load = {}", separator, toml_number(f.load));
+  return text;
+}
+
+std::string by_joint_text(const char* key, const std::vector<double>& values) {
+  if (values.empty()) return "";
+  return fmt::format("{} = {}\n", key,
+                     toml_numbers(Eigen::Map<const Eigen::VectorXd>(
+                         values.data(), static_cast<Eigen::Index>(values.size()))));
 }
 
 std::string joint_text(const Robot& robot, int i) {
@@ -26,7 +37,7 @@ std::string joint_text(const Robot& robot, int i) {
   if (robot.identified) return text;  // [identified] has the rest
   text += fmt::format("friction = {{viscous = {}, coulomb = {}, offset = {}, width = {}{}}}\n",
                       toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.offset),
-                      toml_number(f.width), bend_text(f, ", "));
+                      toml_number(f.width), rare_friction_text(f, ", "));
   return text + fmt::format("rotor_inertia = {}\n", toml_number(robot.chain.rotor_inertia[i]));
 }
 
@@ -63,9 +74,7 @@ std::string coupling_text(const Eigen::MatrixXd& coupling) {
 std::string identified_text(const Robot& robot) {
   std::string text = "\n[identified]\n";
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
-  if (!robot.torque_delay_s.empty())
-    text += fmt::format("torque_delay_s = {}\n", toml_numbers(Eigen::Map<const Eigen::VectorXd>(
-                                                     robot.torque_delay_s.data(), robot.joints())));
+  text += drive_text(robot);
   for (int i = 0; i < robot.joints(); ++i) {
     const LinkInertia<double>& link = robot.chain.links[i];
     const Friction<double>& f = robot.chain.friction[i];
@@ -74,12 +83,18 @@ std::string identified_text(const Robot& robot) {
         "coulomb = {}\noffset = {}\nwidth = {}{}\nrotor_inertia = {}\n",
         toml_number(robot.chain.length[i]), toml_number(link.mass), toml_numbers(link.first_moment),
         toml_tensor(link.inertia), toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.offset),
-        toml_number(f.width), bend_text(f, "\n"), toml_number(robot.chain.rotor_inertia[i]));
+        toml_number(f.width), rare_friction_text(f, "\n"), toml_number(robot.chain.rotor_inertia[i]));
   }
-  return text;
+  return text + extra_torque_text(robot.chain, "identified.");
 }
 
 }  // namespace
+
+std::string drive_text(const Robot& robot) {
+  return by_joint_text("torque_delay_s", robot.torque_delay_s) +
+         by_joint_text("torque_gain", robot.torque_gain) +
+         by_joint_text("gear_compliance", robot.gear_compliance);
+}
 
 std::string facts_text(const Robot& robot) {
   std::string text;
@@ -105,6 +120,7 @@ std::string robot_file_text(const Robot& robot) {
   text += fmt::format("gravity = {}\n", toml_numbers(robot.chain.gravity));
   for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i);
   for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
+  if (!robot.identified) text += extra_torque_text(robot.chain, "");
   text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
   if (robot.identified) text += identified_text(robot);
   return text;

@@ -18,6 +18,7 @@ constexpr double kRateTimesStep = 1.0;
 
 /// Steps a stiff friction may ask for within max_step_s.
 constexpr double kMostSubSteps = 10.0;
+constexpr double kLively = 10.0;  // rad/s^2 or m/s^2
 
 /// Adds `mass` at the end of the last link.
 void add_payload(Chain<double>& chain, double mass) {
@@ -46,6 +47,12 @@ JointVector<double> mobility(const FastDynamics& dynamics) {
     most = most.cwiseMax(inverse.diagonal());
   }
   return most;
+}
+
+/// What a drive usually has to give: the weight and a lively acceleration at q = 0.
+JointVector<double> usual_torque(const Chain<double>& chain) {
+  const JointVector<double> zero = JointVector<double>::Zero(chain.joints());
+  return kLively * inertia_matrix(chain, zero).diagonal() + gravity_torque(chain, zero).cwiseAbs();
 }
 
 }  // namespace
@@ -83,13 +90,19 @@ void Plant::set_stops(const JointStops& stops) {
 /// more than kMostSubSteps.
 void Plant::choose_steps(Chain<double>& chain) {
   const JointVector<double> most = mobility(FastDynamics(chain));
+  const JointVector<double> usual = usual_torque(chain);
   double sliding = 0.0, near_rest = 0.0;
   for (int i = 0; i < chain.joints(); ++i) {
     Friction<double>& f = chain.friction[i];
-    f.width = std::max(f.width, most[i] * f.coulomb * max_step_ / (kRateTimesStep * kMostSubSteps));
+    f.width = std::max(
+        f.width, most[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
     sliding = std::max(sliding, most[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
     if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(most[i] * stop_stiffness_[i]));
-    near_rest = std::max(near_rest, most[i] * steepest(f));
+    near_rest = std::max(near_rest, most[i] * steepest(f, usual[i]));
+  }
+  for (const SharedDrive& f : chain.shared_drives) {
+    const double mobile = f.along.cwiseAbs2().dot(Eigen::VectorXd(most));
+    near_rest = std::max(near_rest, mobile * (f.viscous + f.coulomb / f.width));
   }
   const auto step_for = [&](double rate) {
     return rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;

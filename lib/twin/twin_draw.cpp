@@ -120,6 +120,7 @@ void draw_day(const Twin& twin, Robot& robot, Random& random) {
     const double scale = std::max(1.0 + std::clamp(change, -most, most), kLeastFriction);
     robot.chain.friction[slow.joint].viscous *= scale;
     robot.chain.friction[slow.joint].coulomb *= scale;
+    robot.chain.friction[slow.joint].load *= scale;
   }
 }
 

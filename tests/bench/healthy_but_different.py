@@ -24,6 +24,7 @@ ONSET_S = 2.6137
 
 MASSES = {"m1": 9.0, "m2": 6.0, "m3": 2.0}
 VISCOUS, COULOMB = [2.5, 1.2, 15.0], [3.5, 2.2, 6.0]
+RATING = [150, 80, 250]
 Q_NOISE, DQ_NOISE = [5e-5, 5e-5, 1e-5], [4e-3, 4e-3, 8e-4]
 
 # kind: size by joint, more keys
@@ -46,8 +47,9 @@ def scaled(values, by):
 class Row:
     """A difference: what the simulated machine is, and what becomes of its log."""
 
-    def __init__(self, friction=1.0, masses=1.0, noise=1.0, change=None):
+    def __init__(self, friction=1.0, masses=1.0, noise=1.0, change=None, load=0.0, ripple_rates=()):
         self.friction, self.masses, self.noise, self.change = friction, masses, noise, change
+        self.load, self.ripple_rates = load, ripple_rates
 
 
 def column(head, name):
@@ -104,10 +106,15 @@ ROWS = {
     "velocity_by_difference": Row(change=derived_velocity),
     "torque_constant_+2%": Row(change=logged_torque(1 / 1.02)),
     "torque_constant_-2%": Row(change=logged_torque(1 / 0.98)),
+    "ripple_1%_of_rating": Row(ripple_rates=(8, 6, 60)),
+    "cogging_1%_of_rating": Row(ripple_rates=(120, 90, 900)),
+    "friction_of_load_5%": Row(load=0.05),
 }
 
 
 def spec_text(row, seed):
+    ripples = ", ".join(f"{{joint = {j + 1}, rate = {rate}, sine = {0.01 * RATING[j]}}}"
+                        for j, rate in enumerate(row.ripple_rates))
     known = ", ".join(f"{name} = {row.masses * value}" for name, value in MASSES.items())
     return f"""format = "csv"
 seed = {seed}
@@ -118,7 +125,7 @@ noise = {{q = {scaled(Q_NOISE, row.noise)}, dq = {scaled(DQ_NOISE, row.noise)}}}
 controller = {{mass_error_std = 0.03}}
 
 [limits]
-torque = [150, 80, 250]
+torque = {RATING}
 stop_low = [-2.6, -2.6, -0.36]
 stop_high = [2.6, 2.6, 0.06]
 overspeed = [15, 15, 3]
@@ -133,7 +140,8 @@ dwell_s = [0.1, 0.3]
 name = "different"
 axes = "RRP"
 known = {{{known}, l1 = 0.4, l2 = 0.3}}
-friction = {{viscous = {scaled(VISCOUS, row.friction)}, coulomb = {scaled(COULOMB, row.friction)}, width = 0.02}}
+friction = {{viscous = {scaled(VISCOUS, row.friction)}, coulomb = {scaled(COULOMB, row.friction)}, width = 0.02, load = {row.load}}}
+ripple = [{ripples}]
 """
 
 

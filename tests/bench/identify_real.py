@@ -200,11 +200,33 @@ def kept_samples(log, hz):
 def judged_part(robot, log, motion_hz, torque_hz, model):
     motion = motion_of(log, motion_hz)
     t, rate = log[0], 1 / (log[0][1] - log[0][0])
-    torque = full_regressor(robot, motion, model["width"], model.get("coupled")) @ np.array(model["numbers"])
+    columns = full_regressor(robot, motion, model["width"], model.get("coupled"))
+    torque = columns @ np.array(model["numbers"])
+    add_extra_terms(robot, motion, model, columns, torque)
     for j, (bend, width, skew) in enumerate(model.get("bends", [])):
         torque[:, j] += bend * np.tanh(motion[1][:, j] / width) + skew * np.abs(motion[1][:, j])
+    torque /= np.array(model.get("gain", [1.0] * robot.n))
     at = kept_samples(log, torque_hz)
     return low_pass(torque, torque_hz, rate)[at], t, at, low_pass(log[3], torque_hz, rate), motion[1][at]
+
+
+def add_extra_terms(robot, motion, model, columns, torque):
+    """Load friction, ripples and drives that joints share of an identified robot."""
+    q, dq, ddq = motion
+    rigid = 11 * robot.n  # links and rotors
+    carried = columns[:, :, :rigid] @ np.array(model["numbers"][:rigid])
+    for drive in model.get("shared", []):
+        along = np.array(drive["along"])
+        carried += np.outer(drive["rotor_inertia"] * ddq @ along, along)
+        speed = dq @ along
+        drag = (drive["viscous"] * speed + drive["coulomb"] * np.tanh(speed / drive["width"])
+                + drive["rotor_inertia"] * ddq @ along)
+        torque += np.outer(drag, along)
+    for j, load in enumerate(model.get("load", [])):
+        torque[:, j] += load * np.abs(carried[:, j]) * np.tanh(dq[:, j] / model["width"][j])
+    for ripple in model.get("ripples", []):
+        angle = ripple["rate"] * q[:, ripple["joint"] - 1]
+        torque[:, ripple["joint"] - 1] += ripple["cosine"] * np.cos(angle) + ripple["sine"] * np.sin(angle)
 
 
 def judge(robot, logs, model, name):
@@ -394,6 +416,9 @@ def identified_model(toml, report):
         delay = (0.5 - identified.get("torque_phi", 0.5)) * period
     delay = delay if isinstance(delay, list) else [delay] * len(joints)
     return {"numbers": links + own, "width": [j["width"] for j in joints], "bends": bends,
+            "load": [j.get("load", 0.0) for j in joints], "ripples": identified.get("ripple", []),
+            "shared": identified.get("shared_drive", []),
+            "gain": identified.get("torque_gain", [1.0] * len(joints)),
             "delay": [d or 0.0 for d in delay]}
 
 

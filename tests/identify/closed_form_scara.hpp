@@ -23,7 +23,11 @@ struct ClosedFormScara {
   double width = 0.02;
   Triple stribeck = {0, 0, 0};  ///< Coulomb friction near rest beyond fc, gone at a few stribeck_speed
   double stribeck_speed = 0.3;
-  Triple skew = {0, 0, 0};  ///< friction that grows with speed in one direction and falls in the other
+  Triple skew = {0, 0, 0};    ///< friction that grows with speed in one direction and falls in the other
+  Triple load = {0, 0, 0};    ///< share of the torque carried that friction takes
+  Triple ripple = {0, 0, 0};  ///< amplitude of a torque that repeats with the position
+  Triple ripple_rate = {40, 25, 314.16};    ///< 1/rad, 1/m
+  double shared_fv = 0.0, shared_fc = 0.0;  ///< friction of a drive that turns with joints 1 and 2 together
 
   double carried() const { return m3 + payload; }
   double a() const { return l1 * l1 * (m1 / 3 + m2 + carried()); }
@@ -32,11 +36,14 @@ struct ClosedFormScara {
 
   Triple acceleration(const State& x, const Triple& tau) const {
     const double cos2 = std::cos(x.q[1]), bend = c() * std::sin(x.q[1]);
+    const double both = x.dq[0] + x.dq[1], drag = shared_fv * both + shared_fc * std::tanh(both / width);
     Triple force;
     for (int j = 0; j < 3; ++j) {
-      const double slow = std::exp(-std::pow(x.dq[j] / stribeck_speed, 2));
-      force[j] = tau[j] - fv[j] * x.dq[j] - (fc[j] + stribeck[j] * slow) * std::tanh(x.dq[j] / width) -
-                 skew[j] * std::abs(x.dq[j]);
+      const double slow = std::exp(-std::pow(x.dq[j] / stribeck_speed, 2)), sign = std::tanh(x.dq[j] / width);
+      force[j] = tau[j] - fv[j] * x.dq[j] - (fc[j] + stribeck[j] * slow) * sign -
+                 skew[j] * std::abs(x.dq[j]) - ripple[j] * std::sin(ripple_rate[j] * x.q[j] + 0.6);
+      if (j < 2) force[j] -= drag;
+      force[j] /= 1.0 + load[j] * sign * (force[j] > 0.0 ? 1.0 : -1.0);
     }
     force[0] += bend * (2 * x.dq[0] * x.dq[1] + x.dq[1] * x.dq[1]);
     force[1] -= bend * x.dq[0] * x.dq[0];
@@ -66,6 +73,7 @@ struct ClosedFormRun {
   double duration_s = 4.0, period_s = 0.005;
   ClosedFormScara::Triple reach = {1.2, 1.4, 0.15};  ///< amplitude of the motion; 0: the joint rests
   double q_noise = 1e-4, dq_noise = 5e-3;
+  ClosedFormScara::Triple torque_gain = {1, 1, 1};  ///< true torque of each one logged
   std::uint64_t seed = 1;
 };
 
@@ -101,7 +109,7 @@ inline Log simulate_closed_form(const ClosedFormScara& robot, const ClosedFormRu
                (j == 2 ? robot.carried() * 9.81 : 0.0);
       log.q[j].push_back(x.q[j] + run.q_noise * random.normal());
       log.dq[j].push_back(x.dq[j] + run.dq_noise * random.normal());
-      log.tau[j].push_back(tau[j]);
+      log.tau[j].push_back(tau[j] / run.torque_gain[j]);
     }
     for (int i = 0; i < pieces; ++i) robot.step(x, tau, run.period_s / pieces);
   }

@@ -6,6 +6,7 @@
 
 #include "lib/evidence/filter/fault_load.hpp"
 #include "lib/evidence/filter/small_inverse.hpp"
+#include "lib/robot/extra_torque.hpp"
 
 namespace faultline {
 namespace {
@@ -105,6 +106,40 @@ void SizedDynamics::rigid_body(const MotionState& at, RigidBody& body) const {
   body.inertia += tip_mass_ * body.payload_inertia;
 }
 
+/// Takes ripples and friction that joints share out of the torque that accelerates them.
+void SizedDynamics::take_extra_torque(const RigidBody& body, JointArray& net, Acceleration& out) const {
+  const Chain<double>& chain = load_.model.chain;
+  if (chain.ripples.empty() && chain.shared_drives.empty()) return;
+  JointVector<double> extra = JointVector<double>::Zero(joints_);
+  add_extra_torque(chain, body.q, body.dq, extra);
+  for (int j = 0; j < joints_; ++j) net[j] -= extra[j];
+  for (const SharedDrive& f : chain.shared_drives) {
+    const double sign = saturating_tanh(f.speed(body.dq.data()) / f.width);
+    for (int j = 0; j < joints_; ++j) {
+      const double share = f.along[j] * f.along[j];
+      out.friction_slope[j] += share * (f.viscous + f.coulomb * (1.0 - sign * sign) / f.width);
+      out.stiffness = std::max(
+          out.stiffness, out.inverse_inertia[j * joints_ + j] * share * (f.viscous + f.coulomb / f.width));
+    }
+  }
+}
+
+/// Takes what gears lose of the torque they carry, before gravity and Coriolis torque are taken from it.
+void SizedDynamics::lose_to_load(const MotionState& at, JointArray& net, Acceleration& out) const {
+  for (int j = 0; j < joints_; ++j) {
+    const Friction<double>& f = load_.model.chain.friction[j];
+    if (f.load == 0.0) continue;
+    Friction<double> scaled = f;
+    scaled.load *= friction_scale_[j];
+    net[j] = carried_torque(scaled, at.dq[j], net[j]);
+    const double sign = saturating_tanh(at.dq[j] / f.width), carried = std::abs(net[j]);
+    const double stiffest = scaled.load * carried / f.width;
+    out.friction_torque[j] -= f.load * carried * sign;
+    out.friction_slope[j] += stiffest * (1.0 - sign * sign);
+    out.stiffness += out.inverse_inertia[j * joints_ + j] * stiffest;
+  }
+}
+
 /// The torque that accelerates each joint, with what `out` tells of friction, fault sizes and slow states.
 JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& torque, const RigidBody& body,
                                      Acceleration& out) const {
@@ -112,7 +147,8 @@ JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& to
   JointArray net;
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = load_.model.chain.friction[j];
-    const bool rubs = f.coulomb != 0.0 || (j == joint_ && kind_ == FaultKind::friction_increase);
+    const bool rubs =
+        f.coulomb != 0.0 || f.load != 0.0 || (j == joint_ && kind_ == FaultKind::friction_increase);
     const double sign = rubs ? saturating_tanh(at.dq[j] / f.width) : 0.0;
     const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
     const double scale = friction_scale_[j];
@@ -126,9 +162,12 @@ JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& to
     out.friction_slope[j] = load.viscous + load.coulomb * sharpness + scale * shape.slope;
     out.stiffness =
         std::max(out.stiffness, out.inverse_inertia[j * n + j] * (load.viscous + load.coulomb / f.width));
-    net[j] = load.drive - body.bias[j] - load.viscous * at.dq[j] - load.coulomb * sign -
-             scale * shape.torque - f.offset + slow_torque_[j];
+    net[j] = load.drive - load.viscous * at.dq[j] - load.coulomb * sign - scale * shape.torque - f.offset +
+             slow_torque_[j];
   }
+  take_extra_torque(body, net, out);
+  lose_to_load(at, net, out);
+  for (int j = 0; j < n; ++j) net[j] -= body.bias[j];
   return net;
 }
 

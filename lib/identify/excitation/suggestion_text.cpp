@@ -3,7 +3,7 @@
 
 #include "lib/identify/excitation/suggest_motion.hpp"
 #include "lib/robot/axis_units.hpp"
-#include "lib/robot/toml_text.hpp"
+#include "lib/robot/toml/toml_text.hpp"
 
 namespace faultline {
 namespace {

@@ -17,6 +17,7 @@ Chain<double> direction_chain(const ParameterSpace& space, int base) {
   Chain<double> chain = space.chain;
   chain.rotor_inertia.assign(chain.joints(), 0.0);
   chain.friction.assign(chain.joints(), {});
+  chain.shared_drives.clear();
   for (int i = 0; i < chain.joints(); ++i) {
     chain.links[i] = link_from(space.lift.block<kLinkParameters, 1>(i * kLinkParameters, base));
     chain.rotor_inertia[i] = space.lift(chain.joints() * kLinkParameters + i, base);
@@ -67,6 +68,8 @@ void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b
 /// The equations of motion at one state and their slopes there.
 struct SegmentModel::Workspace {
   JointVector<double> q, dq, ddq;
+  JointVector<double> carried;  ///< torque behind all friction
+  JointVector<double> passed;   ///< what of a torque on the drive is carried on: 1 where the load takes none
   JointMatrix<double> inverse_inertia;
   Eigen::MatrixXd by_state, by_parameter;  ///< of ddq: n x 2n, n x free
   Eigen::MatrixXd rhs_state, rhs_parameter;
@@ -92,11 +95,35 @@ SegmentModel::SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& p
 }
 
 void SegmentModel::accelerate(const JointVector<double>& tau, Workspace& w) const {
-  JointVector<double> bias, friction;
+  JointVector<double> bias, drag;
   dynamics_.inertia_and_bias(w.q, w.dq, w.inverse_inertia, bias);
-  dynamics_.friction(w.dq, friction);
+  dynamics_.drag(w.q, w.dq, tau, drag);
+  w.carried = tau - drag;
   invert(w.inverse_inertia);
-  w.ddq.noalias() = w.inverse_inertia.lazyProduct(tau - bias - friction);
+  w.ddq.noalias() = w.inverse_inertia.lazyProduct(w.carried - bias);
+}
+
+void SegmentModel::pass_torque(Workspace& w) const {
+  w.passed.setOnes(space_.joints());
+  for (int j = 0; j < space_.joints(); ++j)
+    w.passed[j] /=
+        1.0 + load_friction(dynamics_.chain().friction[j], w.dq[j], 1.0) * std::copysign(1.0, w.carried[j]);
+}
+
+/// Ripples by position, friction that joints share by velocity.
+void SegmentModel::add_extra_slopes(Workspace& w) const {
+  const int n = space_.joints();
+  for (const Ripple& r : dynamics_.chain().ripples) {
+    const double angle = r.rate * w.q[r.joint];
+    w.rhs_state(r.joint, r.joint) -=
+        w.passed[r.joint] * r.rate * (r.sine * std::cos(angle) - r.cosine * std::sin(angle));
+  }
+  for (const SharedDrive& f : dynamics_.chain().shared_drives) {
+    const double bent = std::tanh(f.speed(w.dq.data()) / f.width);
+    const double slope = f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) w.rhs_state(j, n + k) -= w.passed[j] * slope * f.along[j] * f.along[k];
+  }
 }
 
 void SegmentModel::slopes_by_state(Workspace& w) const {
@@ -120,11 +147,14 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
     }
     const Friction<double>& f = dynamics_.chain().friction[j];
     const double bent = std::tanh(w.dq[j] / f.width);
-    w.rhs_state(j, n + j) -= f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
+    const double dry = f.coulomb + f.load * std::abs(w.carried[j]);
+    w.rhs_state(j, n + j) -= w.passed[j] * (f.viscous + dry * (1.0 - bent * bent) / f.width);
     if (f.bend == 0.0 && f.skew == 0.0) continue;
     const double wide = std::tanh(w.dq[j] / f.bend_width);
-    w.rhs_state(j, n + j) -= f.bend * (1.0 - wide * wide) / f.bend_width + std::copysign(f.skew, w.dq[j]);
+    w.rhs_state(j, n + j) -=
+        w.passed[j] * (f.bend * (1.0 - wide * wide) / f.bend_width + std::copysign(f.skew, w.dq[j]));
   }
+  add_extra_slopes(w);
   multiply_small(w.inverse_inertia.data(), n, w.rhs_state, w.by_state);
 }
 
@@ -156,17 +186,26 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
       base_slope(direction++, w, column);
     } else if (p == space_.timing()) {
       column = tau_step;
+    } else if (space_.is_extra(p)) {
+      if (space_.extra_at(p).kind == ExtraKind::shared_inertia) {
+        const Eigen::VectorXd& along = dynamics_.chain().shared_drives[space_.extra_at(p).index].along;
+        column = -along.dot(w.ddq) * along;
+        continue;
+      }
+      column = -extra_torque(dynamics_.chain(), space_.extra_at(p), w.q, w.dq, w.carried);
     } else {
-      const int joint = (p > space_.timing() ? p - space_.timing() - 1 : p - space_.rigid()) % n;
+      const int joint = space_.joint_of(p);
       const Friction<double>& f = dynamics_.chain().friction[joint];
       const double u = w.dq[joint] / f.width, bent = std::tanh(u);
-      column[joint] = p >= space_.log_width(0) ? f.coulomb * (1.0 - bent * bent) * u
+      const double dry = f.coulomb + f.load * std::abs(w.carried[joint]);
+      column[joint] = p >= space_.log_width(0) ? dry * (1.0 - bent * bent) * u
                       : p >= space_.skew(0)    ? -std::abs(w.dq[joint])
                       : p >= space_.bend(0)    ? -std::tanh(w.dq[joint] / f.bend_width)
                       : p >= space_.offset(0)  ? -1.0
                       : p >= space_.coulomb(0) ? -bent
                                                : -w.dq[joint];
     }
+    if (p >= space_.rigid()) column.array() *= w.passed.array();
   }
   multiply_small(w.inverse_inertia.data(), n, w.rhs_parameter, w.by_parameter);
 }
@@ -202,6 +241,7 @@ void SegmentModel::step(double h, const JointVector<double>& tau, const JointVec
     w.slope.tail(n) = w.ddq;
     w.sum += h * kShare[stage] * w.slope;
     if (!with_sensitivity || stage != 2) continue;
+    pass_torque(w);
     slopes_by_state(w);
     slopes_by_parameter(tau_step, w);
     carry_sensitivity(h, w);

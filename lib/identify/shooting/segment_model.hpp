@@ -35,6 +35,8 @@ class SegmentModel {
   struct Workspace;
   int steps(const Excerpt& excerpt, int row) const;
   void accelerate(const JointVector<double>& tau, Workspace& w) const;
+  void add_extra_slopes(Workspace& w) const;
+  void pass_torque(Workspace& w) const;
   void slopes_by_state(Workspace& w) const;
   void base_slope(std::size_t direction, const Workspace& w, Eigen::Ref<Eigen::VectorXd> slope) const;
   void slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const;

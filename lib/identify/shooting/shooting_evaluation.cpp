@@ -31,14 +31,20 @@ ShootingEvaluation::ShootingEvaluation(const ShootingProblem& problem, int threa
   for (std::size_t i = 0; i < excerpts_.size(); ++i) robust_[i] = excerpts_[i].weight;
   reduced.resize(excerpts_.size());
   const Chain<double> chain = chain_from(space_, parameters_);
-  longest_step_s_ =
-      std::min(0.01, std::max(0.0006, stable_step(chain, excerpts_[0].start.head(space_.joints()))));
+  longest_step_s_ = std::min(
+      0.01, std::max(0.0006, stable_step(chain, excerpts_[0].start.head(space_.joints()), largest_torque())));
+}
+
+JointVector<double> ShootingEvaluation::largest_torque() const {
+  JointVector<double> most = JointVector<double>::Zero(space_.joints());
+  for (const Excerpt& e : excerpts_) most = most.cwiseMax(e.tau.cwiseAbs().rowwise().maxCoeff());
+  return most;
 }
 
 double ShootingEvaluation::narrowest_width(int joint) const {
   const Chain<double> chain = chain_from(space_, parameters_);
   return std::max(1e-4, 0.5 * chain.friction[joint].width * longest_step_s_ /
-                            stable_step(chain, excerpts_[0].start.head(space_.joints())));
+                            stable_step(chain, excerpts_[0].start.head(space_.joints()), largest_torque()));
 }
 
 Eigen::VectorXd ShootingEvaluation::parameters() const {

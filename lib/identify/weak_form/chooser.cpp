@@ -55,11 +55,6 @@ Eigen::VectorXd Chooser::fit(const WeakChoice& choice, const std::vector<bool>& 
   return moments_.fit(choice, wanted, start_, scale);
 }
 
-HeldOutError Chooser::error(const WeakChoice& choice, const std::vector<bool>& wanted,
-                            const Eigen::VectorXd& scale) const {
-  return moments_.held_out(choice, wanted, start_, scale);
-}
-
 double Chooser::left(const WeakChoice& choice, const std::vector<bool>& wanted,
                      const Eigen::VectorXd& scale) const {
   return moments_.residual_rms(choice, moments_.fit(choice, wanted, start_, scale))

@@ -26,7 +26,14 @@ class Chooser {
   Eigen::VectorXd fit(const WeakChoice& choice, const std::vector<bool>& wanted,
                       const Eigen::VectorXd& scale) const;
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted,
-                     const Eigen::VectorXd& scale) const;
+                     const Eigen::VectorXd& scale) const {
+    return moments_.held_out(choice, wanted, start_, scale, moments_.yardstick());
+  }
+  /// The same judged by the shortest windows: by what is too quick for the others.
+  HeldOutError quick_error(const WeakChoice& choice, const std::vector<bool>& wanted,
+                           const Eigen::VectorXd& scale) const {
+    return moments_.held_out(choice, wanted, start_, scale, 0);
+  }
   /// The same in the choice's own scale.
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted) const {
     return error(choice, wanted, scale(choice, wanted));

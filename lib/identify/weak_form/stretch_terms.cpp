@@ -76,7 +76,7 @@ double weak_width(const ParameterSpace& space, int joint, int k) {
   return kFactor[k] * space.chain.friction[joint].width;
 }
 
-StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s) {
+StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s, const ExtraSetting& setting) {
   const int n = space.joints(), steps = s.rows() - 1;
   StretchTerms out;
   out.base.resize(static_cast<Eigen::Index>(n) * space.rigid(), steps);
@@ -87,6 +87,7 @@ StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s) {
   out.viscous = s.q_smooth.rightCols(steps) - s.q_smooth.leftCols(steps);
   const Eigen::VectorXd rotor = Eigen::Map<const Eigen::VectorXd>(space.chain.rotor_inertia.data(), n);
   out.rotor = rotor.asDiagonal() * (s.dq_smooth.rightCols(steps) - s.dq_smooth.leftCols(steps));
+  out.extra = extra_columns(space, s, setting);
   StateEvaluation evaluate(space);
   StateTerms from, to, mean;
   evaluate(s.q_smooth.col(0), s.dq_smooth.col(0), from);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "lib/identify/extra/extra_columns.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/identify/parameter_space.hpp"
 
@@ -23,9 +24,11 @@ struct StretchTerms {
   Eigen::MatrixXd coulomb;  ///< (kWidths x joints) rows: integral of tanh(dq / width)
   Eigen::MatrixXd skew;     ///< joints rows: integral of |dq|
   Eigen::MatrixXd rotor;    ///< joints rows: momentum of rotors that are no base parameter
+  Eigen::MatrixXd extra;    ///< (extra terms x joints) rows
   Eigen::VectorXd step_s;   ///< duration
 };
 
-StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& stretch);
+StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& stretch,
+                           const ExtraSetting& setting = {});
 
 }  // namespace faultline

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/identify/weak_form/chooser.hpp"
+#include "lib/identify/weak_form/extra_choice.hpp"
 
 namespace faultline {
 namespace {
@@ -77,7 +78,7 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
 
 /// Without friction that is bent or lopsided: nothing else is chosen with it.
 std::vector<bool> plain(const ParameterSpace& space, std::vector<bool> wanted) {
-  std::fill(wanted.begin() + space.bend(0), wanted.begin() + space.timing(), false);
+  std::fill(wanted.begin() + space.bend(0), wanted.begin() + space.extra_begin(), false);
   return wanted;
 }
 
@@ -146,21 +147,15 @@ Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space,
   return doubt;
 }
 
-/// The joint that a parameter is judged by: its own for friction and rotors, for others the first.
-int joint_of(const ParameterSpace& space, int p) {
-  if (p >= space.rigid()) return (p - space.rigid()) % space.joints();
-  return space.base[p].joint;
-}
-
 void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
                   const std::vector<bool>& optional, ModelChoice& c) {
-  for (int p = 0; p < space.timing(); ++p) {
+  for (int p = 0; p < space.extra_begin(); ++p) {
     if (!asked[p] || !optional[p] || (p >= space.bend(0) && p < space.skew(0))) continue;
     std::vector<bool> wanted = c.wanted;
     wanted[p] = true;
     const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
     const HeldOutError with = chooser.error(c.weak, wanted, chooser.scale(c.weak, wanted));
-    const int j = joint_of(space, p);
+    const int j = space.joint_of(p);
     const bool kept = pays(without, with, j, chooser.torque(c.weak)[j], p >= space.bend(0) ? kRare : kTerm);
     c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
     if (kept) c.wanted = wanted;
@@ -201,6 +196,9 @@ ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space
   choose_widths(chooser, n, c);
   choose_terms(chooser, space, asked, optional, c);
   choose_bends(chooser, space, asked, c);
+  std::vector<bool> extra = asked;
+  for (int p = space.extra_begin(); p < space.timing(); ++p) extra[p] = asked[p] && optional[p];
+  choose_extra(chooser, space, extra, c);
   choose_shifts(chooser, shifts, n, c.wanted, c);
   choose_windows(chooser, sets, n, c);
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);

@@ -65,6 +65,21 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r)
   return scale.cwiseProduct(eigen.eigenvectors() * part);
 }
 
+/// By joint, the extra terms that its balances depend on.
+std::vector<std::vector<int>> extra_by_joint(const ParameterSpace& space) {
+  std::vector<std::vector<int>> out(space.joints());
+  for (int j = 0; j < space.joints(); ++j)
+    for (int i = 0; i < static_cast<int>(space.extra.size()); ++i) {
+      const ExtraTerm& term = space.extra[i];
+      if (is_of_shared_drive(term.kind) ? space.chain.shared_drives[term.index].along[j] != 0.0
+                                        : term.joint == j || term.kind == ExtraKind::gear_compliance)
+        out[j].push_back(i);
+    }
+  return out;
+}
+
+double gain_at(const WeakChoice& choice, int joint) { return choice.gain.empty() ? 1.0 : choice.gain[joint]; }
+
 }  // namespace
 
 Eigen::VectorXd HeldOutError::rms() const {
@@ -80,12 +95,15 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
   folds_ = by_log > 0 ? by_log : kFolds;
   folds_are_logs_ = by_log == logs;
   const double block_s = fold_block_s(windows.sets[0]);
-  const int rigid = space_.rigid(), width = rigid + kOthers + kWidths, count = width + shifts_.count();
+  const int rigid = space_.rigid();
+  extra_ = extra_by_joint(space_);
   moments_.resize(windows.sets.size() * folds_ * joints_);
-  for (Moments& m : moments_) m.sum.setZero(count, count);
-  Eigen::VectorXd row(count);
   for (std::size_t set = 0; set < windows.sets.size(); ++set)
     for (int j = 0; j < joints_; ++j) {
+      const int torque = torque_begin(j), count = torque + shifts_.count();
+      for (int fold = 0; fold < folds_; ++fold)
+        moments_[(set * folds_ + fold) * joints_ + j].sum.setZero(count, count);
+      Eigen::VectorXd row(count);
       const std::vector<bool> moving = moving_windows(windows, static_cast<int>(set), j);
       const auto& all = windows.sets[set].all();
       for (std::size_t k = 0; k < all.size(); ++k) {
@@ -96,14 +114,21 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
         row[rigid + 1] = 1.0;
         row[rigid + 2] = w.skew[j];
         row.segment(rigid + kOthers, kWidths) = w.coulomb.row(j);
+        for (std::size_t i = 0; i < extra_[j].size(); ++i)
+          row[rigid + kOthers + kWidths + static_cast<int>(i)] = w.extra(j, extra_[j][i]);
         for (int i = 0; i < shifts_.count(); ++i)
-          row[width + i] = (1.0 - phi) * w.torque(j, i) + phi * w.torque(j, std::max(i - 1, 0));
+          row[torque + i] = (1.0 - phi) * w.torque(j, i) + phi * w.torque(j, std::max(i - 1, 0));
         Moments& m = moments_[(set * folds_ + fold_of(w, by_log, block_s)) * joints_ + j];
         m.sum.selfadjointView<Eigen::Lower>().rankUpdate(row);
         m.rows += 1.0;
       }
     }
   for (Moments& m : moments_) m.sum.triangularView<Eigen::StrictlyUpper>() = m.sum.transpose();
+}
+
+/// First of the columns of a joint's torque.
+int WeakMoments::torque_begin(int j) const {
+  return space_.rigid() + kOthers + kWidths + static_cast<int>(extra_[j].size());
 }
 
 /// Columns of a joint's moments in the order of its parameters, then its torque.
@@ -116,11 +141,12 @@ std::vector<int> WeakMoments::columns(const WeakChoice& choice, int j) const {
   out.push_back(rigid + 1);
   out.push_back(rigid + kOthers + choice.bend[j]);
   out.push_back(rigid + 2);
-  out.push_back(rigid + kOthers + kWidths + choice.shift[j] - shifts_.first);
+  for (int i = 0; i < static_cast<int>(extra_[j].size()); ++i) out.push_back(rigid + kOthers + kWidths + i);
+  out.push_back(torque_begin(j) + choice.shift[j] - shifts_.first);
   return out;
 }
 
-/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset, bend, skew.
+/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset, bend, skew, extra terms.
 std::vector<int> WeakMoments::parameters_of(int j) const {
   std::vector<int> out;
   for (int p = 0; p < space_.rigid(); ++p) out.push_back(p);
@@ -129,6 +155,7 @@ std::vector<int> WeakMoments::parameters_of(int j) const {
   out.push_back(space_.offset(j));
   out.push_back(space_.bend(j));
   out.push_back(space_.skew(j));
+  for (const int i : extra_[j]) out.push_back(space_.extra_begin() + i);
   return out;
 }
 
@@ -153,12 +180,12 @@ Eigen::VectorXd WeakMoments::fit_folds(const WeakChoice& choice, const std::vect
   Eigen::VectorXd r = Eigen::VectorXd::Zero(linear);
   for (int j = 0; j < joints_; ++j) {
     const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
-    const double weight = 1.0 / (scale[j] * scale[j]);
+    const double gain = gain_at(choice, j), weight = 1.0 / (scale[j] * scale[j] * gain * gain);
     for (int fold = 0; fold < folds_; ++fold) {
       if (!used[fold]) continue;
       const Eigen::MatrixXd& m = at(choice.set[j], fold, j).sum;
       for (std::size_t a = 0; a < parameter.size(); ++a) {
-        r[parameter[a]] += weight * m(column[a], column.back());
+        r[parameter[a]] += weight * gain * m(column[a], column.back());
         for (std::size_t b = 0; b < parameter.size(); ++b)
           n(parameter[a], parameter[b]) += weight * m(column[a], column[b]);
       }
@@ -179,8 +206,9 @@ double WeakMoments::square_left(const Moments& m, const WeakChoice& choice, cons
   const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
   Eigen::VectorXd v(column.size());
   for (std::size_t a = 0; a < parameter.size(); ++a) v[a] = -parameters[parameter[a]];
-  v[v.size() - 1] = 1.0;
-  return std::max(v.dot(m.sum(column, column) * v), 0.0);
+  const double gain = gain_at(choice, j);
+  v[v.size() - 1] = gain;
+  return std::max(v.dot(m.sum(column, column) * v), 0.0) / (gain * gain);
 }
 
 Eigen::VectorXd WeakMoments::residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const {
@@ -218,9 +246,10 @@ Eigen::VectorXd WeakMoments::torque_std(const WeakChoice& choice) const {
 }
 
 HeldOutError WeakMoments::held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
-                                   const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const {
+                                   const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
+                                   int judge) const {
   WeakChoice judged = choice;
-  judged.set.assign(joints_, yardstick_);
+  judged.set.assign(joints_, judge);
   HeldOutError out;
   out.square.setZero(folds_, joints_);
   out.rows.setZero(folds_, joints_);
@@ -231,7 +260,7 @@ HeldOutError WeakMoments::held_out(const WeakChoice& choice, const std::vector<b
     used[fold] = false;
     const Eigen::VectorXd parameters = fit_folds(choice, wanted, start, scale, used);
     for (int j = 0; j < joints_; ++j) {
-      const Moments& m = at(yardstick_, fold, j);
+      const Moments& m = at(judge, fold, j);
       out.rows(fold, j) = m.rows;
       out.square(fold, j) = square_left(m, judged, parameters, j) / std::max(m.rows, 1.0);
       out.torque(fold, j) = square_left(m, judged, none, j) / std::max(m.rows, 1.0);

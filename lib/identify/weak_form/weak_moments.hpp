@@ -26,7 +26,7 @@ class WeakMoments {
   int folds() const { return folds_; }
   /// Whether every fold is one log, in their order.
   bool folds_are_logs() const { return folds_are_logs_; }
-  /// Set whose windows every choice is measured on.
+  /// Set whose windows choices are usually measured on.
   int yardstick() const { return yardstick_; }
 
   /// Fit to all folds; joint j weighs 1 / scale_j^2.
@@ -41,12 +41,13 @@ class WeakMoments {
   Eigen::VectorXd torque_rms(const WeakChoice& choice) const;
   /// Standard deviation of every joint's torque.
   Eigen::VectorXd torque_std(const WeakChoice& choice) const;
-  /// What fits to the other folds leave of each fold, on the windows of the yardstick.
+  /// What fits to the other folds leave of each fold, on the windows of set `judge`.
   HeldOutError held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
-                        const Eigen::VectorXd& start, const Eigen::VectorXd& scale) const;
+                        const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int judge) const;
 
  private:
-  /// Moments of one joint's rows: base, viscous, offset, skew, Coulomb of every width, torque of every shift.
+  /// Moments of one joint's rows: base, viscous, offset, skew, Coulomb of every width, its extra terms,
+  /// torque of every shift.
   struct Moments {
     Eigen::MatrixXd sum;
     double rows = 0.0;
@@ -57,6 +58,7 @@ class WeakMoments {
   }
   std::vector<int> columns(const WeakChoice& choice, int joint) const;
   std::vector<int> parameters_of(int joint) const;
+  int torque_begin(int joint) const;
   Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
                             const std::vector<bool>& used) const;
@@ -67,6 +69,7 @@ class WeakMoments {
   ShiftRange shifts_;
   int folds_ = 0, joints_ = 0, yardstick_ = 0;
   bool folds_are_logs_ = false;
+  std::vector<std::vector<int>> extra_;  ///< by joint: the extra terms that act on it
   std::vector<Moments> moments_;
 };
 

@@ -61,6 +61,7 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
       s.a(row, space.offset(j)) = 1.0;
       s.a(row, space.bend(j)) = w.coulomb(j, choice.bend[j]);
       s.a(row, space.skew(j)) = w.skew[j];
+      s.a.row(row).segment(space.extra_begin(), w.extra.cols()) = w.extra.row(j);
       s.a(row, space.timing()) = w.torque(j, at) - w.torque(j, before);
       s.y[row] = w.torque(j, at);
       if (!moving[k]) s.use[row] = 0.0;

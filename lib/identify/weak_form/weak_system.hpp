@@ -10,10 +10,11 @@ namespace faultline {
 
 /// Which windows, which torque and which friction width each joint's balance is made of.
 struct WeakChoice {
-  std::vector<int> set;    ///< by joint: index of its window length
-  std::vector<int> shift;  ///< by joint: samples by which its torque acts later than logged
-  std::vector<int> width;  ///< by joint: index of its friction width
-  std::vector<int> bend;   ///< by joint: index of the width of its bent friction
+  std::vector<int> set;        ///< by joint: index of its window length
+  std::vector<int> shift;      ///< by joint: samples by which its torque acts later than logged
+  std::vector<int> width;      ///< by joint: index of its friction width
+  std::vector<int> bend;       ///< by joint: index of the width of its bent friction
+  std::vector<double> gain{};  ///< by joint: true torque of each one logged; empty: all 1
 };
 
 /// The chosen balances as one system in the linear parameters of the space, joint after joint.

@@ -42,6 +42,8 @@ WeakWindow window_at(const Stretch& s, const StretchTerms& terms, const ShiftRan
   out.base = Eigen::Map<const Eigen::MatrixXd>(base.data(), n, base.size() / n);
   const Eigen::VectorXd coulomb = terms.coulomb.middleCols(begin, steps) * w;
   out.coulomb = Eigen::Map<const Eigen::MatrixXd>(coulomb.data(), n, kWidths);
+  const Eigen::VectorXd extra = terms.extra.middleCols(begin, steps) * w;
+  out.extra = Eigen::Map<const Eigen::MatrixXd>(extra.data(), n, extra.size() / n);
   out.viscous = terms.viscous.middleCols(begin, steps) * w;
   const Eigen::VectorXd rotor = terms.rotor.middleCols(begin, steps) * w;
   out.skew = terms.skew.middleCols(begin, steps) * w;
@@ -77,6 +79,10 @@ void WeakWindows::add(const Stretch& s, const StretchTerms& terms, const ShiftRa
   }
 }
 
+void WeakWindows::keep_extra(const std::vector<int>& terms) {
+  for (WeakWindow& w : windows_) w.extra = Eigen::MatrixXd(w.extra(Eigen::all, terms));
+}
+
 void WeakWindows::leave_out(const std::vector<bool>& logs) {
   std::erase_if(windows_, [&](const WeakWindow& w) { return logs[w.log]; });
 }
@@ -86,7 +92,7 @@ std::int64_t WeakWindows::rows_used(int log) const {
 }
 
 void WeakSets::add(const Stretch& s) {
-  const StretchTerms terms = stretch_terms(space, s);
+  const StretchTerms terms = stretch_terms(space, s, extra);
   for (WeakWindows& set : sets) set.add(s, terms, shifts);
 }
 

@@ -23,12 +23,13 @@ struct ShiftRange {
 /// needed,
 ///   sum w (p_k+1 - p_k) = sum w dt (tau - F + dT/dq - G),   sum w dt = 1.
 /// Row j reads base * beta + viscous fv_j + coulomb fc_j + offset_j + another column of coulomb fb_j + skew
-/// fs_j = torque.
+/// fs_j + extra terms = torque.
 struct WeakWindow {
   int log = 0;
   double time_s = 0.0;      ///< its start
   Eigen::MatrixXd base;     ///< joints x base parameters
   Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column a friction width
+  Eigen::MatrixXd extra;    ///< joints x extra terms
   Eigen::VectorXd viscous, skew;
   Eigen::MatrixXd torque;  ///< joints x shifts: the mean of tau_k-shift; less the momentum of known rotors
   Eigen::VectorXd q, dq;   ///< in the middle of it, by joint
@@ -45,6 +46,11 @@ class WeakWindows {
   /// Windows of a stretch, each half over the last. Those that hold more empty than measured rows are left
   /// out.
   void add(const Stretch& stretch, const StretchTerms& terms, const ShiftRange& shifts);
+
+  /// No windows, to be filled again.
+  WeakWindows emptied() const { return WeakWindows(length_s_, static_cast<int>(max_windows_)); }
+  /// Keeps those extra terms.
+  void keep_extra(const std::vector<int>& terms);
 
   /// Drops the windows of those logs.
   void leave_out(const std::vector<bool>& logs);
@@ -68,6 +74,7 @@ struct WeakSets {
   ParameterSpace space;
   ShiftRange shifts;
   std::vector<WeakWindows> sets;
+  ExtraSetting extra;  ///< what the extra terms of `space` are worked out with
   /// By joint: it never moves, so stiction may hold any torque and its balances do not count. Empty: none.
   std::vector<bool> still;
 

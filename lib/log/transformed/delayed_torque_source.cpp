@@ -6,16 +6,18 @@
 
 namespace faultline {
 
-DelayedTorqueSource::DelayedTorqueSource(LogSource& source, std::vector<double> delay_s)
-    : source_(source), delay_s_(std::move(delay_s)) {
+DelayedTorqueSource::DelayedTorqueSource(LogSource& source, std::vector<double> delay_s,
+                                         std::vector<double> gain)
+    : source_(source), delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
   for (const double delay : delay_s_) {
     ahead_s_ = std::max(ahead_s_, -delay);
     behind_s_ = std::max(behind_s_, delay);
   }
 }
 
-DelayedTorqueSource::DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s)
-    : DelayedTorqueSource(*source, std::move(delay_s)) {
+DelayedTorqueSource::DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s,
+                                         std::vector<double> gain)
+    : DelayedTorqueSource(*source, std::move(delay_s), std::move(gain)) {
   owned_ = std::move(source);
 }
 
@@ -65,6 +67,8 @@ bool DelayedTorqueSource::next(Log& segment) {
   for (std::size_t j = 0; j < std::min(segment.tau.size(), delay_s_.size()); ++j)
     for (int k = 0; k < segment.rows(); ++k)
       segment.tau[j][k] = torque_at(static_cast<int>(j), segment.time[k] - delay_s_[j]);
+  for (std::size_t j = 0; j < std::min(segment.tau.size(), gain_.size()); ++j)
+    for (double& tau : segment.tau[j]) tau *= gain_[j];
   const double oldest = segment.time.back() - behind_s_;
   const auto kept = std::lower_bound(time_.begin(), time_.end(), oldest);
   const auto gone = static_cast<std::size_t>(std::max<std::ptrdiff_t>(kept - time_.begin() - 2, 0));

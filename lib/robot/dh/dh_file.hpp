@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/robot/robot.hpp"
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 /// Denavit-Hartenberg tables in a robot file: `dh` or `mdh` in each [[joint]].
 namespace faultline {

@@ -6,11 +6,12 @@
 #include <algorithm>
 
 #include "lib/core/text.hpp"
+#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/log_meaning_file.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"
-#include "lib/robot/toml_text.hpp"
-#include "lib/robot/toml_values.hpp"
+#include "lib/robot/toml/toml_text.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
 namespace {
@@ -40,7 +41,7 @@ std::string link_text(const Robot& robot, int i) {
 }
 
 /// Negative rotor inertias may be identified: one choice among those that move alike.
-void read_drives(Robot& robot, const TomlTable& table) {
+void read_friction(Robot& robot, const TomlTable& table) {
   const int n = robot.joints();
   if (table.has("rotor_inertia")) robot.chain.rotor_inertia = table.each("rotor_inertia", n);
   if (!robot.identified) check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
@@ -51,6 +52,10 @@ void read_drives(Robot& robot, const TomlTable& table) {
   for (int i = 0; i < n; ++i) {
     robot.chain.friction[i].offset = offset[i];
     robot.chain.friction[i].width = width[i];
+  }
+  if (friction.has("load")) {
+    const auto load = friction.each("load", n);
+    for (int i = 0; i < n; ++i) robot.chain.friction[i].load = load[i];
   }
   if (!friction.has("bend")) return;
   const auto bend = friction.each("bend", n), skew = friction.each("skew", n),
@@ -122,9 +127,7 @@ std::string urdf_more_text(const Robot& robot) {
   text += each_joint(robot, "rotor_inertia", [&](int i) { return chain.rotor_inertia[i]; });
   text += fmt::format("identified = {}\n", robot.identified);
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
-  if (!robot.torque_delay_s.empty())
-    text += fmt::format("torque_delay_s = {}\n", toml_numbers(Eigen::Map<const Eigen::VectorXd>(
-                                                     robot.torque_delay_s.data(), robot.joints())));
+  text += drive_text(robot);
   text += "\n[friction]\n";
   text += each_joint(robot, "offset", [&](int i) { return chain.friction[i].offset; });
   text += each_joint(robot, "width", [&](int i) { return chain.friction[i].width; });
@@ -134,6 +137,10 @@ std::string urdf_more_text(const Robot& robot) {
     text += each_joint(robot, "skew", [&](int i) { return chain.friction[i].skew; });
     text += each_joint(robot, "bend_width", [&](int i) { return chain.friction[i].bend_width; });
   }
+  if (std::any_of(chain.friction.begin(), chain.friction.end(),
+                  [](const Friction<double>& f) { return f.load != 0.0; }))
+    text += each_joint(robot, "load", [&](int i) { return chain.friction[i].load; });
+  text += extra_torque_text(chain, "");
   for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
   return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
 }
@@ -143,9 +150,10 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   robot.name = table.text("name", robot.name);
   robot.chain.gravity = vector3(table, "gravity", robot.chain.gravity);
   robot.identified = table.flag("identified", false);
+  read_friction(robot, table);
+  read_extra_torque(table, robot.chain);
   read_drives(robot, table);
   if (table.has("torque_phi")) robot.torque_phi = table.number("torque_phi");
-  if (table.has("torque_delay_s")) robot.torque_delay_s = table.each("torque_delay_s", robot.joints());
   read_axes(robot, table);
   read_links(robot, table);
   const Chain<double> chain = robot.chain;

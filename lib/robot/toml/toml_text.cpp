@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/toml_text.hpp"
+#include "lib/robot/toml/toml_text.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 /// What is behind a TomlTable; for its own sources alone.
 namespace faultline {

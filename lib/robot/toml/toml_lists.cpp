@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "lib/core/text.hpp"
-#include "lib/robot/toml_table_data.hpp"
+#include "lib/robot/toml/toml_table_data.hpp"
 
 namespace faultline {
 

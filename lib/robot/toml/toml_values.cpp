@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/toml_values.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/toml_table_data.hpp"
+#include "lib/robot/toml/toml_table_data.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/toml_table.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/nearest_word.hpp"
-#include "lib/robot/toml_table_data.hpp"
+#include "lib/robot/toml/toml_table_data.hpp"
 
 namespace faultline {
 

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/extra/extra_term.hpp"
+
+#include <cmath>
+
+namespace faultline {
+
+bool is_ripple(ExtraKind kind) { return kind == ExtraKind::ripple_cosine || kind == ExtraKind::ripple_sine; }
+
+bool is_of_shared_drive(ExtraKind kind) {
+  return kind == ExtraKind::shared_inertia || kind == ExtraKind::shared_viscous ||
+         kind == ExtraKind::shared_coulomb;
+}
+
+bool is_possible(ExtraKind kind, double value) {
+  constexpr double kMostLoad = 0.5;
+  if (is_ripple(kind)) return true;
+  return value >= 0.0 && (kind != ExtraKind::load_friction || value < kMostLoad);
+}
+
+std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain,
+                                      const std::vector<double>& gear_compliance) {
+  std::vector<ExtraTerm> out;
+  for (int j = 0; j < chain.joints(); ++j)
+    if (chain.friction[j].load != 0.0) out.push_back({ExtraKind::load_friction, j, j});
+  for (int i = 0; i < static_cast<int>(chain.shared_drives.size()); ++i) {
+    int joint = 0;
+    while (joint + 1 < chain.joints() && chain.shared_drives[i].along[joint] == 0.0) ++joint;
+    out.push_back({ExtraKind::shared_inertia, joint, i});
+    out.push_back({ExtraKind::shared_viscous, joint, i});
+    out.push_back({ExtraKind::shared_coulomb, joint, i});
+  }
+  for (int i = 0; i < static_cast<int>(chain.ripples.size()); ++i) {
+    out.push_back({ExtraKind::ripple_cosine, chain.ripples[i].joint, i});
+    out.push_back({ExtraKind::ripple_sine, chain.ripples[i].joint, i});
+  }
+  for (int j = 0; j < static_cast<int>(gear_compliance.size()); ++j)
+    if (gear_compliance[j] != 0.0) out.push_back({ExtraKind::gear_compliance, j, j});
+  return out;
+}
+
+double extra_value(const Chain<double>& chain, const ExtraTerm& term) {
+  const auto index = static_cast<std::size_t>(term.index);
+  const auto shared = [&](double SharedDrive::*value) {
+    return index < chain.shared_drives.size() ? chain.shared_drives[index].*value : 0.0;
+  };
+  const auto ripple = [&](double Ripple::*value) {
+    return index < chain.ripples.size() ? chain.ripples[index].*value : 0.0;
+  };
+  switch (term.kind) {
+    case ExtraKind::load_friction:
+      return chain.friction[index].load;
+    case ExtraKind::shared_inertia:
+      return shared(&SharedDrive::rotor_inertia);
+    case ExtraKind::shared_viscous:
+      return shared(&SharedDrive::viscous);
+    case ExtraKind::shared_coulomb:
+      return shared(&SharedDrive::coulomb);
+    case ExtraKind::ripple_cosine:
+      return ripple(&Ripple::cosine);
+    case ExtraKind::ripple_sine:
+      return ripple(&Ripple::sine);
+    case ExtraKind::gear_compliance:
+      return 0.0;
+  }
+  return 0.0;
+}
+
+void set_extra_value(const ExtraTerm& term, double value, Chain<double>& chain) {
+  switch (term.kind) {
+    case ExtraKind::load_friction:
+      chain.friction[term.index].load = value;
+      return;
+    case ExtraKind::shared_inertia:
+      chain.shared_drives[term.index].rotor_inertia = value;
+      return;
+    case ExtraKind::shared_viscous:
+      chain.shared_drives[term.index].viscous = value;
+      return;
+    case ExtraKind::shared_coulomb:
+      chain.shared_drives[term.index].coulomb = value;
+      return;
+    case ExtraKind::ripple_cosine:
+      chain.ripples[term.index].cosine = value;
+      return;
+    case ExtraKind::ripple_sine:
+      chain.ripples[term.index].sine = value;
+      return;
+    case ExtraKind::gear_compliance:
+      return;
+  }
+}
+
+JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
+                                 const JointVector<double>& q, const JointVector<double>& dq,
+                                 const JointVector<double>& carried) {
+  JointVector<double> out = JointVector<double>::Zero(chain.joints());
+  const int j = term.joint;
+  switch (term.kind) {
+    case ExtraKind::load_friction:
+      out[j] = std::abs(carried[j]) * std::tanh(dq[j] / chain.friction[j].width);
+      break;
+    case ExtraKind::shared_viscous:
+    case ExtraKind::shared_coulomb: {
+      const SharedDrive& f = chain.shared_drives[term.index];
+      const double speed = f.speed(dq.data());
+      out = f.along * (term.kind == ExtraKind::shared_viscous ? speed : std::tanh(speed / f.width));
+      break;
+    }
+    case ExtraKind::ripple_cosine:
+      out[j] = std::cos(chain.ripples[term.index].rate * q[j]);
+      break;
+    case ExtraKind::ripple_sine:
+      out[j] = std::sin(chain.ripples[term.index].rate * q[j]);
+      break;
+    case ExtraKind::shared_inertia:
+    case ExtraKind::gear_compliance:
+      break;
+  }
+  return out;
+}
+
+}  // namespace faultline

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+
+enum class ExtraKind {
+  load_friction,    ///< share of the torque carried
+  shared_inertia,   ///< rotor of the chain's shared_drives[index]
+  shared_viscous,   ///< of the chain's shared_drives[index]
+  shared_coulomb,   ///< the same
+  ripple_cosine,    ///< of the chain's ripples[index]
+  ripple_sine,      ///< the same
+  gear_compliance,  ///< rad/(N m) or m/N, to first order; the chain's motion is that of a rigid gear
+};
+
+/// A linear parameter that few robots have.
+struct ExtraTerm {
+  ExtraKind kind = ExtraKind::load_friction;
+  int joint = 0;  ///< from 0: its own, or the first that its drive turns with
+  int index = 0;  ///< where the chain keeps it
+};
+
+bool is_ripple(ExtraKind kind);
+bool is_of_shared_drive(ExtraKind kind);
+/// Whether a robot can have that value: friction never drives, no gear leads or loses half of what it
+/// carries.
+bool is_possible(ExtraKind kind, double value);
+
+/// The terms of every load friction, shared drive and ripple that `chain` has, and for every compliance in
+/// `gear_compliance` (by joint; may be empty) that is not 0.
+std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain, const std::vector<double>& gear_compliance);
+
+/// The chain's value of a term, 0 where it has none; compliance is no part of it.
+double extra_value(const Chain<double>& chain, const ExtraTerm& term);
+void set_extra_value(const ExtraTerm& term, double value, Chain<double>& chain);
+
+/// The torque on every joint that a unit of a term is, at one state, where gears carry `carried`.
+/// Inertia and compliance have none.
+JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
+                                 const JointVector<double>& q, const JointVector<double>& dq,
+                                 const JointVector<double>& carried);
+
+}  // namespace faultline

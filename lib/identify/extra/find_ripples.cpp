@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/extra/find_ripples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kRates = 1000;
+constexpr int kMostRipples = 3;
+constexpr double kLeastPeriods = 2.0;   // over the range of the joint
+constexpr double kLeastTurnRate = 2.5;  // 1/rad: slower is gravity's
+constexpr double kStandsOut = 0.03;     // of the residual's variance, and
+constexpr double kAboveOthers = 10.0;   // times the median of all rates
+constexpr int kRefinements = 20;
+constexpr int kFewest = 50;  // windows
+
+/// Residual of one joint's shortest windows with where and how fast the joint was.
+struct Samples {
+  std::vector<double> residual, q, turn;  ///< turn: how far the joint goes in the window
+  double square() const {
+    double sum = 0.0;
+    for (const double r : residual) sum += r * r;
+    return sum;
+  }
+};
+
+/// What a window's weight, 30 u^2 (1 - u)^2 over it, leaves of a wave of `x` rad in the window; it is even.
+class WindowShare {
+ public:
+  WindowShare() {
+    constexpr int kPieces = 200;
+    for (int i = 0; i < kSize; ++i)
+      for (int k = 0; k < kPieces; ++k) {
+        const double u = (k + 0.5) / kPieces;
+        share_[i] += 30.0 * u * u * (1.0 - u) * (1.0 - u) * std::cos(i * kStep * (u - 0.5)) / kPieces;
+      }
+  }
+  double operator()(double x) const {
+    const double at = std::abs(x) / kStep;
+    const auto i = static_cast<int>(std::min(at, static_cast<double>(kSize - 1)));
+    return i + 1 < kSize ? share_[i] + (at - i) * (share_[i + 1] - share_[i]) : 0.0;
+  }
+
+ private:
+  static constexpr int kSize = 500;
+  static constexpr double kStep = 0.1;
+  double share_[kSize] = {};
+};
+
+Samples samples_of(const WeakSets& windows, const WeakChoice& choice, const Eigen::VectorXd& parameters,
+                   int joint) {
+  WeakChoice shortest = choice;
+  std::fill(shortest.set.begin(), shortest.set.end(), 0);
+  const WeakSystem s = assemble(windows, shortest);
+  const auto& all = windows.sets[0].all();
+  Samples out;
+  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
+    if (s.joint[k] != joint || !(s.use[k] > 0.0)) continue;
+    const WeakWindow& w = all[static_cast<std::size_t>(k) % all.size()];
+    out.residual.push_back(s.y[k] - s.a.row(k).dot(parameters.head(s.a.cols())));
+    out.q.push_back(w.q[joint]);
+    out.turn.push_back(w.dq[joint] * windows.sets[0].length_s());
+  }
+  return out;
+}
+
+/// Sums of a fit of cosine and sine of one rate to the residual.
+struct Fit {
+  double cc = 0.0, cs = 0.0, ss = 0.0, rc = 0.0, rs = 0.0;
+
+  void add(double residual, double c, double s) {
+    cc += c * c, cs += c * s, ss += s * s, rc += residual * c, rs += residual * s;
+  }
+  Eigen::Vector2d solve() const {
+    const double det = cc * ss - cs * cs;
+    if (!(det > 1e-9 * cc * ss)) return Eigen::Vector2d::Zero();
+    return {(ss * rc - cs * rs) / det, (cc * rs - cs * rc) / det};
+  }
+  double told() const { return solve().dot(Eigen::Vector2d(rc, rs)); }
+};
+
+Fit fit_at(const Samples& samples, double rate, const WindowShare& share) {
+  Fit fit;
+  for (std::size_t i = 0; i < samples.q.size(); ++i) {
+    const double w = share(rate * samples.turn[i]), angle = rate * samples.q[i];
+    fit.add(samples.residual[i], w * std::cos(angle), w * std::sin(angle));
+  }
+  return fit;
+}
+
+/// How much of the squared residual each rate first + i step tells.
+std::vector<double> periodogram(const Samples& samples, double first, double step, const WindowShare& share) {
+  std::vector<Fit> fits(kRates);
+  for (std::size_t i = 0; i < samples.q.size(); ++i) {
+    std::complex<double> wave = std::polar(1.0, first * samples.q[i]);
+    const std::complex<double> turn = std::polar(1.0, step * samples.q[i]);
+    for (int k = 0; k < kRates; ++k, wave *= turn) {
+      const double w = share((first + k * step) * samples.turn[i]);
+      fits[k].add(samples.residual[i], w * wave.real(), w * wave.imag());
+    }
+  }
+  std::vector<double> told;
+  for (const Fit& fit : fits) told.push_back(fit.told());
+  return told;
+}
+
+double refine(const Samples& samples, double low, double high, const WindowShare& share) {
+  constexpr double kGolden = 0.6180339887498949;
+  for (int i = 0; i < kRefinements; ++i) {
+    const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    const bool lower = fit_at(samples, a, share).told() > fit_at(samples, b, share).told();
+    (lower ? high : low) = lower ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choice,
+                                 const Eigen::VectorXd& parameters, int joint) {
+  Samples samples = samples_of(windows, choice, parameters, joint);
+  std::vector<Ripple> out;
+  if (static_cast<int>(samples.q.size()) < kFewest) return out;
+  const auto [low, high] = std::minmax_element(samples.q.begin(), samples.q.end());
+  const double range = *high - *low, step = 0.5 * std::numbers::pi / std::max(range, 1e-9);
+  double first = 2.0 * std::numbers::pi * kLeastPeriods / std::max(range, 1e-9);
+  if (windows.space.chain.geometry[joint].kind == AxisKind::revolute) first = std::max(first, kLeastTurnRate);
+  const WindowShare share;
+  for (int i = 0; i < kMostRipples; ++i) {
+    std::vector<double> told = periodogram(samples, first, step, share);
+    const auto peak = std::max_element(told.begin(), told.end());
+    const double most = *peak, at = first + step * static_cast<double>(peak - told.begin());
+    if (!(most > kStandsOut * samples.square() && most > kAboveOthers * upper_median_of(told))) break;
+    const double rate = refine(samples, at - step, at + step, share);
+    const Eigen::Vector2d wave = fit_at(samples, rate, share).solve();
+    for (std::size_t k = 0; k < samples.q.size(); ++k) {
+      const double w = share(rate * samples.turn[k]), angle = rate * samples.q[k];
+      samples.residual[k] -= w * (wave[0] * std::cos(angle) + wave[1] * std::sin(angle));
+    }
+    out.push_back({joint, rate, wave[0], wave[1]});
+  }
+  return out;
+}
+
+}  // namespace faultline

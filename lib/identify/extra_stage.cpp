@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/extra_stage.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lib/identify/extra/find_ripples.hpp"
+#include "lib/identify/weak_form/extra_choice.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLooked = 0.005;     // of a joint's torque left over: less is not looked at
+constexpr double kSharedR2 = 0.998;   // of a joint that might share its drive with its neighbour
+constexpr double kLeastAlong = 1e-9;  // of a drive's motion: less is another joint's
+constexpr double kSlow_s = 0.02;      // rows farther apart show no spring
+
+/// Joints that move and of whose torque something is left to be explained.
+std::vector<bool> joints_to_look_at(const Gathered& gathered, const ModelChoice& choice) {
+  std::vector<bool> out;
+  for (std::size_t j = 0; j < choice.held_out_r2.size(); ++j)
+    out.push_back(!gathered.windows.still[j] && choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
+  return out;
+}
+
+void add_shared(const Eigen::VectorXd& along, double width, ParameterSpace& space) {
+  for (const SharedDrive& f : space.chain.shared_drives)
+    if ((f.along - along).norm() < kLeastAlong || (f.along + along).norm() < kLeastAlong) return;
+  space.chain.shared_drives.push_back({along, 0.0, 0.0, width});
+}
+
+/// Drives that the log's columns say are coupled, and drives of neighbouring joints whose torque is poorly
+/// explained: wrists often turn the last motor with the joint before.
+void add_shared_drives(const Robot& robot, const ModelChoice& choice, const std::vector<bool>& look,
+                       ParameterSpace& space) {
+  const int n = space.joints();
+  const auto width = [&](int j) { return weak_width(space, j, choice.weak.width[j]); };
+  if (robot.log.coupling.size() > 0) {
+    const Eigen::MatrixXd drives = robot.log.coupling.inverse();
+    for (int k = 0; k < n; ++k)
+      if ((drives.row(k).array().abs() > kLeastAlong).count() > 1) add_shared(drives.row(k), width(k), space);
+  }
+  for (int j = 0; j + 1 < n; ++j) {
+    const bool turn = space.chain.geometry[j].kind == AxisKind::revolute &&
+                      space.chain.geometry[j + 1].kind == AxisKind::revolute;
+    const double worst = std::min(choice.held_out_r2[j], choice.held_out_r2[j + 1]);
+    if (!turn || !look[j] || !look[j + 1] || worst > kSharedR2) continue;
+    for (const double sign : {1.0, -1.0})
+      add_shared(Eigen::VectorXd::Unit(n, j) + sign * Eigen::VectorXd::Unit(n, j + 1), width(j + 1), space);
+  }
+}
+
+/// The space with everything that may be tried.
+ParameterSpace with_candidates(const Gathered& gathered, const ModelDraft& draft,
+                               const std::vector<bool>& look, const Identification& id) {
+  ParameterSpace space = id.space;
+  add_shared_drives(id.robot, draft.choice, look, space);
+  for (int j = 0; j < space.joints(); ++j) {
+    if (!look[j]) continue;
+    const auto found = find_ripples(gathered.windows, draft.choice.weak, draft.torque.fit.parameters, j);
+    space.chain.ripples.insert(space.chain.ripples.end(), found.begin(), found.end());
+  }
+  const bool fast = std::all_of(id.logs.begin(), id.logs.end(),
+                                [](const IdentifiedLog& log) { return log.sample_period_s <= kSlow_s; });
+  Chain<double> chain = space.chain;
+  std::vector<double> compliance(space.joints(), 0.0);
+  for (int j = 0; j < space.joints(); ++j) {
+    if (!look[j]) continue;
+    if (id.robot.known.count("fl" + std::to_string(j + 1)) == 0) chain.friction[j].load = 1.0;
+    compliance[j] = fast ? 1.0 : 0.0;
+  }
+  space.extra = extra_terms_of(chain, compliance);
+  return space;
+}
+
+/// A vector over the parameters of one space as one over those of another with other extra terms, which get
+/// `value`.
+template <typename Vector, typename Value>
+Vector with_extra(const ParameterSpace& from, const ParameterSpace& to, const Vector& v, Value value) {
+  Vector out(to.count());
+  for (int p = 0; p < to.count(); ++p)
+    out[p] = p < to.extra_begin() ? v[p] : p < to.timing() ? value : v[p - to.timing() + from.timing()];
+  return out;
+}
+
+/// The space with only those of its extra terms that `stay`, by parameter; `kept` lists them.
+ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay, std::vector<int>& kept) {
+  ParameterSpace out = space;
+  out.extra.clear();
+  out.chain.ripples.clear();
+  out.chain.shared_drives.clear();
+  std::vector<int> ripple(space.chain.ripples.size(), -1), shared(space.chain.shared_drives.size(), -1);
+  const auto place = [](auto& from, auto& to, std::vector<int>& at, int index) {
+    if (at[index] < 0) {
+      at[index] = static_cast<int>(to.size());
+      to.push_back(from[index]);
+    }
+    return at[index];
+  };
+  for (int i = 0; i < static_cast<int>(space.extra.size()); ++i) {
+    if (!stay[space.extra_begin() + i]) continue;
+    ExtraTerm term = space.extra[i];
+    if (is_ripple(term.kind)) term.index = place(space.chain.ripples, out.chain.ripples, ripple, term.index);
+    if (is_of_shared_drive(term.kind))
+      term.index = place(space.chain.shared_drives, out.chain.shared_drives, shared, term.index);
+    out.extra.push_back(term);
+    kept.push_back(i);
+  }
+  return out;
+}
+
+/// What was tried, less what nobody asked for: drives and ripples that do not pay are many.
+void tell_terms(std::vector<ModelTerm> tried, std::size_t first, std::vector<ModelTerm>& terms) {
+  for (std::size_t i = first; i < tried.size(); ++i) {
+    const bool usual = tried[i].name.starts_with("fl_") || tried[i].name.starts_with("gc_");
+    if (tried[i].kept || usual) terms.push_back(tried[i]);
+  }
+}
+
+/// Load friction that is given stays as it is.
+void hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft& draft) {
+  for (int p = space.extra_begin(); p < space.timing(); ++p) {
+    const ExtraTerm& term = space.extra_at(p);
+    const auto known = robot.known.find("fl" + std::to_string(term.joint + 1));
+    if (term.kind != ExtraKind::load_friction || known == robot.known.end()) continue;
+    draft.wanted.asked[p] = known->second.std > 0.0;
+    draft.nominal[p] = known->second.value;
+  }
+}
+
+/// Everything in `draft` over the parameters of another space; extra terms are asked for as `asked` says.
+void move_to(const ParameterSpace& from, const ParameterSpace& to, bool asked, const Robot& robot,
+             ModelDraft& draft) {
+  draft.nominal = with_extra(from, to, draft.nominal, 0.0);
+  draft.wanted.asked = with_extra(from, to, draft.wanted.asked, asked);
+  draft.wanted.optional = with_extra(from, to, draft.wanted.optional, false);
+  draft.choice.wanted = with_extra(from, to, draft.choice.wanted, false);
+  hold_known_load(to, robot, draft);
+}
+
+}  // namespace
+
+double nominal_timing(const Robot& robot) {
+  if (robot.log.torque_between_samples == TorqueTiming::held) return 0.0;
+  return robot.torque_phi.value_or(0.5);
+}
+
+void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
+                      ModelDraft& draft) {
+  const std::vector<bool> look = joints_to_look_at(gathered, draft.choice);
+  if (std::count(look.begin(), look.end(), true) == 0) return;
+  const ParameterSpace wide = with_candidates(gathered, draft, look, id);
+  const double phi = std::clamp(draft.torque.fit.parameters[id.space.timing()], 0.0, 1.0);
+  const ExtraSetting setting{draft.torque.shift, phi, draft.torque.fit.parameters};
+  gather_again(logs, wide, setting, gathered);
+
+  ModelDraft tried = draft;
+  move_to(id.space, wide, true, id.robot, tried);
+  ModelChoice& c = tried.choice;
+  const std::size_t before = c.terms.size();
+  {
+    const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
+    const Chooser chooser(moments, wide, tried.nominal);
+    c.weak.set.assign(wide.joints(), moments.yardstick());
+    choose_extra(chooser, wide, tried.wanted.asked, c);
+    std::vector<bool> counts;
+    for (const bool still : gathered.windows.still) counts.push_back(!still);
+    choose_gains(chooser, counts, c);
+  }
+  std::vector<bool> stay = c.wanted;
+  for (int p = wide.extra_begin(); p < wide.timing(); ++p) stay[p] = stay[p] || tried.nominal[p] != 0.0;
+  std::vector<int> kept;
+  const ParameterSpace space = pruned(wide, stay, kept);
+  const bool scaled = std::any_of(c.weak.gain.begin(), c.weak.gain.end(), [](double g) { return g != 1.0; });
+  const std::vector<ModelTerm> terms = c.terms;
+  if (scaled) gathered.torque_gain = c.weak.gain;
+  if (scaled) gather_again(logs, space, setting, gathered);
+  for (WeakWindows& set : gathered.windows.sets)
+    if (!scaled) set.keep_extra(kept);
+  gathered.windows.space = space;
+  if (kept.empty() && !scaled) {
+    tell_terms(terms, before, draft.choice.terms);
+    if (space.extra.size() == id.space.extra.size()) return;
+  }
+  move_to(id.space, space, true, id.robot, draft);
+  id.space = space;
+  const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
+  draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
+                              gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
+  tell_terms(terms, before, draft.choice.terms);
+  draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+}
+
+}  // namespace faultline

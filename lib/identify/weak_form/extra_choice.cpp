@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/weak_form/extra_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};
+constexpr Worth kShared{.residual = 0.05, .torque = 1e-3};
+// What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
+constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
+// A wrong gain is a wrong mass.
+constexpr Worth kGain{.residual = 0.2, .torque = 2e-3, .sure = 3.0};
+constexpr double kMostGain = 2.0;     // or half
+constexpr int kGainSteps = 14;        // between the two, at first
+constexpr int kGainRefinements = 12;  // each to .62 of the interval
+
+/// Terms that are tried together.
+struct Group {
+  std::vector<int> parameters;
+  std::vector<int> joints;  ///< that they act on
+  Worth worth{};
+  bool quick = false;
+  double promise = 0.0;  ///< gain with nothing else changed
+  int joint = 0;         ///< that gains most
+  HeldOutError without{}, with{};
+};
+
+bool is_quick(ExtraKind kind) { return is_ripple(kind) || kind == ExtraKind::gear_compliance; }
+
+/// Whether two terms stand or fall together.
+bool belong_together(const ExtraTerm& a, const ExtraTerm& b) {
+  return a.index == b.index && ((is_ripple(a.kind) && is_ripple(b.kind)) ||
+                                (is_of_shared_drive(a.kind) && is_of_shared_drive(b.kind)));
+}
+
+std::vector<int> joints_of(const ParameterSpace& space, const ExtraTerm& term) {
+  if (!is_of_shared_drive(term.kind)) return {term.joint};
+  std::vector<int> joints;
+  for (int j = 0; j < space.joints(); ++j)
+    if (space.chain.shared_drives[term.index].along[j] != 0.0) joints.push_back(j);
+  return joints;
+}
+
+std::vector<Group> groups_of(const ParameterSpace& space, const std::vector<bool>& asked) {
+  std::vector<Group> groups;
+  for (int p = space.extra_begin(); p < space.timing(); ++p) {
+    const ExtraTerm& term = space.extra_at(p);
+    if (!asked[p]) continue;
+    if (!groups.empty() && belong_together(term, space.extra_at(groups.back().parameters.back()))) {
+      groups.back().parameters.push_back(p);
+      continue;
+    }
+    const Worth& worth = is_quick(term.kind) ? kQuick : is_of_shared_drive(term.kind) ? kShared : kLoad;
+    groups.push_back(
+        {.parameters = {p}, .joints = joints_of(space, term), .worth = worth, .quick = is_quick(term.kind)});
+  }
+  return groups;
+}
+
+std::vector<bool> with_group(std::vector<bool> wanted, const Group& group) {
+  for (const int p : group.parameters) wanted[p] = true;
+  return wanted;
+}
+
+/// What the group is worth next to the choice as it stands.
+void judge(const Chooser& chooser, const ModelChoice& c, Group& group) {
+  const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
+  const auto error = [&](const std::vector<bool>& wanted) {
+    return group.quick ? chooser.quick_error(c.weak, wanted, scale) : chooser.error(c.weak, wanted, scale);
+  };
+  group.without = error(c.wanted);
+  group.with = error(with_group(c.wanted, group));
+  group.promise = -1.0;
+  for (const int j : group.joints)
+    if (const double gain = gain_of(group.without, group.with, j).mean; gain > group.promise)
+      group.promise = gain, group.joint = j;
+}
+
+/// Whether the fit with a group of a single term makes something of it that a robot can have; parts of others
+/// may vanish.
+bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c, const Group& group) {
+  if (group.parameters.size() > 1) return true;
+  const std::vector<bool> wanted = with_group(c.wanted, group);
+  const int p = group.parameters.front();
+  return is_possible(space.extra_at(p).kind, chooser.fit(c.weak, wanted, chooser.scale(c.weak, wanted))[p]);
+}
+
+/// Squared residual of all joints, each in its scale, when joint `j` has that gain.
+double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
+                 double log_gain) {
+  WeakChoice tried = c.weak;
+  tried.gain[j] = std::exp(log_gain);
+  return chooser.left(tried, c.wanted, scale);
+}
+
+/// Logarithm of the gain of joint `j` with which least is left.
+double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
+  const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
+  const double most = std::log(kMostGain), step = 2.0 * most / kGainSteps;
+  double best = 0.0, least = left_with(chooser, c, scale, j, 0.0);
+  for (int i = 0; i <= kGainSteps; ++i) {
+    const double left = left_with(chooser, c, scale, j, -most + i * step);
+    if (left < least) least = left, best = -most + i * step;
+  }
+  double low = best - step, high = best + step;
+  constexpr double kGolden = 0.6180339887498949;
+  for (int i = 0; i < kGainRefinements; ++i) {
+    const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    const bool lower = left_with(chooser, c, scale, j, a) < left_with(chooser, c, scale, j, b);
+    (lower ? high : low) = lower ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
+                  ModelChoice& c) {
+  std::vector<Group> groups = groups_of(space, asked);
+  for (Group& group : groups) judge(chooser, c, group);
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const Group& a, const Group& b) { return a.promise > b.promise; });
+  bool changed = false;
+  for (Group& group : groups) {
+    if (changed) judge(chooser, c, group);
+    const int j = group.joint;
+    bool kept = pays(group.without, group.with, j, chooser.torque(c.weak)[j], group.worth);
+    for (const int other : group.joints)
+      kept = kept && !pays(group.with, group.without, other, chooser.torque(c.weak)[other], group.worth);
+    kept = kept && can_be(chooser, space, c, group);
+    c.terms.push_back(
+        {space.name(group.parameters.front()), j, kept, group.without.rms()[j], group.with.rms()[j]});
+    if (kept) c.wanted = with_group(c.wanted, group);
+    changed = changed || kept;
+  }
+}
+
+void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, ModelChoice& c) {
+  const int n = static_cast<int>(counts.size());
+  const int first = static_cast<int>(std::find(counts.begin(), counts.end(), true) - counts.begin());
+  if (c.weak.gain.empty()) c.weak.gain.assign(n, 1.0);
+  const Eigen::VectorXd torque = chooser.torque(c.weak);
+  for (int j = first + 1; j < n; ++j) {
+    if (!counts[j]) continue;
+    const double gain = std::exp(best_gain(chooser, c, j));
+    if (!(gain < 0.95 * kMostGain && gain > 1.05 / kMostGain)) continue;
+    WeakChoice tried = c.weak;
+    tried.gain[j] = gain;
+    const HeldOutError without = chooser.error(c.weak, c.wanted), with = chooser.error(tried, c.wanted);
+    int best = j;
+    bool kept = false, harms = false;
+    for (int k = 0; k < n; ++k) {
+      if (!counts[k]) continue;
+      kept = kept || pays(without, with, k, torque[k], kGain);
+      harms = harms || pays(with, without, k, torque[k], kGain);
+      if (gain_of(without, with, k).mean > gain_of(without, with, best).mean) best = k;
+    }
+    kept = kept && !harms;
+    c.terms.push_back(
+        {fmt::format("torque_gain_{}", j + 1), best, kept, without.rms()[best], with.rms()[best]});
+    if (kept) c.weak = tried;
+  }
+}
+
+}  // namespace faultline

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "lib/robot/chain.hpp"
+
+/// Torques that neither rigid bodies nor the friction of one joint alone give.
+namespace faultline {
+
+/// Adds ripples and the friction of drives that joints share.
+template <typename S>
+void add_extra_torque(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
+                      JointVector<S>& torque) {
+  using std::cos, std::sin, std::tanh;
+  for (const Ripple& r : chain.ripples)
+    torque[r.joint] += r.cosine * cos(r.rate * q[r.joint]) + r.sine * sin(r.rate * q[r.joint]);
+  for (const SharedDrive& f : chain.shared_drives) {
+    S speed(0.0);
+    for (int i = 0; i < chain.joints(); ++i) speed += f.along[i] * dq[i];
+    const S drag = f.viscous * speed + f.coulomb * tanh(speed / f.width);
+    for (int i = 0; i < chain.joints(); ++i) torque[i] += f.along[i] * drag;
+  }
+}
+
+/// Friction that grows with the load: what a gear loses that carries `carried` = M ddq + h + G.
+template <typename S>
+S load_friction(const Friction<S>& f, const S& dq, const S& carried) {
+  using std::abs, std::tanh;
+  return f.load == S(0.0) ? S(0.0) : f.load * abs(carried) * tanh(dq / f.width);
+}
+
+/// What a gear carries on of `torque`, its drive's less all other friction.
+template <typename S>
+S carried_torque(const Friction<S>& f, const S& dq, const S& torque) {
+  using std::tanh;
+  if (f.load == S(0.0)) return torque;
+  const S lost = f.load * tanh(dq / f.width);
+  return torque / (torque > S(0.0) ? S(1.0) + lost : S(1.0) - lost);
+}
+
+}  // namespace faultline
