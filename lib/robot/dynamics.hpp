@@ -56,11 +56,7 @@ JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q,
     moment[i - 1] += pose[i].rotation * moment[i] + pose[i].position.cross(force_in_parent);
     force[i - 1] += force_in_parent;
   }
-  for (const SharedDrive& drive : chain.shared_drives) {
-    S rate(0.0);
-    for (int i = 0; i < n; ++i) rate += drive.along[i] * ddq[i];
-    for (int i = 0; i < n; ++i) tau[i] += drive.along[i] * drive.rotor_inertia * rate;
-  }
+  if (!chain.shared_drives.empty()) add_shared_rotors(chain, ddq, tau);
   return tau;
 }
 
@@ -145,9 +141,7 @@ JointMatrix<S> inertia_matrix(const Chain<S>& chain, const JointVector<S>& q) {
     parent.first_moment += h + body.mass * p;
     parent.mass += body.mass;
   }
-  for (const SharedDrive& drive : chain.shared_drives)
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k) m(i, k) += drive.along[i] * drive.along[k] * drive.rotor_inertia;
+  if (!chain.shared_drives.empty()) add_shared_rotors(chain, m);
   return m;
 }
 

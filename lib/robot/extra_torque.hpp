@@ -23,6 +23,25 @@ void add_extra_torque(const Chain<S>& chain, const JointVector<S>& q, const Join
   }
 }
 
+/// Adds the torque that rotors of drives which joints share take at the accelerations `ddq`.
+template <typename S>
+void add_shared_rotors(const Chain<S>& chain, const JointVector<S>& ddq, JointVector<S>& torque) {
+  for (const SharedDrive& drive : chain.shared_drives) {
+    S rate(0.0);
+    for (int i = 0; i < chain.joints(); ++i) rate += drive.along[i] * ddq[i];
+    for (int i = 0; i < chain.joints(); ++i) torque[i] += drive.along[i] * drive.rotor_inertia * rate;
+  }
+}
+
+/// Adds their inertia to M.
+template <typename S>
+void add_shared_rotors(const Chain<S>& chain, JointMatrix<S>& inertia) {
+  for (const SharedDrive& drive : chain.shared_drives)
+    for (int i = 0; i < chain.joints(); ++i)
+      for (int k = 0; k < chain.joints(); ++k)
+        inertia(i, k) += drive.along[i] * drive.along[k] * drive.rotor_inertia;
+}
+
 /// Friction that grows with the load: what a gear loses that carries `carried` = M ddq + h + G.
 template <typename S>
 S load_friction(const Friction<S>& f, const S& dq, const S& carried) {
