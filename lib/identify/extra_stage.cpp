@@ -112,11 +112,9 @@ ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay
 }
 
 /// What was tried, less what nobody asked for: drives and ripples that do not pay are many.
-void tell_terms(std::vector<ModelTerm> tried, std::size_t first, std::vector<ModelTerm>& terms) {
-  for (std::size_t i = first; i < tried.size(); ++i) {
-    const bool usual = tried[i].name.starts_with("fl_") || tried[i].name.starts_with("gc_");
-    if (tried[i].kept || usual) terms.push_back(tried[i]);
-  }
+void tell_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
+  for (const ModelTerm& term : tried)
+    if (term.kept || term.name.starts_with("fl_") || term.name.starts_with("gc_")) terms.push_back(term);
 }
 
 /// Load friction that is given stays as it is.
@@ -140,6 +138,35 @@ void move_to(const ParameterSpace& from, const ParameterSpace& to, bool asked, c
   hold_known_load(to, robot, draft);
 }
 
+/// What of the candidates pays.
+struct Tried {
+  std::vector<bool> stay;        ///< by parameter
+  std::vector<double> gain;      ///< by joint
+  std::vector<ModelTerm> terms;  ///< in the order in which they were tried
+
+  bool scales() const {
+    return std::any_of(gain.begin(), gain.end(), [](double g) { return g != 1.0; });
+  }
+};
+
+/// Logs with other payloads are fitted apart, and their torques must be read alike: then no gains are tried.
+Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDraft& draft) {
+  const ParameterSpace& space = gathered.windows.space;
+  const WeakMoments moments(gathered.windows, nominal_timing(robot));
+  const Chooser chooser(moments, space, draft.nominal);
+  ModelChoice c = draft.choice;
+  c.terms.clear();
+  c.weak.set.assign(space.joints(), moments.yardstick());
+  choose_extra(chooser, space, draft.wanted.asked, c);
+  std::vector<bool> counts;
+  for (const bool still : gathered.windows.still) counts.push_back(!still);
+  if (robot.payloads.empty()) choose_gains(chooser, counts, c);
+  Tried out{c.wanted, c.weak.gain, c.terms};
+  for (int p = space.extra_begin(); p < space.timing(); ++p)
+    out.stay[p] = out.stay[p] || draft.nominal[p] != 0.0;
+  return out;
+}
+
 }  // namespace
 
 double nominal_timing(const Robot& robot) {
@@ -155,42 +182,29 @@ void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Iden
   const double phi = std::clamp(draft.torque.fit.parameters[id.space.timing()], 0.0, 1.0);
   const ExtraSetting setting{draft.torque.shift, phi, draft.torque.fit.parameters};
   gather_again(logs, wide, setting, gathered);
+  ModelDraft widened = draft;
+  move_to(id.space, wide, true, id.robot, widened);
+  const Tried tried = try_candidates(gathered, id.robot, widened);
 
-  ModelDraft tried = draft;
-  move_to(id.space, wide, true, id.robot, tried);
-  ModelChoice& c = tried.choice;
-  const std::size_t before = c.terms.size();
-  {
-    const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
-    const Chooser chooser(moments, wide, tried.nominal);
-    c.weak.set.assign(wide.joints(), moments.yardstick());
-    choose_extra(chooser, wide, tried.wanted.asked, c);
-    std::vector<bool> counts;
-    for (const bool still : gathered.windows.still) counts.push_back(!still);
-    choose_gains(chooser, counts, c);
-  }
-  std::vector<bool> stay = c.wanted;
-  for (int p = wide.extra_begin(); p < wide.timing(); ++p) stay[p] = stay[p] || tried.nominal[p] != 0.0;
   std::vector<int> kept;
-  const ParameterSpace space = pruned(wide, stay, kept);
-  const bool scaled = std::any_of(c.weak.gain.begin(), c.weak.gain.end(), [](double g) { return g != 1.0; });
-  const std::vector<ModelTerm> terms = c.terms;
-  if (scaled) gathered.torque_gain = c.weak.gain;
-  if (scaled) gather_again(logs, space, setting, gathered);
-  for (WeakWindows& set : gathered.windows.sets)
-    if (!scaled) set.keep_extra(kept);
-  gathered.windows.space = space;
-  if (kept.empty() && !scaled) {
-    tell_terms(terms, before, draft.choice.terms);
-    if (space.extra.size() == id.space.extra.size()) return;
+  const ParameterSpace space = pruned(wide, tried.stay, kept);
+  if (tried.scales()) {
+    gathered.torque_gain = tried.gain;
+    gather_again(logs, space, setting, gathered);
+  } else {
+    for (WeakWindows& set : gathered.windows.sets) set.keep_extra(kept);
+    gathered.windows.space = space;
   }
-  move_to(id.space, space, true, id.robot, draft);
-  id.space = space;
-  const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
-  draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
-                              gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
-  tell_terms(terms, before, draft.choice.terms);
-  draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+  const bool as_before = kept.empty() && id.space.extra.empty() && !tried.scales();
+  if (!as_before) {
+    move_to(id.space, space, true, id.robot, draft);
+    id.space = space;
+    const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
+    draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
+                                gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
+    draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+  }
+  tell_terms(tried.terms, draft.choice.terms);
 }
 
 }  // namespace faultline

@@ -185,7 +185,17 @@ void tell_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Id
   const int n = id.space.joints();
   if (!gathered.torque_gain.empty()) {
     id.robot.torque_gain.resize(n, 1.0);
-    for (int j = 0; j < n; ++j) id.robot.torque_gain[j] *= gathered.torque_gain[j];
+    for (int j = 0; j < n; ++j) {
+      id.robot.torque_gain[j] *= gathered.torque_gain[j];
+      if (gathered.torque_gain[j] == 1.0) continue;
+      id.issues.add(make_issue(
+          fmt::format("torque_gain_{}", j + 1), Severity::warning,
+          fmt::format(
+              "the torque of joint {} is {:.3f} times what its column says, by the masses that it shares "
+              "with the joints before: is its unit, torque constant or gear ratio another? The "
+              "identified robot reads it so (torque_gain)",
+              j + 1, gathered.torque_gain[j])));
+    }
   }
   id.robot.gear_compliance.clear();
   for (int p = id.space.extra_begin(); p < id.space.timing(); ++p) {

@@ -122,6 +122,7 @@ TEST(ExtraTerms, ATorqueConstantThatTheOtherJointContradictsIsFound) {
   ASSERT_EQ(id.robot.torque_gain.size(), 3U);
   EXPECT_NEAR(id.robot.torque_gain[1], 1.15, 0.005);
   EXPECT_EQ(id.robot.torque_gain[2], 1.0);
+  EXPECT_NE(id.issues.find("torque_gain_2"), nullptr);
   expect_masses(id, scara, 0.003);
 }
 

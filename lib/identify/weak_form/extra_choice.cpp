@@ -14,7 +14,7 @@ constexpr Worth kShared{.residual = 0.05, .torque = 1e-3};
 // What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain is a wrong mass.
-constexpr Worth kGain{.residual = 0.2, .torque = 2e-3, .sure = 3.0};
+constexpr Worth kGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
 constexpr double kMostGain = 2.0;     // or half
 constexpr int kGainSteps = 14;        // between the two, at first
 constexpr int kGainRefinements = 12;  // each to .62 of the interval

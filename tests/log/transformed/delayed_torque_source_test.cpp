@@ -49,6 +49,14 @@ TEST(DelayedTorqueSource, WholeSamplesAreHandedOnWithinRounding) {
   EXPECT_EQ(log.tau[1], raw.tau[1]);
 }
 
+TEST(DelayedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
+  MemorySource source(ramp(50), "ramp", 7);
+  DelayedTorqueSource scaled(source, {}, {1.0, 1.25});
+  const Log log = read_all(scaled), raw = ramp(50);
+  EXPECT_EQ(log.tau[0], raw.tau[0]);
+  for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[1][k], 1.25 * raw.tau[1][k]);
+}
+
 TEST(DelayedTorqueSource, RewindGivesTheSameRowsAgain) {
   MemorySource source(ramp(100), "ramp", 9);
   DelayedTorqueSource late(source, {0.006, -0.003});
