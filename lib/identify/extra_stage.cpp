@@ -15,6 +15,7 @@ namespace {
 constexpr double kLooked = 0.005;     // of a joint's torque left over: less is not looked at
 constexpr double kSharedR2 = 0.998;   // of a joint that might share its drive with its neighbour
 constexpr double kLeastAlong = 1e-9;  // of a drive's motion: less is another joint's
+constexpr int kSettlingRounds = 2;    // of columns that depend on the robot
 constexpr double kSlow_s = 0.02;      // rows farther apart show no spring
 
 /// Joints that move and of whose torque something is left to be explained.
@@ -167,6 +168,21 @@ Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDr
   return out;
 }
 
+/// The columns of load friction and springs were worked out with a robot that had neither, and other gains:
+/// they are worked out again with the robot as it is now, and the torque is fitted again.
+void settle_columns(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
+                    ModelDraft& draft) {
+  const bool depend = std::any_of(id.space.extra.begin(), id.space.extra.end(), [](const ExtraTerm& term) {
+    return term.kind == ExtraKind::load_friction || term.kind == ExtraKind::gear_compliance;
+  });
+  for (int round = 0; depend && round < kSettlingRounds; ++round) {
+    const Eigen::VectorXd& fitted = draft.torque.fit.parameters;
+    const double phi = std::clamp(fitted[id.space.timing()], 0.0, 1.0);
+    gather_again(logs, id.space, {draft.torque.shift, phi, fitted}, gathered);
+    draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+  }
+}
+
 }  // namespace
 
 double nominal_timing(const Robot& robot) {
@@ -203,6 +219,7 @@ void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Iden
     draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
                                 gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
     draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+    settle_columns(logs, gathered, id, draft);
   }
   tell_terms(tried.terms, draft.choice.terms);
 }

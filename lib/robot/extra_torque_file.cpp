@@ -3,10 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lib/robot/toml/toml_text.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
+namespace {
+
+constexpr double kFastest = 1e5;  // 1/rad or 1/m, of a ripple
+
+}  // namespace
 
 void read_extra_torque(const TomlTable& table, Chain<double>& chain) {
   const int n = chain.joints();
@@ -14,11 +21,16 @@ void read_extra_torque(const TomlTable& table, Chain<double>& chain) {
     const auto joint = ripple.integer("joint", 0);
     if (joint < 1 || joint > n)
       ripple.fail("joint", fmt::format("expected a joint from 1 to {}, found {}", n, joint));
-    chain.ripples.push_back({static_cast<int>(joint) - 1, positive(ripple, "rate", 1.0),
-                             ripple.number("cosine", 0.0), ripple.number("sine", 0.0)});
+    const double rate = ripple.number("rate");
+    if (!(rate > 0.0 && rate <= kFastest))
+      ripple.fail("rate", fmt::format("expected a number above 0 and up to {}, found {}", kFastest, rate));
+    chain.ripples.push_back(
+        {static_cast<int>(joint) - 1, rate, ripple.number("cosine", 0.0), ripple.number("sine", 0.0)});
   }
   for (const TomlTable& shared : table.tables("shared_drive")) {
     const auto along = shared.numbers("along", n);
+    if (n - std::count(along.begin(), along.end(), 0.0) < 2)
+      shared.fail("along", "expected a drive that turns with two joints or more: two numbers that are not 0");
     chain.shared_drives.push_back({Eigen::Map<const Eigen::VectorXd>(along.data(), n),
                                    not_negative(shared, "viscous", 0.0), not_negative(shared, "coulomb", 0.0),
                                    positive(shared, "width", 0.01),

@@ -131,6 +131,9 @@ void read_known(Robot& robot, const TomlTable& table) {
     const std::string kind = key.substr(0, 2);
     if (fact.value < 0.0 && kind != "fo" && kind != "fb" && kind != "fs")
       known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
+    if (kind == "fl" && fact.value >= kMostLoad)
+      known.fail(key,
+                 fmt::format("expected a share of the torque below {}, found {}", kMostLoad, fact.value));
     robot.known[key] = fact;
     set_parameter(robot, key, fact.value);
   }

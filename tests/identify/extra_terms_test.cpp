@@ -126,6 +126,19 @@ TEST(ExtraTerms, ATorqueConstantThatTheOtherJointContradictsIsFound) {
   expect_masses(id, scara, 0.003);
 }
 
+TEST(ExtraTerms, LoadFrictionBesideATorqueConstantIsThatOfTheTrueTorque) {
+  ClosedFormScara scara;
+  scara.load = {0.08, 0.08, 0.0};
+  ClosedFormRun run;
+  run.torque_gain = {1.0, 1.15, 1.0};
+  const Identification id = identified(scara, run);
+  ASSERT_EQ(id.robot.torque_gain.size(), 3U);
+  EXPECT_NEAR(id.robot.torque_gain[1], 1.15, 0.005);
+  EXPECT_NEAR(id.robot.chain.friction[0].load, 0.08, 0.002);
+  EXPECT_NEAR(id.robot.chain.friction[1].load, 0.08, 0.002);
+  expect_masses(id, scara, 0.003);
+}
+
 TEST(ExtraTerms, AGearThatGivesWayIsFoundWithItsCompliance) {
   const TwoMassJoint joint;
   const Identification id = identified(joint);

@@ -91,6 +91,10 @@ TEST(ExtraTorque, WhatCannotBeIsSaid) {
   };
   EXPECT_NE(message("axes = \"RR\"\n[[ripple]]\njoint = 3\nrate = 2\n").find("from 1 to 2, found 3"),
             std::string::npos);
+  EXPECT_NE(message("axes = \"RR\"\n[[ripple]]\njoint = 1\n").find("rate"), std::string::npos);
+  EXPECT_NE(message("axes = \"RR\"\n[[shared_drive]]\nalong = [1, 0]\n").find("two joints or more"),
+            std::string::npos);
+  EXPECT_NE(message("axes = \"RR\"\n[known]\nfl1 = 2\n").find("below 0.9"), std::string::npos);
   EXPECT_NE(message("axes = \"RR\"\n[[joint]]\nfriction = {load = 1.5}\n[[joint]]\n").find("below 0.9"),
             std::string::npos);
 }

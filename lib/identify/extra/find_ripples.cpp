@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRates = 1000;
 constexpr int kMostRipples = 3;
-constexpr double kLeastPeriods = 2.0;   // over the range of the joint
+constexpr double kLeastPeriods = 3.0;   // over the range of the joint
 constexpr double kLeastTurnRate = 2.5;  // 1/rad: slower is gravity's
 constexpr double kStandsOut = 0.03;     // of the residual's variance, and
 constexpr double kAboveOthers = 10.0;   // times the median of all rates

@@ -10,7 +10,9 @@ namespace faultline {
 namespace {
 
 constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};
-constexpr Worth kShared{.residual = 0.05, .torque = 1e-3};
+constexpr Worth kShared{.residual = 0.2, .torque = 1e-3};
+// Play, and a spring in a neighbour, look a little like it.
+constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
 // What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain is a wrong mass.
@@ -55,7 +57,10 @@ std::vector<Group> groups_of(const ParameterSpace& space, const std::vector<bool
       groups.back().parameters.push_back(p);
       continue;
     }
-    const Worth& worth = is_quick(term.kind) ? kQuick : is_of_shared_drive(term.kind) ? kShared : kLoad;
+    const Worth& worth = term.kind == ExtraKind::gear_compliance ? kCompliance
+                         : is_quick(term.kind)                   ? kQuick
+                         : is_of_shared_drive(term.kind)         ? kShared
+                                                                 : kLoad;
     groups.push_back(
         {.parameters = {p}, .joints = joints_of(space, term), .worth = worth, .quick = is_quick(term.kind)});
   }
