@@ -183,8 +183,8 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
                          p[space.skew(i)],
                          space.chain.friction[i].bend_width};
   }
-  for (std::size_t k = 0; k < space.extra.size(); ++k)
-    set_extra_value(space.extra[k], p[space.extra_begin() + static_cast<int>(k)], chain);
+  for (int k = space.extra_begin(); k < space.timing(); ++k)
+    if (double* const value = extra_value(chain, space.extra_at(k))) *value = p[k];
   return chain;
 }
 
@@ -208,8 +208,10 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
     p[space.skew(i)] = chain.friction[i].skew;
     p[space.log_width(i)] = std::log(chain.friction[i].width);
   }
-  for (std::size_t k = 0; k < space.extra.size(); ++k)
-    p[space.extra_begin() + static_cast<int>(k)] = extra_value(chain, space.extra[k]);
+  for (int k = space.extra_begin(); k < space.timing(); ++k) {
+    const double* const value = extra_value(chain, space.extra_at(k));
+    p[k] = value != nullptr ? *value : 0.0;
+  }
   p[space.timing()] = phi;
   return p;
 }

@@ -54,6 +54,11 @@ struct ParameterSpace {
   bool is_extra(int parameter) const { return parameter >= extra_begin() && parameter < timing(); }
   /// Of a parameter that is_extra().
   const ExtraTerm& extra_at(int parameter) const { return extra[parameter - extra_begin()]; }
+  /// Whether a parameter is of what moves, not of what brakes: base parameters and rotors.
+  bool is_inertial(int parameter) const {
+    return parameter < rigid() ||
+           (is_extra(parameter) && extra_at(parameter).kind == ExtraKind::shared_inertia);
+  }
   std::string name(int parameter) const;
   std::string unit(int parameter) const;
 };

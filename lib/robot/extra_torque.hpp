@@ -49,13 +49,19 @@ S load_friction(const Friction<S>& f, const S& dq, const S& carried) {
   return f.load == S(0.0) ? S(0.0) : f.load * abs(carried) * tanh(dq / f.width);
 }
 
-/// What a gear carries on of `torque`, its drive's less all other friction.
+/// What a gear carries on of `torque` that loses the share `lost` of what it carries; a share below zero is
+/// of motion backwards.
+template <typename S>
+S carried_torque(const S& lost, const S& torque) {
+  return torque / (torque > S(0.0) ? S(1.0) + lost : S(1.0) - lost);
+}
+
+/// The same at the velocity `dq`; `torque` is the drive's less all other friction.
 template <typename S>
 S carried_torque(const Friction<S>& f, const S& dq, const S& torque) {
   using std::tanh;
   if (f.load == S(0.0)) return torque;
-  const S lost = f.load * tanh(dq / f.width);
-  return torque / (torque > S(0.0) ? S(1.0) + lost : S(1.0) - lost);
+  return carried_torque<S>(f.load * tanh(dq / f.width), torque);
 }
 
 }  // namespace faultline

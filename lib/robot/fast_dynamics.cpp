@@ -65,9 +65,6 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, co
   }
   add_prismatic(bodies, inertia, bias);
   for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies.rotor_inertia[i];
-  for (const SharedDrive& drive : chain_.shared_drives)
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k) inertia[i * n + k] += drive.along[i] * drive.along[k] * drive.rotor_inertia;
 }
 
 void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* bias) const {
@@ -84,10 +81,8 @@ void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* 
 
 void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
                                     JointMatrix<double>& inertia, JointVector<double>& bias) const {
-  inertia.resize(joints_, joints_);
-  bias.resize(joints_);
   if (planar_) {
-    planar_inertia_and_bias(q.data(), dq.data(), bodies_, inertia.data(), bias.data());
+    inertia_and_bias(q, dq, bodies_, inertia, bias);
   } else {
     inertia = inertia_matrix(chain_, q);
     bias = bias_torque(chain_, q, dq);
@@ -100,6 +95,17 @@ void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVec
   inertia.resize(joints_, joints_);
   bias.resize(joints_);
   planar_inertia_and_bias(q.data(), dq.data(), bodies, inertia.data(), bias.data());
+  if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
+}
+
+JointVector<double> FastDynamics::body_torque(const JointVector<double>& q, const JointVector<double>& dq,
+                                              const JointVector<double>& ddq) const {
+  if (!planar_) return rigid_body_torque(chain_, q, dq, ddq, chain_.gravity);
+  JointMatrix<double> inertia;
+  JointVector<double> bias;
+  inertia_and_bias(q, dq, inertia, bias);
+  bias.noalias() += inertia.lazyProduct(ddq);
+  return bias;
 }
 
 template <typename Mix>

@@ -41,7 +41,10 @@ class FastDynamics {
   /// M(q) and h(q, dq) + G(q).
   void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
                         JointMatrix<double>& inertia, JointVector<double>& bias) const;
-  /// The same of the chain with other bodies; for planar() only.
+  /// M ddq + h + G.
+  JointVector<double> body_torque(const JointVector<double>& q, const JointVector<double>& dq,
+                                  const JointVector<double>& ddq) const;
+  /// M and h + G of the chain with other bodies; for planar() only.
   void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq, const Bodies& bodies,
                         JointMatrix<double>& inertia, JointVector<double>& bias) const;
   /// What the bodies of `other`, the same chain but for its masses, have more than those of this chain.

@@ -20,6 +20,11 @@ namespace {
 
 constexpr double kMostLoad = 0.9;  // of a drive's torque that its friction may take
 
+void check_load(const TomlTable& table, const std::string& key, double load) {
+  if (load >= kMostLoad)
+    table.fail(key, fmt::format("expected a share of the torque below {}, found {}", kMostLoad, load));
+}
+
 void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
   const int n = robot.joints();
   const TomlTable friction = table.table("friction");
@@ -39,10 +44,7 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
   set(friction, "bend_width", &Friction<double>::bend_width, false);
   set(friction, "skew", &Friction<double>::skew, true);
   set(friction, "load", &Friction<double>::load, false);
-  for (const Friction<double>& f : robot.chain.friction)
-    if (f.load >= kMostLoad)
-      friction.fail("load",
-                    fmt::format("expected a share of the torque below {}, found {}", kMostLoad, f.load));
+  for (const Friction<double>& f : robot.chain.friction) check_load(friction, "load", f.load);
   if (table.has("rotor_inertia")) {
     robot.chain.rotor_inertia = table.each("rotor_inertia", n);
     check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
@@ -58,8 +60,7 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
     f.bend_width = positive(own, "bend_width", f.bend_width);
     f.skew = own.number("skew", f.skew);
     f.load = not_negative(own, "load", f.load);
-    if (f.load >= kMostLoad)
-      own.fail("load", fmt::format("expected a share of the torque below {}, found {}", kMostLoad, f.load));
+    check_load(own, "load", f.load);
     robot.chain.rotor_inertia[i] = not_negative(joints[i], "rotor_inertia", robot.chain.rotor_inertia[i]);
   }
 }
@@ -131,9 +132,7 @@ void read_known(Robot& robot, const TomlTable& table) {
     const std::string kind = key.substr(0, 2);
     if (fact.value < 0.0 && kind != "fo" && kind != "fb" && kind != "fs")
       known.fail(key, fmt::format("expected a number that is not negative, found {}", fact.value));
-    if (kind == "fl" && fact.value >= kMostLoad)
-      known.fail(key,
-                 fmt::format("expected a share of the torque below {}, found {}", kMostLoad, fact.value));
+    if (kind == "fl") check_load(known, key, fact.value);
     robot.known[key] = fact;
     set_parameter(robot, key, fact.value);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +10,7 @@
 #include "lib/log/memory_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/identify/closed_form_scara.hpp"
+#include "tests/identify/identified_scara.hpp"
 #include "tests/identify/two_mass_joint.hpp"
 
 namespace faultline {
@@ -18,29 +18,19 @@ namespace {
 
 using testing::ClosedFormRun;
 using testing::ClosedFormScara;
+using testing::expect_masses;
+using testing::identified;
+using testing::kept;
 using testing::simulate_closed_form;
 using testing::simulate_two_mass;
 using testing::TwoMassJoint;
 
-Identification identified(const ClosedFormScara& scara, ClosedFormRun run = {}) {
-  run.period_s = 0.002;
-  run.duration_s = 12.0;
-  MemorySource source(simulate_closed_form(scara, run), "log");
-  LogSource* logs[] = {&source};
-  Robot robot = preset_robot("RRP");
-  robot.log.torque_between_samples = TorqueTiming::held;
-  return identify(logs, robot);
-}
+constexpr double kDuration_s = 12.0;
 
-Identification identified(const TwoMassJoint& joint) {
+Identification identified_two_mass(const TwoMassJoint& joint) {
   MemorySource source(simulate_two_mass(joint, 30.0, 0.001), "log");
   LogSource* logs[] = {&source};
   return identify(logs, preset_robot("R"));
-}
-
-bool kept(const Identification& id, const std::string& prefix) {
-  return std::any_of(id.terms.begin(), id.terms.end(),
-                     [&](const ModelTerm& t) { return t.name.starts_with(prefix) && t.kept; });
 }
 
 const ParameterEstimate* find(const Identification& id, const std::string& prefix) {
@@ -49,17 +39,11 @@ const ParameterEstimate* find(const Identification& id, const std::string& prefi
   return nullptr;
 }
 
-void expect_masses(const Identification& id, const ClosedFormScara& scara, double share) {
-  const double truth[] = {scara.a(), scara.b(), scara.c(), scara.m3};
-  for (int k = 0; k < 4; ++k)
-    EXPECT_NEAR(id.base_parameters[k].value / truth[k], 1.0, share) << id.base_parameters[k].name;
-}
-
 TEST(ExtraTerms, APlainRobotGetsNone) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     ClosedFormRun run;
     run.seed = seed;
-    const Identification id = identified({}, run);
+    const Identification id = identified({}, kDuration_s, run);
     EXPECT_TRUE(id.space.extra.empty()) << seed;
     EXPECT_TRUE(id.robot.torque_gain.empty()) << seed;
   }
@@ -68,7 +52,7 @@ TEST(ExtraTerms, APlainRobotGetsNone) {
 TEST(ExtraTerms, FrictionThatGrowsWithTheLoadIsFoundWithItsShare) {
   ClosedFormScara scara;
   scara.load = {0.08, 0.0, 0.0};
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   EXPECT_TRUE(kept(id, "fl_1"));
   EXPECT_FALSE(kept(id, "fl_2"));
   EXPECT_NEAR(id.robot.chain.friction[0].load, 0.08, 0.002);
@@ -89,7 +73,7 @@ TEST(ExtraTerms, KnownLoadFrictionStaysAsItIs) {
 TEST(ExtraTerms, RippleIsFoundWithItsRateAndSize) {
   ClosedFormScara scara;
   scara.ripple = {0.0, 0.6, 0.0};
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   ASSERT_EQ(id.robot.chain.ripples.size(), 1U);
   const Ripple& r = id.robot.chain.ripples[0];
   EXPECT_EQ(r.joint, 1);
@@ -103,7 +87,7 @@ TEST(ExtraTerms, FrictionOfADriveThatTwoJointsTurnIsFound) {
   ClosedFormScara scara;
   scara.shared_fv = 0.4;
   scara.shared_fc = 1.5;
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   ASSERT_EQ(id.robot.chain.shared_drives.size(), 1U);
   const SharedDrive& f = id.robot.chain.shared_drives[0];
   EXPECT_EQ(f.along, Eigen::Vector3d(1, 1, 0));
@@ -118,7 +102,7 @@ TEST(ExtraTerms, ATorqueConstantThatTheOtherJointContradictsIsFound) {
   ClosedFormScara scara;
   ClosedFormRun run;
   run.torque_gain = {1.0, 1.15, 1.0};
-  const Identification id = identified(scara, run);
+  const Identification id = identified(scara, kDuration_s, run);
   ASSERT_EQ(id.robot.torque_gain.size(), 3U);
   EXPECT_NEAR(id.robot.torque_gain[1], 1.15, 0.005);
   EXPECT_EQ(id.robot.torque_gain[2], 1.0);
@@ -131,7 +115,7 @@ TEST(ExtraTerms, LoadFrictionBesideATorqueConstantIsThatOfTheTrueTorque) {
   scara.load = {0.08, 0.08, 0.0};
   ClosedFormRun run;
   run.torque_gain = {1.0, 1.15, 1.0};
-  const Identification id = identified(scara, run);
+  const Identification id = identified(scara, kDuration_s, run);
   ASSERT_EQ(id.robot.torque_gain.size(), 3U);
   EXPECT_NEAR(id.robot.torque_gain[1], 1.15, 0.005);
   EXPECT_NEAR(id.robot.chain.friction[0].load, 0.08, 0.002);
@@ -141,7 +125,7 @@ TEST(ExtraTerms, LoadFrictionBesideATorqueConstantIsThatOfTheTrueTorque) {
 
 TEST(ExtraTerms, AGearThatGivesWayIsFoundWithItsCompliance) {
   const TwoMassJoint joint;
-  const Identification id = identified(joint);
+  const Identification id = identified_two_mass(joint);
   EXPECT_TRUE(kept(id, "gc_1"));
   ASSERT_EQ(id.robot.gear_compliance.size(), 1U);
   const double seen = std::pow(joint.link_inertia / joint.inertia(), 2) / joint.stiffness;
@@ -152,7 +136,7 @@ TEST(ExtraTerms, AGearThatGivesWayIsFoundWithItsCompliance) {
 TEST(ExtraTerms, AStiffGearDoesNotGiveWay) {
   TwoMassJoint joint;
   joint.stiffness = 3e6;
-  const Identification id = identified(joint);
+  const Identification id = identified_two_mass(joint);
   EXPECT_FALSE(kept(id, "gc_1"));
 }
 
@@ -160,7 +144,7 @@ TEST(ExtraTerms, TheIdentificationComesBackFromItsJson) {
   ClosedFormScara scara;
   scara.load = {0.08, 0.0, 0.0};
   scara.ripple = {0.0, 0.6, 0.0};
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   const Identification again = identification_from_json(to_json(id), "again");
   EXPECT_EQ(robot_file_text(again.robot), robot_file_text(id.robot));
   EXPECT_EQ(again.estimate, id.estimate);

@@ -1,44 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "tests/identify/closed_form_scara.hpp"
+#include "tests/identify/identified_scara.hpp"
 
 namespace faultline {
 namespace {
 
 using testing::ClosedFormRun;
 using testing::ClosedFormScara;
-using testing::simulate_closed_form;
+using testing::expect_masses;
+using testing::identified;
+using testing::kept;
 
-Identification identified(const ClosedFormScara& scara, std::uint64_t seed = 1) {
-  ClosedFormRun run;
-  run.period_s = 0.002;
-  run.duration_s = 10.0;
-  run.seed = seed;
-  MemorySource source(simulate_closed_form(scara, run), "log");
-  LogSource* logs[] = {&source};
-  Robot robot = preset_robot("RRP");
-  robot.log.torque_between_samples = TorqueTiming::held;
-  return identify(logs, robot);
-}
-
-bool kept(const Identification& id, const std::string& term) {
-  return std::any_of(id.terms.begin(), id.terms.end(),
-                     [&](const ModelTerm& t) { return t.name == term && t.kept; });
-}
-
-void expect_masses(const Identification& id, const ClosedFormScara& scara, double share) {
-  const double truth[] = {scara.a(), scara.b(), scara.c(), scara.m3};
-  for (int k = 0; k < 4; ++k)
-    EXPECT_NEAR(id.base_parameters[k].value / truth[k], 1.0, share) << id.base_parameters[k].name;
-}
+constexpr double kDuration_s = 10.0;
 
 /// Torque of friction alone of joint `j` at `dq`.
 double friction_at(const Identification& id, int j, double dq) {
@@ -49,7 +29,9 @@ double friction_at(const Identification& id, int j, double dq) {
 
 TEST(FrictionTerms, APlainRobotGetsNeitherBendNorSkew) {
   for (const std::uint64_t seed : {1, 2}) {
-    const Identification id = identified({}, seed);
+    ClosedFormRun run;
+    run.seed = seed;
+    const Identification id = identified({}, kDuration_s, run);
     for (int j = 1; j <= 3; ++j) {
       EXPECT_FALSE(kept(id, "fb_" + std::to_string(j))) << seed;
       EXPECT_FALSE(kept(id, "fs_" + std::to_string(j))) << seed;
@@ -60,7 +42,7 @@ TEST(FrictionTerms, APlainRobotGetsNeitherBendNorSkew) {
 TEST(FrictionTerms, StribeckFrictionIsBentAndLeavesTheMassesRight) {
   ClosedFormScara scara;
   scara.stribeck = {2.4, 0.0, 0.0};
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   EXPECT_TRUE(kept(id, "fb_1"));
   EXPECT_FALSE(kept(id, "fb_2"));
   EXPECT_LT(id.robot.chain.friction[0].bend, 0.0);
@@ -75,7 +57,7 @@ TEST(FrictionTerms, StribeckFrictionIsBentAndLeavesTheMassesRight) {
 TEST(FrictionTerms, ViscousFrictionThatDiffersByDirectionIsSkewed) {
   ClosedFormScara scara;
   scara.skew = {0.0, 0.15, 0.0};
-  const Identification id = identified(scara);
+  const Identification id = identified(scara, kDuration_s);
   EXPECT_TRUE(kept(id, "fs_2"));
   EXPECT_FALSE(kept(id, "fs_1"));
   EXPECT_NEAR(id.robot.chain.friction[1].skew, 0.15, 0.01);

@@ -8,29 +8,12 @@
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "tests/robot/extra_torque_robot.hpp"
 
 namespace faultline {
 namespace {
 
-const char* const kRobot = R"(
-axes = "RRP"
-[friction]
-viscous = [0.5, 0.3, 2.0]
-coulomb = [0.6, 0.4, 1.0]
-load = [0.1, 0.0, 0.2]
-[[ripple]]
-joint = 2
-rate = 40
-cosine = 0.3
-sine = -0.2
-[[shared_drive]]
-along = [1, 1, 0]
-viscous = 0.4
-coulomb = 1.5
-width = 0.02
-rotor_inertia = 0.1
-)";
-
+using testing::kExtraTorqueRobot;
 using Vector = JointVector<double>;
 
 Vector draw(Random& random, double scale) {
@@ -38,7 +21,7 @@ Vector draw(Random& random, double scale) {
 }
 
 TEST(ExtraTorque, InverseAndForwardDynamicsUndoEachOther) {
-  const Chain<double> chain = robot_from_toml(kRobot, "robot").chain;
+  const Chain<double> chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const FastDynamics fast(chain);
   Random random(3);
   for (int k = 0; k < 50; ++k) {
@@ -52,7 +35,7 @@ TEST(ExtraTorque, InverseAndForwardDynamicsUndoEachOther) {
 }
 
 TEST(ExtraTorque, EachPartBrakesAsItsEquationSays) {
-  Chain<double> chain = robot_from_toml(kRobot, "robot").chain;
+  Chain<double> chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const Vector q = Vector::Constant(3, 0.1);
   Vector dq(3), torque = Vector::Zero(3);
   dq << 0.5, -0.2, 0.3;
@@ -68,7 +51,7 @@ TEST(ExtraTorque, EachPartBrakesAsItsEquationSays) {
 }
 
 TEST(ExtraTorque, TheRobotFileSaysItAndRoundTrips) {
-  const Robot robot = robot_from_toml(kRobot, "robot");
+  const Robot robot = robot_from_toml(kExtraTorqueRobot, "robot");
   const std::string text = robot_file_text(robot);
   EXPECT_EQ(robot_file_text(robot_from_toml(text, "again")), text);
   Robot identified = robot;

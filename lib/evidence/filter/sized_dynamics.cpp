@@ -107,36 +107,33 @@ void SizedDynamics::rigid_body(const MotionState& at, RigidBody& body) const {
 }
 
 /// Takes ripples and friction that joints share out of the torque that accelerates them.
-void SizedDynamics::take_extra_torque(const RigidBody& body, JointArray& net, Acceleration& out) const {
+void SizedDynamics::take_extra_torque(const RigidBody& body, NetTorque& net, Acceleration& out) const {
   const Chain<double>& chain = load_.model.chain;
   if (chain.ripples.empty() && chain.shared_drives.empty()) return;
   JointVector<double> extra = JointVector<double>::Zero(joints_);
   add_extra_torque(chain, body.q, body.dq, extra);
-  for (int j = 0; j < joints_; ++j) net[j] -= extra[j];
+  for (int j = 0; j < joints_; ++j) net.value[j] -= extra[j];
   for (const SharedDrive& f : chain.shared_drives) {
     const double sign = saturating_tanh(f.speed(body.dq.data()) / f.width);
     for (int j = 0; j < joints_; ++j) {
       const double share = f.along[j] * f.along[j];
       out.friction_slope[j] += share * (f.viscous + f.coulomb * (1.0 - sign * sign) / f.width);
-      out.stiffness = std::max(
-          out.stiffness, out.inverse_inertia[j * joints_ + j] * share * (f.viscous + f.coulomb / f.width));
+      net.steepest[j] += share * (f.viscous + f.coulomb / f.width);
     }
   }
 }
 
 /// Takes what gears lose of the torque they carry, before gravity and Coriolis torque are taken from it.
-void SizedDynamics::lose_to_load(const MotionState& at, JointArray& net, Acceleration& out) const {
+void SizedDynamics::lose_to_load(const MotionState& at, NetTorque& net, Acceleration& out) const {
   for (int j = 0; j < joints_; ++j) {
     const Friction<double>& f = load_.model.chain.friction[j];
     if (f.load == 0.0) continue;
-    Friction<double> scaled = f;
-    scaled.load *= friction_scale_[j];
-    net[j] = carried_torque(scaled, at.dq[j], net[j]);
-    const double sign = saturating_tanh(at.dq[j] / f.width), carried = std::abs(net[j]);
-    const double stiffest = scaled.load * carried / f.width;
+    const double sign = saturating_tanh(at.dq[j] / f.width), share = friction_scale_[j] * f.load;
+    net.value[j] = carried_torque(share * sign, net.value[j]);
+    const double carried = std::abs(net.value[j]), steepest = share * carried / f.width;
     out.friction_torque[j] -= f.load * carried * sign;
-    out.friction_slope[j] += stiffest * (1.0 - sign * sign);
-    out.stiffness += out.inverse_inertia[j * joints_ + j] * stiffest;
+    out.friction_slope[j] += steepest * (1.0 - sign * sign);
+    net.steepest[j] += steepest;
   }
 }
 
@@ -144,11 +141,10 @@ void SizedDynamics::lose_to_load(const MotionState& at, JointArray& net, Acceler
 JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& torque, const RigidBody& body,
                                      Acceleration& out) const {
   const int n = joints_;
-  JointArray net;
+  NetTorque net;
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = load_.model.chain.friction[j];
-    const bool rubs =
-        f.coulomb != 0.0 || f.load != 0.0 || (j == joint_ && kind_ == FaultKind::friction_increase);
+    const bool rubs = f.coulomb != 0.0 || (j == joint_ && kind_ == FaultKind::friction_increase);
     const double sign = rubs ? saturating_tanh(at.dq[j] / f.width) : 0.0;
     const double sharpness = rubs ? (1.0 - sign * sign) / f.width : 0.0;
     const double scale = friction_scale_[j];
@@ -160,15 +156,17 @@ JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& to
     out.friction_torque[j] = -f.viscous * at.dq[j] - f.coulomb * sign - shape.torque;
     out.gain_torque[j] = torque[j] * (j == joint_ ? driven_share(kind_, sizes_) : 1.0);
     out.friction_slope[j] = load.viscous + load.coulomb * sharpness + scale * shape.slope;
-    out.stiffness =
-        std::max(out.stiffness, out.inverse_inertia[j * n + j] * (load.viscous + load.coulomb / f.width));
-    net[j] = load.drive - load.viscous * at.dq[j] - load.coulomb * sign - scale * shape.torque - f.offset +
-             slow_torque_[j];
+    net.steepest[j] = load.viscous + load.coulomb / f.width;
+    net.value[j] = load.drive - load.viscous * at.dq[j] - load.coulomb * sign - scale * shape.torque -
+                   f.offset + slow_torque_[j];
   }
   take_extra_torque(body, net, out);
   lose_to_load(at, net, out);
-  for (int j = 0; j < n; ++j) net[j] -= body.bias[j];
-  return net;
+  for (int j = 0; j < n; ++j) {
+    out.stiffness = std::max(out.stiffness, out.inverse_inertia[j * n + j] * net.steepest[j]);
+    net.value[j] -= body.bias[j];
+  }
+  return net.value;
 }
 
 /// What a kilogram at the tip, accelerated as in `out`, asks of every joint.

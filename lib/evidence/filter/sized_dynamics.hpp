@@ -68,12 +68,16 @@ class SizedDynamics {
 
  private:
   struct RigidBody;
+  /// What accelerates each joint on its way, with the steepest that its friction can be.
+  struct NetTorque {
+    JointArray value, steepest;
+  };
 
   void take_slow_states(const SizedFault& fault);
   void rigid_body(const MotionState& at, RigidBody& body) const;
   void tip_torque(const RigidBody& body, Acceleration& out) const;
-  void take_extra_torque(const RigidBody& body, JointArray& net, Acceleration& out) const;
-  void lose_to_load(const MotionState& at, JointArray& net, Acceleration& out) const;
+  void take_extra_torque(const RigidBody& body, NetTorque& net, Acceleration& out) const;
+  void lose_to_load(const MotionState& at, NetTorque& net, Acceleration& out) const;
   JointArray net_torque(const MotionState& at, const JointArray& torque, const RigidBody& body,
                         Acceleration& out) const;
   Acceleration midpoint_step(MotionState& state, const Acceleration& start, const JointArray& torque,

@@ -12,6 +12,11 @@ bool is_of_shared_drive(ExtraKind kind) {
          kind == ExtraKind::shared_coulomb;
 }
 
+bool belong_together(const ExtraTerm& a, const ExtraTerm& b) {
+  return a.index == b.index && ((is_ripple(a.kind) && is_ripple(b.kind)) ||
+                                (is_of_shared_drive(a.kind) && is_of_shared_drive(b.kind)));
+}
+
 bool is_possible(ExtraKind kind, double value) {
   constexpr double kMostLoad = 0.5;
   if (is_ripple(kind)) return true;
@@ -39,17 +44,21 @@ std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain,
   return out;
 }
 
-double extra_value(const Chain<double>& chain, const ExtraTerm& term) {
+namespace {
+
+/// `Place` is double* of a chain that may be changed, const double* of one that may not.
+template <typename Place, typename AnyChain>
+Place place_of(AnyChain& chain, const ExtraTerm& term) {
   const auto index = static_cast<std::size_t>(term.index);
-  const auto shared = [&](double SharedDrive::*value) {
-    return index < chain.shared_drives.size() ? chain.shared_drives[index].*value : 0.0;
+  const auto shared = [&](double SharedDrive::*value) -> Place {
+    return index < chain.shared_drives.size() ? &(chain.shared_drives[index].*value) : nullptr;
   };
-  const auto ripple = [&](double Ripple::*value) {
-    return index < chain.ripples.size() ? chain.ripples[index].*value : 0.0;
+  const auto ripple = [&](double Ripple::*value) -> Place {
+    return index < chain.ripples.size() ? &(chain.ripples[index].*value) : nullptr;
   };
   switch (term.kind) {
     case ExtraKind::load_friction:
-      return chain.friction[index].load;
+      return &chain.friction[index].load;
     case ExtraKind::shared_inertia:
       return shared(&SharedDrive::rotor_inertia);
     case ExtraKind::shared_viscous:
@@ -61,45 +70,32 @@ double extra_value(const Chain<double>& chain, const ExtraTerm& term) {
     case ExtraKind::ripple_sine:
       return ripple(&Ripple::sine);
     case ExtraKind::gear_compliance:
-      return 0.0;
+      return nullptr;
   }
-  return 0.0;
+  return nullptr;
 }
 
-void set_extra_value(const ExtraTerm& term, double value, Chain<double>& chain) {
-  switch (term.kind) {
-    case ExtraKind::load_friction:
-      chain.friction[term.index].load = value;
-      return;
-    case ExtraKind::shared_inertia:
-      chain.shared_drives[term.index].rotor_inertia = value;
-      return;
-    case ExtraKind::shared_viscous:
-      chain.shared_drives[term.index].viscous = value;
-      return;
-    case ExtraKind::shared_coulomb:
-      chain.shared_drives[term.index].coulomb = value;
-      return;
-    case ExtraKind::ripple_cosine:
-      chain.ripples[term.index].cosine = value;
-      return;
-    case ExtraKind::ripple_sine:
-      chain.ripples[term.index].sine = value;
-      return;
-    case ExtraKind::gear_compliance:
-      return;
-  }
+}  // namespace
+
+double* extra_value(Chain<double>& chain, const ExtraTerm& term) { return place_of<double*>(chain, term); }
+const double* extra_value(const Chain<double>& chain, const ExtraTerm& term) {
+  return place_of<const double*>(chain, term);
 }
 
 JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
                                  const JointVector<double>& q, const JointVector<double>& dq,
-                                 const JointVector<double>& carried) {
+                                 const JointVector<double>& ddq, const JointVector<double>& carried) {
   JointVector<double> out = JointVector<double>::Zero(chain.joints());
   const int j = term.joint;
   switch (term.kind) {
     case ExtraKind::load_friction:
       out[j] = std::abs(carried[j]) * std::tanh(dq[j] / chain.friction[j].width);
       break;
+    case ExtraKind::shared_inertia: {
+      const SharedDrive& f = chain.shared_drives[term.index];
+      out = f.along * f.speed(ddq.data());
+      break;
+    }
     case ExtraKind::shared_viscous:
     case ExtraKind::shared_coulomb: {
       const SharedDrive& f = chain.shared_drives[term.index];
@@ -113,7 +109,6 @@ JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& te
     case ExtraKind::ripple_sine:
       out[j] = std::sin(chain.ripples[term.index].rate * q[j]);
       break;
-    case ExtraKind::shared_inertia:
     case ExtraKind::gear_compliance:
       break;
   }

@@ -26,6 +26,8 @@ struct ExtraTerm {
 
 bool is_ripple(ExtraKind kind);
 bool is_of_shared_drive(ExtraKind kind);
+/// Whether they are of the same ripple or drive.
+bool belong_together(const ExtraTerm& a, const ExtraTerm& b);
 /// Whether a robot can have that value: friction never drives, no gear leads or loses half of what it
 /// carries.
 bool is_possible(ExtraKind kind, double value);
@@ -34,14 +36,14 @@ bool is_possible(ExtraKind kind, double value);
 /// `gear_compliance` (by joint; may be empty) that is not 0.
 std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain, const std::vector<double>& gear_compliance);
 
-/// The chain's value of a term, 0 where it has none; compliance is no part of it.
-double extra_value(const Chain<double>& chain, const ExtraTerm& term);
-void set_extra_value(const ExtraTerm& term, double value, Chain<double>& chain);
+/// Where the chain keeps a term's value; null where it has none, as of compliance.
+double* extra_value(Chain<double>& chain, const ExtraTerm& term);
+const double* extra_value(const Chain<double>& chain, const ExtraTerm& term);
 
 /// The torque on every joint that a unit of a term is, at one state, where gears carry `carried`.
-/// Inertia and compliance have none.
+/// Compliance has none.
 JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
                                  const JointVector<double>& q, const JointVector<double>& dq,
-                                 const JointVector<double>& carried);
+                                 const JointVector<double>& ddq, const JointVector<double>& carried);
 
 }  // namespace faultline

@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "lib/core/golden_section.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -110,16 +111,6 @@ std::vector<double> periodogram(const Samples& samples, double first, double ste
   return told;
 }
 
-double refine(const Samples& samples, double low, double high, const WindowShare& share) {
-  constexpr double kGolden = 0.6180339887498949;
-  for (int i = 0; i < kRefinements; ++i) {
-    const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    const bool lower = fit_at(samples, a, share).told() > fit_at(samples, b, share).told();
-    (lower ? high : low) = lower ? b : a;
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace
 
 std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choice,
@@ -137,7 +128,8 @@ std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choi
     const auto peak = std::max_element(told.begin(), told.end());
     const double most = *peak, at = first + step * static_cast<double>(peak - told.begin());
     if (!(most > kStandsOut * samples.square() && most > kAboveOthers * upper_median_of(told))) break;
-    const double rate = refine(samples, at - step, at + step, share);
+    const double rate = golden_section(at - step, at + step, kRefinements,
+                                       [&](double r) { return -fit_at(samples, r, share).told(); });
     const Eigen::Vector2d wave = fit_at(samples, rate, share).solve();
     for (std::size_t k = 0; k < samples.q.size(); ++k) {
       const double w = share(rate * samples.turn[k]), angle = rate * samples.q[k];

@@ -41,16 +41,6 @@ void invert(JointMatrix<double>& m) {
   }
 }
 
-JointVector<double> rigid_torque(const FastDynamics& dynamics, const JointVector<double>& q,
-                                 const JointVector<double>& dq, const JointVector<double>& ddq) {
-  if (!dynamics.planar()) return rigid_body_torque(dynamics.chain(), q, dq, ddq, dynamics.chain().gravity);
-  JointMatrix<double> m;
-  JointVector<double> bias;
-  dynamics.inertia_and_bias(q, dq, m, bias);
-  bias.noalias() += m.lazyProduct(ddq);
-  return bias;
-}
-
 /// out = a b for an `a` of few rows, column after column: Eigen's products are made for larger ones.
 void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b, Eigen::MatrixXd& out) {
   const Eigen::Index inner = b.rows();
@@ -137,13 +127,13 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
       up[j] += kDifference;
       down[j] -= kDifference;
       w.rhs_state.col(j) =
-          (rigid_torque(dynamics_, down, w.dq, w.ddq) - rigid_torque(dynamics_, up, w.dq, w.ddq)) /
+          (dynamics_.body_torque(down, w.dq, w.ddq) - dynamics_.body_torque(up, w.dq, w.ddq)) /
           (2.0 * kDifference);
       up = down = w.dq;  // the torque is quadratic in velocity: a difference over a whole unit is exact
       up[j] += 0.5;
       down[j] -= 0.5;
       w.rhs_state.col(n + j) =
-          rigid_torque(dynamics_, w.q, down, w.ddq) - rigid_torque(dynamics_, w.q, up, w.ddq);
+          dynamics_.body_torque(w.q, down, w.ddq) - dynamics_.body_torque(w.q, up, w.ddq);
     }
     const Friction<double>& f = dynamics_.chain().friction[j];
     const double bent = std::tanh(w.dq[j] / f.width);
@@ -162,7 +152,7 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
 void SegmentModel::base_slope(std::size_t direction, const Workspace& w,
                               Eigen::Ref<Eigen::VectorXd> slope) const {
   if (dynamics_.planar()) {
-    slope = -rigid_torque(directions_[direction], w.q, w.dq, w.ddq);
+    slope = -directions_[direction].body_torque(w.q, w.dq, w.ddq);
     return;
   }
   const Eigen::Index links = static_cast<Eigen::Index>(space_.joints()) * kLinkParameters;
@@ -187,12 +177,7 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
     } else if (p == space_.timing()) {
       column = tau_step;
     } else if (space_.is_extra(p)) {
-      if (space_.extra_at(p).kind == ExtraKind::shared_inertia) {
-        const Eigen::VectorXd& along = dynamics_.chain().shared_drives[space_.extra_at(p).index].along;
-        column = -along.dot(w.ddq) * along;
-        continue;
-      }
-      column = -extra_torque(dynamics_.chain(), space_.extra_at(p), w.q, w.dq, w.carried);
+      column = -extra_torque(dynamics_.chain(), space_.extra_at(p), w.q, w.dq, w.ddq, w.carried);
     } else {
       const int joint = space_.joint_of(p);
       const Friction<double>& f = dynamics_.chain().friction[joint];
@@ -205,7 +190,7 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
                       : p >= space_.coulomb(0) ? -bent
                                                : -w.dq[joint];
     }
-    if (p >= space_.rigid()) column.array() *= w.passed.array();
+    if (!space_.is_inertial(p)) column.array() *= w.passed.array();
   }
   multiply_small(w.inverse_inertia.data(), n, w.rhs_parameter, w.by_parameter);
 }

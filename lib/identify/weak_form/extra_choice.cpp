@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/golden_section.hpp"
+
 namespace faultline {
 namespace {
 
@@ -17,9 +19,9 @@ constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain is a wrong mass.
 constexpr Worth kGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
-constexpr double kMostGain = 2.0;     // or half
-constexpr int kGainSteps = 14;        // between the two, at first
-constexpr int kGainRefinements = 12;  // each to .62 of the interval
+constexpr double kMostGain = 2.0;  // or half
+constexpr int kGainSteps = 14;     // between the two, at first
+constexpr int kGainRefinements = 12;
 
 /// Terms that are tried together.
 struct Group {
@@ -33,12 +35,6 @@ struct Group {
 };
 
 bool is_quick(ExtraKind kind) { return is_ripple(kind) || kind == ExtraKind::gear_compliance; }
-
-/// Whether two terms stand or fall together.
-bool belong_together(const ExtraTerm& a, const ExtraTerm& b) {
-  return a.index == b.index && ((is_ripple(a.kind) && is_ripple(b.kind)) ||
-                                (is_of_shared_drive(a.kind) && is_of_shared_drive(b.kind)));
-}
 
 std::vector<int> joints_of(const ParameterSpace& space, const ExtraTerm& term) {
   if (!is_of_shared_drive(term.kind)) return {term.joint};
@@ -112,14 +108,8 @@ double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
     const double left = left_with(chooser, c, scale, j, -most + i * step);
     if (left < least) least = left, best = -most + i * step;
   }
-  double low = best - step, high = best + step;
-  constexpr double kGolden = 0.6180339887498949;
-  for (int i = 0; i < kGainRefinements; ++i) {
-    const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    const bool lower = left_with(chooser, c, scale, j, a) < left_with(chooser, c, scale, j, b);
-    (lower ? high : low) = lower ? b : a;
-  }
-  return 0.5 * (low + high);
+  return golden_section(best - step, best + step, kGainRefinements,
+                        [&](double log_gain) { return left_with(chooser, c, scale, j, log_gain); });
 }
 
 }  // namespace

@@ -6,35 +6,16 @@
 #include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "tests/robot/extra_torque_robot.hpp"
 
 namespace faultline {
 namespace {
 
-const char* const kRobot = R"(
-axes = "RRP"
-[friction]
-viscous = [0.5, 0.3, 2.0]
-coulomb = [0.6, 0.4, 1.0]
-offset = [0.1, -0.2, 0.0]
-bend = [-0.2, 0.0, 0.0]
-skew = [0.0, 0.05, 0.0]
-load = [0.1, 0.0, 0.2]
-[[ripple]]
-joint = 2
-rate = 40
-cosine = 0.3
-sine = -0.2
-[[shared_drive]]
-along = [1, 1, 0]
-viscous = 0.4
-coulomb = 1.5
-width = 0.02
-rotor_inertia = 0.05
-)";
+using testing::kExtraTorqueRobot;
 
 TEST(SizedDynamics, AHealthyRobotMovesAsItsChainDoes) {
   MotionModel model;
-  model.chain = robot_from_toml(kRobot, "robot").chain;
+  model.chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const RobotLoad load(model);
   const SizedDynamics healthy(load, {});
   Random random(7);
