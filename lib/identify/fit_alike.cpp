@@ -145,6 +145,21 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
   take_torque_fit(torque, gathered, id);
 }
 
+/// What the last fit left of the terms that were chosen.
+void settle_terms(const ParameterSpace& space, ModelDraft& draft) {
+  const auto left = [&](int p) {
+    bool any = draft.torque.wanted[p];
+    for (int k = space.extra_begin(); k < space.timing(); ++k)
+      if (belong_together(space.extra_at(k), space.extra_at(p))) any = any || draft.torque.wanted[k];
+    return any;
+  };
+  for (ModelTerm& term : draft.choice.terms) {
+    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = draft.torque.shift[term.joint] != 0;
+    for (int p = space.extra_begin(); p < space.timing(); ++p)
+      if (term.kept && term.name == space.name(p)) term.kept = left(p);
+  }
+}
+
 /// The model that the logs ask for: chosen, and its torque fitted.
 ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, const std::vector<int>& still,
                        const IdentifyOptions& options, Identification& id) {
@@ -170,8 +185,7 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
   take_extra_terms(logs, gathered, id, draft);
   draft.choice.weak.shift = draft.torque.shift;
-  for (ModelTerm& term : draft.choice.terms)
-    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = draft.torque.shift[term.joint] != 0;
+  settle_terms(id.space, draft);
   if (!draft.torque.not_a_robot.empty())
     id.issues.add(make_issue("infeasible", Severity::warning,
                              draft.torque.not_a_robot +

@@ -45,6 +45,9 @@ Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::V
     friction.viscous = std::max(friction.viscous, 0.0);
     friction.coulomb = std::max(friction.coulomb, 0.0);
   }
+  std::erase_if(out.chain.shared_drives, [](const SharedDrive& drive) {
+    return drive.rotor_inertia == 0.0 && drive.viscous == 0.0 && drive.coulomb == 0.0;
+  });
   out.torque_phi = std::clamp(parameters[space.timing()], 0.0, 1.0);
   out.identified = true;
   return out;

@@ -2,6 +2,7 @@
 #include "lib/identify/identify.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
@@ -13,6 +14,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kContradicts = 5.0;  // standard errors
+
 /// Whether the same base parameters mean other torques at other lengths.
 bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
   const Eigen::VectorXd ones = Eigen::VectorXd::LinSpaced(a.count(), 1.0, 2.0);
@@ -20,10 +23,24 @@ bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
   return (same - ones).head(a.rigid()).cwiseAbs().maxCoeff() > 1e-6;
 }
 
+void add_contradiction(double ratio, Identification& id) {
+  id.issues.add(make_issue(
+      "lengths_contradict", Severity::warning,
+      fmt::format("no masses of the links fit the base parameters at these lengths: they are {:.0f} standard "
+                  "errors off, and the intervals of m and l are wider by as much. Is a length wrong, a rotor "
+                  "not stated (rotor_inertia), a link no rod or point mass?",
+                  ratio)));
+}
+
 /// Masses and lengths; when all lengths are settled, the chain is rebuilt on them.
 void settle_physical(std::span<const BaseEstimate> estimates, Identification& id) {
   const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
   id.physical_parameters = physical.parameters;
+  if (physical.contradiction > kContradicts) add_contradiction(physical.contradiction, id);
+  if (!physical.hardly_told.empty() && id.status == IdentificationStatus::converged) {
+    id.status = IdentificationStatus::poorly_excited;
+    id.reason += fmt::format("; these motions hardly tell {}", fmt::join(physical.hardly_told, ", "));
+  }
   if (!physical.lengths) return;
   Robot sized = id.robot;
   sized.chain.length = *physical.lengths;

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/distributions.hpp"
+
 namespace faultline {
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;
 
 bool is_given(const Identification& id, int p) {
   std::string name = id.space.name(p);

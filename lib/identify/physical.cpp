@@ -7,9 +7,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "lib/core/distributions.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/physical_equations.hpp"
 
@@ -20,7 +22,6 @@ constexpr double kRank = 1e-7;   ///< of the largest singular value of the relat
 constexpr double kMoves = 1e-4;  ///< part of a parameter in a direction that changes no torque
 constexpr int kStarts = 12;
 constexpr int kIterations = 200;
-constexpr double kNormal95 = 1.959963984540054;
 
 /// Levenberg and Marquardt from one start; returns the cost.
 double descend(const PhysicalEquations& equations, Eigen::VectorXd& x) {
@@ -121,6 +122,7 @@ std::string missing_datum(const PhysicalEquations& equations, const Eigen::Matri
 struct Solution {
   Eigen::VectorXd log_value, spread, freedom;  ///< of the open unknowns; spread is relative
   Eigen::MatrixXd rows, loaded;                ///< relative slopes, as they are and of a log with 1 kg
+  double contradiction = 1.0;                  ///< PhysicalFit::contradiction
 };
 
 Solution solve_and_judge(const PhysicalEquations& equations) {
@@ -145,7 +147,9 @@ Solution solve_and_judge(const PhysicalEquations& equations) {
   equations.evaluate(s.log_value, r, &j);
   const Eigen::MatrixXd information = j.transpose() * j;
   const Eigen::MatrixXd covariance = information.completeOrthogonalDecomposition().pseudoInverse();
-  s.spread = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  if (const auto more = static_cast<double>(r.size() - open); more > 0.0)
+    s.contradiction = std::sqrt(std::max(1.0, r.squaredNorm() / more));  // Birge's ratio
+  s.spread = s.contradiction * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   return s;
 }
 
@@ -158,13 +162,20 @@ ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnkno
                          Eigen::Index k) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   ParameterEstimate e{u.name, kNone, kNone, {kNone, kNone}, "", s.freedom[k] < kMoves, "", ""};
-  if (e.identifiable) {
-    e.value = std::exp(s.log_value[k]);
-    e.std = e.value * s.spread[k];
-    e.ci95 = {e.value - kNormal95 * e.std, e.value + kNormal95 * e.std};
-  } else {
+  if (!e.identifiable) {
     e.why_not = missing_datum(equations, s.rows, s.loaded, k);
+    return e;
   }
+  const double doubt = kNormal95 * s.spread[k];
+  if (doubt >= 1.0) {
+    e.identifiable = false;
+    e.why_not = fmt::format("these logs tell it only to within {:.0f} %; give faster ones, or more of them",
+                            100.0 * doubt);
+    return e;
+  }
+  e.value = std::exp(s.log_value[k]);
+  e.std = e.value * s.spread[k];
+  e.ci95 = {e.value * (1.0 - doubt), e.value * (1.0 + doubt)};
   return e;
 }
 
@@ -175,6 +186,7 @@ PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
   const PhysicalEquations equations(robot, space, estimates);
   const Solution solution = solve_and_judge(equations);
   PhysicalFit fit;
+  fit.contradiction = solution.contradiction;
   std::vector<double> lengths = robot.chain.length;
   bool all_lengths = true;
   Eigen::Index next = 0;
@@ -185,6 +197,7 @@ PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
     e.unit = u.kind == 'l' ? "m" : "kg";
     if (u.kind == 'l') lengths[u.index] = e.value;
     if (u.kind == 'l' && !e.identifiable) all_lengths = false;
+    if (k >= 0 && !e.identifiable && solution.freedom[k] < kMoves) fit.hardly_told.push_back(u.name);
     fit.parameters.push_back(std::move(e));
   }
   if (all_lengths) fit.lengths = lengths;

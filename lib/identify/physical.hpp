@@ -12,6 +12,10 @@ namespace faultline {
 /// Masses and lengths of the links, as far as base parameters and the robot file's facts determine them.
 struct PhysicalFit {
   std::vector<ParameterEstimate> parameters;  ///< m1.., then l1..; NaN where not identifiable
+  /// How far base parameters and facts contradict each other, in their standard errors, where they are more
+  /// than masses and lengths; about 1 where the links are what they are taken for. Intervals are wider by it.
+  double contradiction = 1.0;
+  std::vector<std::string> hardly_told;  ///< those whose interval would reach zero
   /// Lengths of all links when every one is known or identified.
   std::optional<std::vector<double>> lengths;
 };

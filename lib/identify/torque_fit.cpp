@@ -14,7 +14,7 @@ namespace faultline {
 namespace {
 
 constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
-constexpr double kClearlyThere = 4.0;     // standard deviations above zero that a rotor must have
+constexpr double kClearlyThere = 4.0;     // standard deviations above zero that rotors and extra terms have
 constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
 constexpr int kTimingRounds = 3;
 
@@ -63,15 +63,22 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
   }
 }
 
-/// Extra terms of which the fit makes what no robot has.
-void drop_impossible_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
-  bool dropped = false;
-  for (int p = space.extra_begin(); p < space.timing(); ++p)
-    if (torque.wanted[p] && !is_possible(space.extra_at(p).kind, torque.fit.parameters[p])) {
-      torque.wanted[p] = false;
-      dropped = true;
+/// Extra terms of which the fit makes what no robot has, or what it does not tell from zero: the one least
+/// told first. A ripple's cosine may well be zero.
+void drop_doubtful_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+  for (;;) {
+    int worst = -1;
+    double least = kClearlyThere;
+    for (int p = space.extra_begin(); p < space.timing(); ++p) {
+      const double value = torque.fit.parameters[p], std = std::sqrt(torque.fit.covariance(p, p));
+      if (!torque.wanted[p] || is_ripple(space.extra_at(p).kind)) continue;
+      const double told = std > 0.0 && is_possible(space.extra_at(p).kind, value) ? value / std : 0.0;
+      if (told < least) least = told, worst = p;
     }
-  if (dropped) torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
+    if (worst < 0) return;
+    torque.wanted[worst] = false;
+    torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
+  }
 }
 
 /// Friction that drives its joint is none: bends that outdo the Coulomb friction and skews that outdo the
@@ -159,7 +166,7 @@ TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const 
   out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
   settle_timing(gathered.windows, space, nominal, choice.weak, out);
   drop_own_delays(gathered.windows, space, nominal, choice.weak, out);
-  drop_impossible_extra(space, nominal, out);
+  drop_doubtful_extra(space, nominal, out);
   drop_driving_friction(space, nominal, out);
   hold_at_zero(space, nominal, out);
   add_doubt(choice.width_doubt, out.fit);

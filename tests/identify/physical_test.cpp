@@ -64,5 +64,49 @@ TEST(PhysicalParameters, ADoubtfulPayloadIsWeighedByGravity) {
   EXPECT_NEAR(fit.parameters[3].value, 0.35, 1e-3);
 }
 
+/// A planar arm in a vertical plane, known but for its masses and the second length; gravity tells more than
+/// those need.
+PhysicalFit solve_arm(double rotor_1, double relative_std) {
+  Robot nominal = preset_robot("RR");
+  nominal.chain.gravity = {0.0, -9.81, 0.0};
+  Robot truth = nominal;
+  set_masses_and_lengths(truth, {4.0, 2.5}, {0.4, 0.35});
+  truth.chain.rotor_inertia = {rotor_1, 0.0};
+  nominal.known["l1"] = {0.4, 0.0};
+  const ParameterSpace space = parameter_space(nominal);
+  const Eigen::VectorXd p = parameters_of(space, truth.chain, 0.0);
+  const Eigen::MatrixXd covariance = (relative_std * p).cwiseAbs2().asDiagonal();
+  std::vector<bool> usable;
+  for (int k = 0; k < space.rigid(); ++k) usable.push_back(!space.base[k].is_rotor);
+  const std::vector<BaseEstimate> estimates = {{p, covariance, usable, {}}};
+  return physical_parameters(nominal, space, estimates);
+}
+
+TEST(PhysicalParameters, LinksThatAreWhatTheyAreTakenForContradictNothing) {
+  const PhysicalFit fit = solve_arm(0.0, 1e-3);
+  EXPECT_LT(fit.contradiction, 1.1);
+  EXPECT_TRUE(fit.hardly_told.empty());
+  EXPECT_NEAR(fit.parameters[1].value, 2.5, 1e-3);
+}
+
+TEST(PhysicalParameters, ARotorThatIsNotStatedWidensTheIntervalsToTheTruth) {
+  const PhysicalFit fit = solve_arm(0.3, 1e-3);
+  EXPECT_GT(fit.contradiction, 20.0);
+  const double truth[] = {4.0, 2.5, 0.4, 0.35};
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const ParameterEstimate& e = fit.parameters[k];
+    if (!e.identifiable) continue;
+    EXPECT_TRUE(e.ci95[0] <= truth[k] && truth[k] <= e.ci95[1]) << e.name << " " << e.value;
+  }
+}
+
+TEST(PhysicalParameters, AMassWhoseIntervalReachesZeroIsNotIdentifiable) {
+  const PhysicalFit fit = solve_arm(0.0, 0.6);
+  ASSERT_FALSE(fit.hardly_told.empty());
+  EXPECT_EQ(fit.hardly_told.front(), "m1");
+  EXPECT_FALSE(fit.parameters[0].identifiable);
+  EXPECT_NE(fit.parameters[0].why_not.find("only to within"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace faultline

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "lib/core/distributions.hpp"
 #include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/verdict/correlated_noise.hpp"
 
@@ -14,7 +15,6 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kFewestLogs = 3;
-constexpr double kNormal95 = 1.959963984540054;
 
 /// One log's rows of the system, where its windows began, and the fit to them.
 struct SingleLog {
