@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/distributions.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -44,6 +45,9 @@ BatchRow row_of(const Diagnosis& d) {
     row.residual_peak.push_back(residual.velocity_peak);
   }
   row.faults = events_of(d.faults);
+  for (const ConditionItem& item : d.condition)
+    if (item.is_told())
+      row.condition.push_back({item.name, item.value, (item.ci95[1] - item.value) / kNormal95, item.unit});
   return row;
 }
 

@@ -29,6 +29,7 @@ struct BatchRow {
   std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidual)
   std::vector<double> residual_peak;       ///< likewise
   std::vector<FaultEvent> faults;          ///< by onset
+  std::vector<ParameterValue> condition;   ///< of ConditionItem, those that the log tells
   std::vector<ParameterValue> parameters;  ///< identified from this log alone, when asked for and healthy
 };
 

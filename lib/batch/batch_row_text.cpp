@@ -21,6 +21,13 @@ Json parameters_json(const std::vector<ParameterValue>& parameters) {
   return json;
 }
 
+std::vector<ParameterValue> parameters_from(const Json& json) {
+  std::vector<ParameterValue> values;
+  for (const auto& [name, p] : json.items())
+    values.push_back({name, number_or_nan(p.at("value")), number_or_nan(p.at("std")), ""});
+  return values;
+}
+
 Json report_json(const BatchRow& row) {
   return row.result.empty() ? Json(nullptr) : Json("logs/" + row.result + ".json");
 }
@@ -56,6 +63,7 @@ std::string to_json_line(const BatchRow& row) {
       {"severe", row.severe},
       {"residual_rms", numbers_or_null(row.residual_rms)},
       {"residual_peak", numbers_or_null(row.residual_peak)},
+      {"condition", parameters_json(row.condition)},
       {"parameters", parameters_json(row.parameters)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -80,8 +88,8 @@ BatchRow row_from_json(const std::string& line) {
   row.severe = json.at("severe").get<int>();
   row.residual_rms = numbers_or_nan(json.at("residual_rms"));
   row.residual_peak = numbers_or_nan(json.at("residual_peak"));
-  for (const auto& [name, p] : json.at("parameters").items())
-    row.parameters.push_back({name, number_or_nan(p.at("value")), number_or_nan(p.at("std")), ""});
+  row.condition = parameters_from(json.at("condition"));
+  row.parameters = parameters_from(json.at("parameters"));
   return row;
 }
 

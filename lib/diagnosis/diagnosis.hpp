@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/core/issue.hpp"
+#include "lib/diagnosis/condition.hpp"
 #include "lib/diagnosis/decided_by.hpp"
 #include "lib/evidence/evidence_trace.hpp"
 #include "lib/fault/opinion.hpp"
@@ -99,6 +100,7 @@ struct Diagnosis {
   std::string verdict_reason;
   std::vector<JointResidual> residuals;  ///< of the MLP over the whole log, a joint each
   std::vector<FaultFinding> faults;      ///< by onset
+  std::vector<ConditionItem> condition;  ///< what differs from day to day; empty where it was not followed
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

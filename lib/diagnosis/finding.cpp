@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnosis/finding.hpp"
 
+#include <fmt/format.h>
+
+#include "lib/core/distributions.hpp"
+#include "lib/core/number_text.hpp"
 #include "lib/diagnosis/alternatives.hpp"
 #include "lib/diagnosis/finding_evidence.hpp"
 #include "lib/fault/fault_words.hpp"
@@ -42,6 +46,28 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   finding.next_check = next_check_for(decision.label);
   finding.episode = facts_of(basis.episode, episode_feature_names(model.bank, model.robot.joints()));
   finding.trace = observed.evidence.trace;
+  return finding;
+}
+
+FaultFinding finding_of(const SlowFault& fault, const Chain<double>& chain) {
+  const ConditionItem item = condition_of({fault.estimate}, chain).front();
+  FaultFinding finding;
+  finding.label = {FaultKind::friction_increase, item.joint};
+  finding.onset_s = fault.left_s;
+  finding.alarm_s = fault.alarm_s;
+  finding.end_s = fault.end_s;
+  finding.confidence = 1.0 - 0.5 * normal_tail((fault.estimate.value - fault.estimate.state.normal_range()) /
+                                               fault.estimate.std);
+  finding.decided_by = DecidedBy::evidence;
+  finding.evidence = {
+      {item.name, item.value, item.unit,
+       fmt::format("{} against the robot that was identified, {} to {} with 95 %, normal within {}",
+                   item.what, value_text(item.ci95[0]), value_text(item.ci95[1]),
+                   value_text(item.normal_range))},
+      {"onset_interval", fault.left_s - fault.from_s, "s",
+       fmt::format("it left its normal range slowly, after {}; doubt of the onset",
+                   seconds_text(fault.from_s))}};
+  finding.next_check = next_check_for(finding.label);
   return finding;
 }
 

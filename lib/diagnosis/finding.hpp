@@ -4,6 +4,7 @@
 #include "lib/diagnosis/decided_episode.hpp"
 #include "lib/diagnosis/diagnosis.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
+#include "lib/evidence/watch/slow_watch.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
@@ -11,6 +12,9 @@ namespace faultline {
 /// All that is said about an episode once the decision stands: precedents, what it could also be, what speaks
 /// for it, and what to check next.
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
+
+/// Friction that crept away, or was that high from the first row.
+FaultFinding finding_of(const SlowFault& fault, const Chain<double>& chain);
 
 /// What the paper's criterion found, with the other words of single networks as alternatives.
 FaultFinding finding_of(const SampleAlarm& alarm);

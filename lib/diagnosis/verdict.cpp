@@ -56,6 +56,8 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
   diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found"
                                        : "the identified robot explains the whole log";
+  if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
+    diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;
 }
 
 }  // namespace faultline

@@ -16,6 +16,7 @@ enum class SlowKind {
   tip_mass,         ///< kg carried beside what was identified
 };
 
+inline constexpr double kStdsInRange = 2.0;  ///< standard deviations of days on either side (NormalRange)
 inline constexpr int kSlowKinds = static_cast<int>(SlowKind::tip_mass) + 1;
 
 /// The name used in models, such as "torque_gain".
@@ -31,6 +32,9 @@ struct SlowState {
   double day_std = 0.0;   ///< how far days differ; of a coloured torque its level at any time
   double walk = 0.0;      ///< what it wanders by in a second, grows with the root of time
   double memory_s = 0.0;  ///< of a coloured torque: it is forgotten in this time; 0 for what stays
+
+  /// Normal days are within +- this.
+  double normal_range() const { return kStdsInRange * day_std; }
 };
 
 inline constexpr int kMaxSlowStates = (kSlowKinds - 1) * kMaxJoints + 1;

@@ -11,7 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kStdsInRange = 2.0;      // a range is two standard deviations to either side
 constexpr double kColourShare = 0.01;     // of the largest torque, where matching starts
 constexpr double kFirstMemory_s = 0.05;   // likewise
 constexpr double kCarriedInPriors = 2.0;  // the payload's prior is half of what is carried

@@ -14,6 +14,7 @@
 #include "lib/html/head.hpp"
 #include "lib/html/plot_data.hpp"
 #include "lib/html/timeline.hpp"
+#include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/text.hpp"
 
@@ -135,6 +136,8 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
     text += html_finding(d.faults[i], figures, period);
     all.insert(all.end(), figures.begin(), figures.end());
   }
+  const std::string condition = html_table(condition_table(d));
+  if (!condition.empty()) text += "<h2 id=\"condition\">Condition</h2>\n" + condition;
   text += "<h2 id=\"run\">The whole run</h2>\n" + html_plots(whole, 0, period) + residual_table(d);
   text += log_quality(d);
   if (!details.model.empty()) text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model);

@@ -32,6 +32,9 @@ class EvidenceMonitor {
   void finish();
 
   std::vector<MonitoredEpisode> episodes() const;
+  /// What the log tells of the robot's slow states; empty without rows.
+  std::vector<SlowEstimate> slow_estimates() const { return detector_.slow_estimates(); }
+  const std::vector<SlowFault>& slow_faults() const { return detector_.slow_faults(); }
   int rejected_alarms() const { return detector_.rejected_alarms(); }
   double largest_ratio() const { return detector_.largest_ratio(); }
 

@@ -27,8 +27,13 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   }
   evidence.finish();
   samples.finish();
-  return {log_facts(log, tally, model, evidence.rejected_alarms()), whole.joints(), evidence.episodes(),
-          samples.alarms(), evidence.largest_ratio()};
+  return {log_facts(log, tally, model, evidence.rejected_alarms()),
+          whole.joints(),
+          evidence.episodes(),
+          samples.alarms(),
+          evidence.largest_ratio(),
+          evidence.slow_estimates(),
+          evidence.slow_faults()};
 }
 
 }  // namespace faultline

@@ -6,6 +6,7 @@
 #include "lib/diagnosis/diagnosis.hpp"
 #include "lib/diagnosis/monitored_episode.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
+#include "lib/evidence/watch/slow_watch.hpp"
 
 namespace faultline {
 
@@ -16,6 +17,8 @@ struct MonitoredLog {
   std::vector<MonitoredEpisode> episodes;  ///< found by the bank of hypotheses
   std::vector<SampleAlarm> sample_alarms;  ///< found by the paper's fault criterion
   double largest_ratio = 0.0;              ///< log likelihood ratio that raised no alarm
+  std::vector<SlowEstimate> slow;          ///< empty where no hypotheses were followed
+  std::vector<SlowFault> slow_faults;      ///< likewise
 };
 
 }  // namespace faultline

@@ -42,6 +42,16 @@ Json residual_json(const JointResidual& residual) {
           {"position_rms", number_or_null(residual.position_rms)}};
 }
 
+Json condition_json(const ConditionItem& item) {
+  return {{"name", item.name},
+          {"joint", count_or_null(item.joint)},
+          {"value", number_or_null(item.value)},
+          {"ci95", {number_or_null(item.ci95[0]), number_or_null(item.ci95[1])}},
+          {"normal_range", number_or_null(item.normal_range)},
+          {"unit", item.unit},
+          {"beyond", item.is_beyond()}};
+}
+
 Json opinion_json(const Opinion& opinion) {
   Json json;
   put_label(json, opinion.label);
@@ -105,6 +115,7 @@ std::string render_json(const Diagnosis& diagnosis) {
                      {"verdict", to_string(diagnosis.verdict)},
                      {"verdict_reason", text_or_null(diagnosis.verdict_reason)},
                      {"faults", list_of<Json>(diagnosis.faults, fault_json)},
+                     {"condition", list_of<Json>(diagnosis.condition, condition_json)},
                      {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
                      {"cannot_see", list_of<Json>(diagnosis.cannot_see,
                                                   [](const std::string& text) { return Json(text); })}};

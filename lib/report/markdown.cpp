@@ -8,6 +8,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
+#include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/text.hpp"
 
@@ -114,7 +115,9 @@ std::string render_markdown(const Diagnosis& d) {
       fmt::format("## {}\n\n**{}**\n\n", escaped_markdown(d.log.path), escaped_markdown(verdict_sentence(d)));
   text += fault_table(d);
   for (const FaultFinding& f : d.faults) text += finding(f);
-  text += residuals(d);
+  const FactTable condition = condition_table(d);
+  if (!condition.rows.empty()) text += "**" + condition.title + "**\n\n";
+  text += table(condition.head, condition.rows) + residuals(d);
   std::vector<std::string> issues;
   for (const Issue& issue : d.log.issues.all()) issues.push_back(issue_line(issue));
   text += list("What was wrong with the log", issues);

@@ -10,6 +10,7 @@
 #include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
+#include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
 
 namespace faultline {
@@ -128,6 +129,11 @@ std::string residuals(const Diagnosis& d) {
   return text + "\n";
 }
 
+std::string condition(const Diagnosis& d) {
+  const std::string text = text_table(condition_table(d));
+  return text.empty() ? "" : text + "\n";
+}
+
 std::string bullets(const char* title, const std::vector<std::string>& lines, int width) {
   if (lines.empty()) return "";
   std::string text = std::string(title) + "\n";
@@ -161,7 +167,7 @@ std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
   const std::string timeline = judged ? render_timeline(d, options) : "";
   if (!timeline.empty()) text += timeline + "\n";
   for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
-  text += residuals(d) + log_issues(d, options.width);
+  text += condition(d) + residuals(d) + log_issues(d, options.width);
   text += bullets("What this log and model cannot show", d.cannot_see, options.width);
   if (text.ends_with("\n\n")) text.pop_back();
   return text;

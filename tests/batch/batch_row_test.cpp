@@ -31,6 +31,7 @@ BatchRow faulty_row() {
   row.residual_peak = {4.0, kNan, 9.0};
   row.faults = {{{FaultKind::locked, 2}, 0.5, 0.625, kNan, 0.75},
                 {{FaultKind::unknown, 0}, 4.0, kNan, 5.0, 0.5}};
+  row.condition = {{"friction_1", 12.5, 1.5, ""}};
   row.parameters = {{"m1", 2.5, 0.125, ""}, {"fc1", -0.25, kNan, ""}};
   return row;
 }
@@ -47,6 +48,9 @@ TEST(BatchRow, ComesBackFromItsJsonLineAsItWas) {
   EXPECT_EQ(read.end_s, faulty_row().end_s);
   EXPECT_EQ(read.faults[1].label, (FaultLabel{FaultKind::unknown, 0}));
   EXPECT_TRUE(std::isnan(read.residual_rms[1]));
+  ASSERT_EQ(read.condition.size(), 1u);
+  EXPECT_EQ(read.condition[0].name, "friction_1");
+  EXPECT_EQ(read.condition[0].std, 1.5);
   EXPECT_EQ(read.parameters[0].name, "m1");
   EXPECT_EQ(read.parameters[0].value, 2.5);
 }

@@ -2,6 +2,7 @@
 // Healthy robots that are not the one that was learned from, and faults in them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "lib/classify/episode_features.hpp"
@@ -41,6 +42,14 @@ SimulationSpec with_noise(SimulationSpec spec, double factor) {
 struct Watched {
   std::vector<EpisodeEvidence> episodes;
   std::vector<WorkPieceChange> changes;
+  std::vector<SlowEstimate> slow;
+  std::vector<SlowFault> slow_faults;
+
+  const SlowEstimate& estimate(SlowKind kind, int joint) const {
+    return *std::find_if(slow.begin(), slow.end(), [&](const SlowEstimate& e) {
+      return e.state.kind == kind && e.state.joint == joint;
+    });
+  }
 };
 
 Watched watched(const Log& log, const MotionModel& model = rrp_motion_model()) {
@@ -50,7 +59,8 @@ Watched watched(const Log& log, const MotionModel& model = rrp_motion_model()) {
   EpisodeDetector detector(model, bank, {}, survey_noise(source, model));
   for (Log segment; source.next(segment);) detector.take(segment);
   detector.finish();
-  return {detector.episodes(), detector.work_piece_changes()};
+  return {detector.episodes(), detector.work_piece_changes(), detector.slow_estimates(),
+          detector.slow_faults()};
 }
 
 TEST(HealthyFamily, FrictionOfAColdOrAWarmDayIsNoFault) {
@@ -101,6 +111,40 @@ TEST(HealthyFamily, AWorkPieceThatComesEveryDayIsNoFault) {
   ASSERT_EQ(with_piece.changes.size(), 1u);
   EXPECT_EQ(with_piece.changes.front().kg, 1.0);
   EXPECT_NEAR(log.time[with_piece.changes.front().row], kOnset_s, 0.05);
+  EXPECT_NEAR(with_piece.estimate(SlowKind::tip_mass, 2).value, 0.0, 0.05) << "the work piece is none of it";
+}
+
+TEST(HealthyFamily, TheConditionIsThatOfTheDay) {
+  for (const double factor : {0.7, 1.0, 1.2, 1.5}) {
+    const Watched day = watched(simulate(with_friction(factor), rrp_run(20.0), 51).log);
+    for (int j = 0; j < 3; ++j) {
+      const SlowEstimate& friction = day.estimate(SlowKind::friction, j);
+      EXPECT_NEAR(friction.value, factor - 1.0, 0.05 + 3.0 * friction.std) << factor << ", joint " << j + 1;
+      EXPECT_LT(friction.std, friction.state.day_std) << factor << ", joint " << j + 1;
+    }
+  }
+}
+
+TEST(HealthyFamily, OnlyFrictionFarBeyondItsRangeIsAFaultFromTheFirstRow) {
+  for (const double factor : {0.5, 1.0, 1.5})
+    EXPECT_TRUE(watched(simulate(with_friction(factor), rrp_run(20.0), 53).log).slow_faults.empty())
+        << factor;
+  const Watched stiff = watched(simulate(with_friction(2.5), rrp_run(20.0), 53).log);
+  EXPECT_FALSE(stiff.slow_faults.empty() && stiff.episodes.empty());
+}
+
+TEST(HealthyFamily, AFaultLeavesTheConditionAsItWasBefore) {
+  SimulationSpec spec = rrp_run_with(FaultKind::locked, 1, 9.0);
+  spec.duration_s = 15.0;
+  const Watched day = watched(simulate(with_friction(1.2), spec, 52).log);
+  ASSERT_FALSE(day.episodes.empty());
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(day.estimate(SlowKind::friction, j).value, 0.2, 0.1) << j;
+}
+
+TEST(HealthyFamily, ALogWithoutRowsTellsNoCondition) {
+  const MotionModel& model = rrp_motion_model();
+  const auto bank = hypotheses_of(model.joints(), TorqueMeaning::commanded);
+  EXPECT_TRUE(EpisodeDetector(model, bank, {}).slow_estimates().empty());
 }
 
 TEST(HealthyFamily, AnotherMassThanTheWorkPieceIsAFault) {

@@ -26,6 +26,9 @@ inline Diagnosis healthy_diagnosis() {
                            .velocity_peak = 3.5 + joint,
                            .velocity_peak_s = 1.25 * joint,
                            .position_rms = 1.0});
+  d.condition = {{"friction_1", "friction of joint 1", 1, 12.25, {11.0, 13.5}, 30.0, "%"},
+                 {"torque_offset_1", "torque offset of joint 1", 1, 0.5, {-2.0, 3.0}, 1.0, "N m"},
+                 {"tip_mass", "mass at the tip", 0, -0.125, {-0.15, -0.1}, 0.05, "kg"}};
   return d;
 }
 

@@ -10,6 +10,7 @@
 
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
+#include "lib/evidence/slow_state.hpp"
 #include "lib/plot/line_plot.hpp"
 
 namespace faultline {
@@ -70,9 +71,22 @@ PlotPanel folder_panel(const std::vector<const BatchRow*>& judged) {
   return panel;
 }
 
-double parameter_in(const BatchRow& row, const std::string& name) {
-  const ParameterValue* parameter = find_value(row.parameters, name);
-  return parameter ? parameter->value : std::nan("");
+double value_in(const std::vector<ParameterValue>& values, const std::string& name) {
+  const ParameterValue* value = find_value(values, name);
+  return value ? value->value : std::nan("");
+}
+
+/// Friction of each joint against the robot that was identified.
+PlotPanel condition_panel(const std::vector<const BatchRow*>& judged, int joints) {
+  PlotPanel panel{"friction, % from identified", {}};
+  for (int j = 1; j <= std::min(joints, kJoints); ++j) {
+    const std::string name = fmt::format("{}_{}", to_string(SlowKind::friction), j);
+    PlotSeries series = curve(fmt::format("joint {}", j), judged, false,
+                              [&](const BatchRow& row) { return value_in(row.condition, name); });
+    if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); }))
+      panel.series.push_back(std::move(series));
+  }
+  return panel;
 }
 
 /// Parameters of inertia and friction as changes from their median over all logs; those near zero have no
@@ -90,7 +104,7 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
     if (found[name].size() < 2 || panel.series.size() == static_cast<std::size_t>(kJoints)) continue;
     const double usual = upper_median(found[name]);
     panel.series.push_back(curve(printable(name), judged, false, [&](const BatchRow& row) {
-      return 100.0 * (parameter_in(row, name) / usual - 1.0);
+      return 100.0 * (value_in(row.parameters, name) / usual - 1.0);
     }));
   }
   return panel;
@@ -112,10 +126,12 @@ std::string index_trends(const std::vector<BatchRow>& rows) {
   faults.series.push_back(
       curve("faults", judged, true, [](const BatchRow& row) { return double(row.faults.size()); }));
   LinePlot plot;
-  plot.title = "Residual level and faults from log to log";
+  plot.title = "Residual level, faults and condition from log to log";
   plot.x_label = by_time ? "judged logs in the order of their start" : "judged logs in the order of names";
   plot.panels = {residual, faults};
   if (const PlotPanel folders = folder_panel(judged); !folders.series.empty()) plot.panels.push_back(folders);
+  if (PlotPanel condition = condition_panel(judged, joints); !condition.series.empty())
+    plot.panels.push_back(std::move(condition));
   if (PlotPanel parameters = parameter_panel(judged); !parameters.series.empty())
     plot.panels.push_back(std::move(parameters));
   plot.id = "trends";

@@ -52,7 +52,7 @@ class EpisodeDetector::Impl {
  public:
   Impl(const MotionModel& model, const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options,
        const LogNoise& noise)
-      : hypotheses_(hypotheses), options_(options), joints_(model.joints()) {
+      : hypotheses_(hypotheses), options_(options), joints_(model.joints()), slow_(model) {
     stack_.push_back({std::make_unique<Watch>(model, hypotheses, options, noise)});
   }
 
@@ -66,6 +66,7 @@ class EpisodeDetector::Impl {
     if (stack_.size() <= kMostFaults)
       if (auto found = top().watch->look()) open_episode(std::move(*found));
     look_for_ends();
+    if (stack_.size() == 1) slow_.take(top().watch->sample().posterior, last_time_s_);
   }
 
   void interrupt() {
@@ -73,6 +74,8 @@ class EpisodeDetector::Impl {
   }
 
   const Watch& healthy() const { return *stack_.front().watch; }
+
+  const std::vector<SlowFault>& slow_faults() const { return slow_.faults(); }
 
   std::vector<EpisodeEvidence> episodes;
 
@@ -184,6 +187,7 @@ class EpisodeDetector::Impl {
   EvidenceOptions options_;
   int joints_;
   std::vector<Level> stack_;
+  SlowWatch slow_;
   double last_time_s_ = 0.0;
 };
 
@@ -201,6 +205,24 @@ const std::vector<EpisodeEvidence>& EpisodeDetector::episodes() const { return i
 const std::vector<WorkPieceChange>& EpisodeDetector::work_piece_changes() const {
   return impl_->healthy().work_piece_changes();
 }
+std::vector<SlowEstimate> EpisodeDetector::slow_estimates() const {
+  const Watch& healthy = impl_->healthy();
+  const GaussianState* const state = healthy.own_state();
+  if (state == nullptr) return {};
+  const MotionModel& model = healthy.robot().model;
+  double work_pieces = 0.0;
+  for (const WorkPieceChange& change : healthy.work_piece_changes()) work_pieces += change.kg;
+  std::vector<SlowEstimate> estimates;
+  for (std::size_t s = 0; s < model.slow.size(); ++s) {
+    const int index = 2 * model.joints() + static_cast<int>(s);
+    const double carried = model.slow[s].kind == SlowKind::tip_mass ? work_pieces : 0.0;
+    estimates.push_back({model.slow[s], state->mean[index] - carried, std::sqrt(state->p(index, index))});
+  }
+  return estimates;
+}
+
+const std::vector<SlowFault>& EpisodeDetector::slow_faults() const { return impl_->slow_faults(); }
+
 int EpisodeDetector::rejected_alarms() const { return impl_->healthy().rejected_alarms(); }
 double EpisodeDetector::largest_trigger() const { return impl_->healthy().largest_trigger(); }
 double EpisodeDetector::largest_ratio() const { return impl_->healthy().largest_ratio(); }

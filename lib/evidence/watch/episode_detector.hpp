@@ -8,6 +8,8 @@
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/slow_estimate.hpp"
+#include "lib/evidence/watch/slow_watch.hpp"
 #include "lib/evidence/watch/work_piece_change.hpp"
 #include "lib/log/log.hpp"
 
@@ -30,6 +32,10 @@ class EpisodeDetector {
   /// healthy again.
   const std::vector<EpisodeEvidence>& episodes() const;
   const std::vector<WorkPieceChange>& work_piece_changes() const;
+  /// What the log tells of the healthy robot's slow states so far; empty before any row.
+  std::vector<SlowEstimate> slow_estimates() const;
+  /// Those that left their normal range far behind while no other fault was there.
+  const std::vector<SlowFault>& slow_faults() const;
   /// Alarms that did not last (single wild values), and the largest statistics seen while nothing was
   /// alarmed.
   int rejected_alarms() const;

@@ -43,6 +43,11 @@ class Watch {
 
   const FaultyRobot& robot() const { return robot_; }
   const FollowedSample& sample() const { return history_.back(); }
+  /// The last state that is this robot's own: while standing by, the one from before. None before any row.
+  const GaussianState* own_state() const {
+    if (kept_) return &*kept_;
+    return history_.last() < 0 ? nullptr : &history_.back().posterior;
+  }
   /// False where the filter lost the robot altogether.
   bool is_sound() const;
   bool suspicious() const;

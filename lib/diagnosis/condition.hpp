@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/evidence/slow_estimate.hpp"
+
+namespace faultline {
+
+/// A number by which a healthy robot may differ from the one that was identified, as a log shows it.
+struct ConditionItem {
+  std::string name;  ///< stable identifier, such as "friction_1"
+  std::string what;  ///< for a person, such as "friction of joint 1"
+  int joint = 0;     ///< from 1; 0 for the tip
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 2> ci95 = {value, value};
+  double normal_range = std::numeric_limits<double>::quiet_NaN();  ///< healthy days are within +- so much
+  std::string unit;  ///< "%" of what was identified, "N m", "N" or "kg"
+
+  /// Whether the log tells it better than the normal range does.
+  bool is_told() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
+  /// Whether the whole interval lies outside the normal range.
+  bool is_beyond() const { return ci95[0] > normal_range || ci95[1] < -normal_range; }
+};
+
+/// The slow states that stay, in the order in which they are; what passes within a second is no condition.
+std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimates,
+                                        const Chain<double>& chain);
+
+/// What is beyond its normal range, such as "friction of joint 1 (+52 %, normal within 30 %)"; empty if
+/// nothing is.
+std::string beyond_normal(const std::vector<ConditionItem>& condition);
+
+/// "+5.13 %", in three significant digits.
+std::string condition_value_text(double value, const std::string& unit);
+
+}  // namespace faultline
