@@ -17,6 +17,7 @@ constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
 constexpr double kClearlyThere = 4.0;     // standard deviations above zero that rotors and extra terms have
 constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
 constexpr int kTimingRounds = 3;
+constexpr double kTimingSlack = 0.05;  // samples by which a timing beyond is taken for noise
 
 /// Whether no robot has this parameter below zero.
 bool is_not_negative(const ParameterSpace& space, int p) {
@@ -118,20 +119,33 @@ void add_doubt(const Eigen::MatrixXd& doubt, WeakFit& fit) {
       if (fit.covariance(i, i) > 0.0 && fit.covariance(k, k) > 0.0) fit.covariance(i, k) += doubt(i, k);
 }
 
+/// The fit with every joint's torque `later` samples more; as it was where that is beyond what windows hold.
+bool delay_all(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
+               int later, WeakChoice& choice, TorqueFit& torque) {
+  const int earliest = windows.shifts.first + 1, latest = windows.shifts.last;
+  const std::vector<int> before = choice.shift;
+  for (int& shift : choice.shift) shift = std::clamp(shift + later, earliest, latest);
+  if (choice.shift == before) return false;
+  torque.system = assemble(windows, choice);
+  torque.shift = choice.shift;
+  torque.fit = fit_weak_form(torque.system, space, nominal, torque.wanted);
+  return true;
+}
+
 /// Torque that runs between samples lies between two of them: what the timing says beyond is whole samples of
-/// delay, of all joints.
+/// delay, of all joints. A torque held over its sample would be as right with a sample of delay and held
+/// backwards; that is said without the delay.
 void settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                    WeakChoice choice, TorqueFit& torque) {
-  const int earliest = windows.shifts.first + 1, latest = windows.shifts.last;
+  const auto phi = [&] { return torque.fit.parameters[space.timing()]; };
   for (int round = 0; round < kTimingRounds && torque.fit.free[space.timing()]; ++round) {
-    const int later = -static_cast<int>(std::floor(torque.fit.parameters[space.timing()]));
-    const std::vector<int> before = choice.shift;
-    for (int& shift : choice.shift) shift = std::clamp(shift + later, earliest, latest);
-    if (choice.shift == before) return;
-    torque.system = assemble(windows, choice);
-    torque.shift = choice.shift;
-    torque.fit = fit_weak_form(torque.system, space, nominal, torque.wanted);
+    const bool inside = phi() > -kTimingSlack && phi() < 1.0 + kTimingSlack;
+    if (inside || !delay_all(windows, space, nominal, -static_cast<int>(std::floor(phi())), choice, torque))
+      break;
   }
+  const bool delayed = *std::min_element(choice.shift.begin(), choice.shift.end()) > 0;
+  if (torque.fit.free[space.timing()] && phi() > 1.0 - kTimingSlack && delayed)
+    delay_all(windows, space, nominal, -1, choice, torque);
 }
 
 /// A delay of its own was chosen with the torque's timing not yet known: half a sample looks like one. A

@@ -62,6 +62,15 @@ double Chooser::left(const WeakChoice& choice, const std::vector<bool>& wanted,
       .squaredNorm();
 }
 
+bool Chooser::suits_each(const WeakChoice& without, const WeakChoice& with, const std::vector<bool>& wanted,
+                         const Eigen::VectorXd& scale, int j) const {
+  int better = 0;
+  for (int fold = 0; fold < moments_.folds(); ++fold)
+    better += moments_.left_alone(with, wanted, start_, scale, fold, j) <
+              moments_.left_alone(without, wanted, start_, scale, fold, j);
+  return 2 * better > moments_.folds();
+}
+
 int Chooser::best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
                         int j, const ShiftRange& shifts) const {
   int best = choice.shift[j];

@@ -68,7 +68,8 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   const HeldOutError with = error_of(single);
   std::erase_if(c.terms, [](const ModelTerm& term) { return term.name.starts_with("delay_"); });
   for (int j = 0; j < joints; ++j) {
-    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, torque[j], kOwnShift);
+    const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, torque[j], kOwnShift) &&
+                     chooser.suits_each(settled, single, wanted, chooser.scale(single, wanted), j);
     c.weak.shift[j] = own ? single.shift[j] : settled.shift[j];
     if (single.shift[j] == 0 && c.weak.shift[j] == 0) continue;
     c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],

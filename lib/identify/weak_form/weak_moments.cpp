@@ -211,6 +211,13 @@ double WeakMoments::square_left(const Moments& m, const WeakChoice& choice, cons
   return std::max(v.dot(m.sum(column, column) * v), 0.0) / (gain * gain);
 }
 
+double WeakMoments::left_alone(const WeakChoice& choice, const std::vector<bool>& wanted,
+                               const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold,
+                               int joint) const {
+  return square_left(at(choice.set[joint], fold, joint), choice, fit_one(choice, wanted, start, scale, fold),
+                     joint);
+}
+
 Eigen::VectorXd WeakMoments::residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const {
   Eigen::VectorXd out(joints_);
   for (int j = 0; j < joints_; ++j) {

@@ -35,6 +35,9 @@ class WeakMoments {
   /// Fit to one fold alone.
   Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
                           const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold) const;
+  /// Square of what a fit to one fold alone leaves of a joint's torque in it.
+  double left_alone(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& start,
+                    const Eigen::VectorXd& scale, int fold, int joint) const;
   /// Root mean square of what `parameters` leave of every joint's torque in the chosen windows, all folds.
   Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
   /// Root mean square torque of every joint.
