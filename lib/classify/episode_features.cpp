@@ -61,7 +61,7 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
                                              const MotionModel& model) {
   std::vector<LabelEvidence> out;
   for (const FaultLabel& label : distinct_labels(bank))
-    out.push_back({label, -std::numeric_limits<double>::infinity(), {}});
+    out.push_back({label, -std::numeric_limits<double>::infinity()});
   for (std::size_t h = 0; h < bank.size(); ++h) {
     if (is_healthy(bank[h])) continue;
     const HypothesisEvidence& evidence = episode.hypotheses[h];
@@ -70,6 +70,7 @@ std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std
         std::find_if(out.begin(), out.end(), [&](const LabelEvidence& e) { return e.label == label; });
     if (evidence.log_likelihood_ratio <= entry->log_likelihood_ratio) continue;
     entry->log_likelihood_ratio = evidence.log_likelihood_ratio;
+    entry->surprise = evidence.surprise;
     set_size(*entry, bank[h], evidence, model);
   }
   return out;

@@ -18,6 +18,7 @@ struct LabelEvidence {
   FaultLabel label;
   double log_likelihood_ratio = 0.0;      ///< against healthy
   std::array<double, kMostSizes> size{};  ///< as the catalogue lists them, over their feature_scale()
+  Surprise surprise{};                    ///< what it leaves unexplained
 };
 
 /// One entry a label of the bank, in a fixed order. A collision that pushes all joints counts for the joint

@@ -8,6 +8,7 @@ namespace faultline {
 namespace {
 
 constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
+constexpr double kSureOfUnknown = 0.9;  // that no known fault leaves so much
 
 Decision abstained(DecisionReason reason) {
   return {kUnknownFault, 0.0, DecidedBy::abstained, reason, kUnknownFault};
@@ -47,6 +48,44 @@ Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, cons
           DecisionReason::likelihood_names, likely.label};
 }
 
+/// A repeated code is all that a stuck encoder is told by, and the other joints miss its readings.
+bool is_refuted(const LabelEvidence& evidence, const Surprise& usual) {
+  return evidence.label.kind != FaultKind::stuck_encoder && is_far_from_white(evidence.surprise, usual);
+}
+
+const LabelEvidence* find(const FaultLabel& label, const std::vector<LabelEvidence>& evidence) {
+  const auto found = std::find_if(evidence.begin(), evidence.end(),
+                                  [&](const LabelEvidence& e) { return e.label == label; });
+  return found == evidence.end() ? nullptr : &*found;
+}
+
+/// Of the faults that are known.
+const LabelEvidence* likeliest_known(const std::vector<LabelEvidence>& evidence) {
+  const LabelEvidence* best = nullptr;
+  for (const LabelEvidence& e : evidence)
+    if (e.label.kind != FaultKind::unknown &&
+        (best == nullptr || e.log_likelihood_ratio > best->log_likelihood_ratio))
+      best = &e;
+  return best;
+}
+
+/// What is left of a decision once the innovations are looked at.
+Decision unless_refuted(const Decision& decision, const DecisionBasis& basis) {
+  const auto refuted = [&](const FaultLabel& label) {
+    const LabelEvidence* const evidence = find(label, basis.evidence);
+    return evidence != nullptr && is_refuted(*evidence, basis.usual);
+  };
+  if (decision.label.kind == FaultKind::unknown || !refuted(decision.label) || !refuted(decision.voted))
+    return decision;
+  const LabelEvidence* const best = likeliest_known(basis.evidence);
+  if (!is_refuted(*best, basis.usual)) {
+    const FaultLabel label = named_by_size(best->label, basis.evidence);
+    return {label, posterior_of(label, basis.evidence), DecidedBy::evidence, DecisionReason::others_refuted,
+            decision.voted};
+  }
+  return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::all_refuted, decision.voted};
+}
+
 }  // namespace
 
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
@@ -57,7 +96,8 @@ Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
                                                                : by_votes(basis.votes, options);
   decision.label = named_by_size(decision.label, basis.evidence);
   const bool unnamed = decision.label.kind == FaultKind::unknown;
-  return unnamed && !basis.evidence.empty() ? by_likelihood(decision, basis, options) : decision;
+  if (unnamed && !basis.evidence.empty()) decision = by_likelihood(decision, basis, options);
+  return unless_refuted(decision, basis);
 }
 
 }  // namespace faultline

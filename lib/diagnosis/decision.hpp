@@ -25,6 +25,8 @@ enum class DecisionReason {
   votes_even,        ///< abstained: the networks disagree and the votes do not settle it
   votes_settle,      ///< the networks disagree and the votes settle it
   likelihood_names,  ///< neither networks nor cases name a fault, the likelihood does
+  others_refuted,    ///< what networks and cases say leaves far more than noise, the likeliest fault does not
+  all_refuted,       ///< unknown: every known fault leaves far more than noise
 };
 
 /// What an episode is, decided once; all texts follow from it.
@@ -41,8 +43,9 @@ struct Decision {
 /// the level of the episode). Two networks that agree are believed; when they disagree, the votes of similar
 /// cases and of both networks settle it; with nothing near it is an unknown fault. A loss of nearly all
 /// torque then is a free joint, and where all that leaves no name, the likelihood gives one, if a network
-/// seconds it or nothing else comes near. Without evidence of labels neither of the two
-/// happens.
+/// seconds it or nothing else comes near. A name that leaves far more than noise unexplained
+/// (is_far_from_white) does not stand: the likeliest known fault takes its place, or, where that leaves as
+/// much, the fault is unknown. Without evidence of labels none of the three happens.
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
 
 }  // namespace faultline

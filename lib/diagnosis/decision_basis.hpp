@@ -13,6 +13,7 @@ struct DecisionBasis {
   std::vector<LabelEvidence> evidence;  ///< of each label; empty where no hypotheses were run
   Episode episode;                      ///< features, and the opinions of both networks
   Votes votes;                          ///< of similar cases
+  Surprise usual{};                     ///< what the robot before the fault left unexplained
 };
 
 }  // namespace faultline

@@ -43,6 +43,13 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
       return fmt::format("{}; {} similar cases and the opinions give {} {:.0f} % of the votes{}",
                          disagreement(episode), basis.votes.precedents.size(), words(decision.voted),
                          100.0 * decision.confidence, renaming(decision));
+    case DecisionReason::others_refuted:
+      return fmt::format("{} leaves far more of the motion unexplained than noise does; {} does not",
+                         words(decision.voted), words(decision.label));
+    case DecisionReason::all_refuted:
+      return fmt::format(
+          "every known fault leaves far more of the motion unexplained than noise does, {} too",
+          words(decision.voted));
     case DecisionReason::likelihood_names:
       return "neither networks nor cases settle it; this fault explains the log best";
   }

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/diagnosis/decision_words.hpp"
 #include "lib/fault/fault_words.hpp"
+#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
@@ -41,6 +43,14 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   if (decision.label.joint > 0)
     if (std::string size = size_words(observed.evidence, model, decision.label); !size.empty())
       items.push_back(remark("size", std::move(size)));
+  const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(), [&](const LabelEvidence& e) {
+    return e.label == (decision.label.kind == FaultKind::unknown ? decision.voted : decision.label);
+  });
+  if (label != basis.evidence.end() && std::isfinite(label->surprise.mean_square()))
+    items.push_back(
+        {"left_over", label->surprise.mean_square(), "times noise",
+         fmt::format("what {} leaves of the motion (correlation {:.2f} from row to row; 1 and 0 are noise)",
+                     label_text(label->label, " at joint "), label->surprise.correlation())});
   for (const JointResidual& residual : observed.residuals)
     if (std::isfinite(residual.velocity_rms))
       items.push_back({fmt::format("mlp_velocity_residual_{}", residual.joint), residual.velocity_rms,

@@ -17,10 +17,23 @@ double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
 }
 
-/// Whether `later` is what `earlier` looks like a while on: nothing was healthy for long between them.
+bool passes(const FaultFinding& finding) { return describe(finding.label.kind).passes; }
+bool is_unknown(const FaultFinding& finding) { return finding.label.kind == FaultKind::unknown; }
+
+/// Whether nothing was healthy for long between the two.
+bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
+  return later.decided_by != DecidedBy::criterion && !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
+}
+
+/// Whether `later` is what `earlier` looks like a while on; pushes are part of an unknown disturbance.
 bool continues(const FaultFinding& earlier, const FaultFinding& later) {
-  return later.decided_by != DecidedBy::criterion && !describe(earlier.label.kind).passes &&
-         earlier.label.joint == later.label.joint && !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
+  const bool alike = !passes(earlier) && earlier.label.joint == later.label.joint;
+  return follow_closely(earlier, later) && (alike || (is_unknown(earlier) && passes(later)));
+}
+
+/// Whether a push was the first that was seen of an unknown disturbance.
+bool begins(const FaultFinding& earlier, const FaultFinding& later) {
+  return follow_closely(earlier, later) && passes(earlier) && is_unknown(later);
 }
 
 std::tuple<double, double, int> order_key(const FaultFinding& finding) {
@@ -32,6 +45,12 @@ std::tuple<double, double, int> order_key(const FaultFinding& finding) {
 std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults) {
   std::vector<FaultFinding> merged;
   for (FaultFinding& fault : faults) {
+    if (!merged.empty() && begins(merged.back(), fault)) {
+      fault.onset_s = merged.back().onset_s;
+      fault.alarm_s = merged.back().alarm_s;
+      merged.back() = std::move(fault);
+      continue;
+    }
     const auto same = std::find_if(merged.begin(), merged.end(),
                                    [&](const FaultFinding& earlier) { return continues(earlier, fault); });
     if (same == merged.end())

@@ -103,7 +103,10 @@ void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
         j == joint ? sensor_error(hypothesis, model_.healthy_states(), at.time - running.onset_s)
                    : SensorError{};
     const JointObservation seen = observe_joint(running.state, n, at, j, error);
-    if (!at.pressed[j]) running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
+    if (at.pressed[j]) continue;
+    running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
+    if (at.in_range && std::isfinite(at.q[j]))
+      running.surprise.add(j, seen.whitened_q, seen.whitened_dq, std::isfinite(at.dq[j]));
   }
   clamp_sizes(running.state, hypothesis, model_);
   if (describe(hypothesis.label.kind).course != SizeCourse::pulse) return;
@@ -117,6 +120,7 @@ HypothesisEvidence Bank::evidence_of(const RunningHypothesis& running) const {
   evidence.onset_s = running.onset_s;
   const int first = model_.healthy_states();
   evidence.impulse = running.impulse;
+  evidence.surprise = running.surprise;
   for (int s = 0; s < std::min(hypotheses_[running.hypothesis].sizes, 2); ++s) {
     evidence.size[s] = running.state.mean[first + s];
     evidence.size_std[s] = std::sqrt(std::max(running.state.p(first + s, first + s), 0.0));

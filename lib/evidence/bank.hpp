@@ -5,6 +5,7 @@
 
 #include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/filter/follower.hpp"
+#include "lib/evidence/surprise.hpp"
 
 namespace faultline {
 
@@ -15,6 +16,7 @@ struct RunningHypothesis {
   double onset_s = 0.0;    ///< middle of that step
   double log_likelihood_ratio = 0.0;
   JointArray impulse{};  ///< of a collision so far, a joint each, N m s or N s
+  Surprise surprise;     ///< what its own filter leaves unexplained
   GaussianState state;
 };
 
@@ -33,6 +35,7 @@ class Bank {
   void advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const;
 
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  int joints() const { return model_.joints(); }
   bool asks_for(const Hypothesis& hypothesis) const;
   HypothesisEvidence evidence_of(const RunningHypothesis& running) const;
 

@@ -8,6 +8,7 @@
 
 #include "lib/evidence/evidence_trace.hpp"
 #include "lib/evidence/hypothesis.hpp"
+#include "lib/evidence/surprise.hpp"
 
 namespace faultline {
 
@@ -18,6 +19,7 @@ struct HypothesisEvidence {
   std::array<double, 2> size{};  ///< estimated, as many as the hypothesis has (SizePriors gives units)
   std::array<double, 2> size_std{};
   std::array<double, kMaxJoints> impulse{};  ///< of a collision, a joint each, N m s or N s
+  Surprise surprise{};                       ///< what it leaves unexplained
 };
 
 /// A stretch of a log that the healthy robot does not explain, and what each hypothesis of the bank makes of
@@ -31,6 +33,7 @@ struct EpisodeEvidence {
   int samples = 0;                                               ///< from onset to isolated_s
   int best = -1;                                                 ///< index into `hypotheses`
   std::vector<HypothesisEvidence> hypotheses;                    ///< in the order of the bank
+  Surprise usual{};  ///< of the filter without this fault, a while before the onset
   EvidenceTrace trace;
 };
 

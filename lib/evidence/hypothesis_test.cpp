@@ -27,7 +27,14 @@ constexpr int kRefineFactor = 4;         // at spacings that shrink by this
 constexpr int kOnsetTold = 64;           // samples after the trigger by which an onset has told all it does
 constexpr double kRanAway = 300.0;       // nats: no row that a filter still follows can cost so much
 constexpr int kFewestConfirm = 16;       // samples
+constexpr int kUsualRows = 512;          // before the onset, for what is usually left unexplained
 constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
+
+void add_to(Surprise& surprise, const FollowedSample& at, int joints) {
+  for (int j = 0; j < joints && at.in_range; ++j)
+    if (!at.pressed[j] && std::isfinite(at.q[j]))
+      surprise.add(j, at.whitened[j], at.whitened[joints + j], std::isfinite(at.dq[j]));
+}
 
 bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
   return a.log_likelihood_ratio > b.log_likelihood_ratio;
@@ -206,6 +213,8 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   out.alarm_s = history_[alarm_].time;
   out.isolated_s = history_[now_].time;
   out.samples = static_cast<int>(now_ - winner.onset + 1);
+  for (std::int64_t k = std::max(winner.onset - kUsualRows, earliest_); k < winner.onset; ++k)
+    add_to(out.usual, history_[k], bank_.joints());
   out.trace = trace_evidence(bank_, history_, best, now_);
   conclusion.best = winner;
   return conclusion;

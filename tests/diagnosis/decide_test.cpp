@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "lib/core/random.hpp"
 #include "lib/diagnosis/decision.hpp"
 #include "lib/diagnosis/decision_words.hpp"
 #include "tests/cases/example_base.hpp"
@@ -53,6 +54,52 @@ TEST(Decide, ARejectedPrecedentWarns) {
   const auto said = warnings(episode, base);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("case 2"), std::string::npos) << said[0];
+}
+
+/// What a fault leaves that explains all, or a fault that is another one.
+Surprise left_over(bool white) {
+  Random random(4);
+  Surprise surprise;
+  for (int k = 0; k < 1000; ++k) surprise.add(0, (white ? 1.0 : 2.0) * random.normal(), 0.0, false);
+  return surprise;
+}
+
+/// Both networks say kLocked; the evidence is for kBias by a little.
+Decision decided_with(bool locked_is_white, bool bias_is_white) {
+  const CaseBase base = example_base();
+  const Episode episode = episode_at(2, 0, {kLocked, 0.9}, {kLocked, 0.7});
+  const std::vector<LabelEvidence> evidence = {{kLocked, 40.0, {}, left_over(locked_is_white)},
+                                               {kBias, 45.0, {}, left_over(bias_is_white)},
+                                               {{FaultKind::unknown, 1}, 80.0, {}, left_over(true)}};
+  return decide({evidence, episode, votes_on(episode, base), left_over(true)});
+}
+
+TEST(Decide, ANameThatLeavesNoiseStands) {
+  EXPECT_EQ(decided_with(true, true).label, kLocked);
+  EXPECT_EQ(decided_with(true, false).label, kLocked);
+  EXPECT_EQ(decided_with(true, false).decided_by, DecidedBy::agreement);
+}
+
+TEST(Decide, ANameThatLeavesMoreThanNoiseGivesWayToTheLikeliestFaultThatDoesNot) {
+  const Decision decision = decided_with(false, true);
+  EXPECT_EQ(decision.label, kBias);
+  EXPECT_EQ(decision.decided_by, DecidedBy::evidence);
+  EXPECT_EQ(decision.reason, DecisionReason::others_refuted);
+}
+
+TEST(Decide, WhereEveryKnownFaultLeavesMoreThanNoiseTheFaultIsUnknown) {
+  const Decision decision = decided_with(false, false);
+  EXPECT_EQ(decision.label, kUnknown);
+  EXPECT_EQ(decision.reason, DecisionReason::all_refuted);
+  EXPECT_GT(decision.confidence, 0.5);
+}
+
+TEST(Decide, AStuckEncoderIsNotRefutedByWhatOtherJointsMiss) {
+  const CaseBase base = example_base();
+  const FaultLabel stuck{FaultKind::stuck_encoder, 2};
+  const Episode episode = episode_at(2, 0, {stuck, 0.9}, {stuck, 0.7});
+  const std::vector<LabelEvidence> evidence = {{stuck, 40.0, {}, left_over(false)}};
+  EXPECT_EQ(decide({evidence, episode, votes_on(episode, base), left_over(true)}).label, stuck);
 }
 
 TEST(Decide, CasesSettleADisagreement) {

@@ -48,6 +48,20 @@ TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
   EXPECT_TRUE(diagnosis.faults.empty());
 }
 
+TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  ConditionItem friction;
+  friction.what = "friction of joint 1";
+  friction.value = 50.0;
+  friction.ci95 = {45.0, 55.0};
+  friction.normal_range = 30.0;
+  friction.unit = "%";
+  diagnosis.condition = {friction};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_NE(diagnosis.verdict_reason.find("beyond its normal range: friction of joint 1 (+50 %"),
+            std::string::npos);
+}
+
 TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
   const std::vector<FaultFinding> faults = {fault(FaultKind::locked, 1, 1.0)};
   for (Diagnosis diagnosis : {of_log(1000, 1000, 1.4 * kPeriod_s), of_log(1000, 1000, kPeriod_s / 1.4),
@@ -72,6 +86,23 @@ TEST(MergeFaults, AFaultThatStaysIsOneFinding) {
 TEST(MergeFaults, CollisionsPassAndStayApart) {
   const auto merged =
       merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::collision, 2, 3.0, 3.1)});
+  EXPECT_EQ(merged.size(), 2u);
+}
+
+TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
+  const auto merged =
+      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::unknown, 0, 1.6, 5.0),
+                       fault(FaultKind::collision, 1, 5.5, 5.6), fault(FaultKind::collision, 1, 8.0, 8.1)});
+  ASSERT_EQ(merged.size(), 2u);
+  EXPECT_EQ(merged[0].label.kind, FaultKind::unknown);
+  EXPECT_EQ(merged[0].onset_s, 1.0);
+  EXPECT_EQ(merged[0].end_s, 5.6) << "a push that follows at once is part of it";
+  EXPECT_EQ(merged[1].label.kind, FaultKind::collision);
+}
+
+TEST(MergeFaults, APushLongBeforeAnUnknownDisturbanceStays) {
+  const auto merged =
+      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::unknown, 0, 2.2, 5.0)});
   EXPECT_EQ(merged.size(), 2u);
 }
 

@@ -203,6 +203,7 @@ void Follower::start(FollowedSample& out) {
     state_.p(n + j, n + j) = dq_std * dq_std;
     out.log_likelihood[j] = out.chi_square[j] = out.whitened[j] = out.whitened[n + j] = 0.0;
     out.repeats[j] = out.pressed[j] = false;
+    out.in_range = true;
   }
   out.dt = 0.0;
   out.total_log_likelihood = 0.0;
@@ -229,7 +230,11 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   } else {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + kPeriodForgetting * (dt - usual_dt_) : dt;
     out.dt = dt;
-    for (int j = 0; j < n; ++j) out.pressed[j] = faults_.held[j] || is_pressed(out, j);
+    out.in_range = true;
+    for (int j = 0; j < n; ++j) {
+      out.pressed[j] = faults_.held[j] || is_pressed(out, j);
+      out.in_range = out.in_range && !(out.q[j] < low_[j]) && !(out.q[j] > high_[j]);
+    }
     const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
     set_measurement_noise(speed_before, out);

@@ -27,6 +27,7 @@ struct FollowedSample {
   /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
   /// may hold them, so their readings count for no hypothesis.
   JointFlags pressed;
+  bool in_range = true;       ///< no joint is outside that range, whichever way it moves
   JointArray log_likelihood;  ///< of each joint's channels given the healthy past, chi-square capped
   JointArray chi_square;      ///< of each joint's channels, capped
   std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
