@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kNearlyAll = 0.93;        // share of lost torque from which the joint swings freely
+constexpr double kNearlyAll = 0.9;         // share of lost torque from which the joint swings freely
 constexpr double kUnknownShare = 0.5;      // of the evidence that a known fault must explain
 constexpr double kLargestDeficit = 300.0;  // beyond it a label is out of the question anyway
 constexpr double kSizeFades = 20.0;        // the size of a label this far behind hardly counts

@@ -106,8 +106,8 @@ TEST(EvidenceByLabel, APushOnAllJointsCountsForTheOneItPushesMost) {
 TEST(NamedBySize, OnlyALossOfNearlyAllTorqueIsAFreeJoint) {
   const FaultLabel loss{FaultKind::torque_loss, 2}, free{FaultKind::free_swinging, 2};
   const auto evidence = [&](double size) { return std::vector<LabelEvidence>{{loss, 50.0, size, 0.0}}; };
-  EXPECT_EQ(named_by_size(loss, evidence(0.931)), free);
-  EXPECT_EQ(named_by_size(loss, evidence(0.929)), loss);
+  EXPECT_EQ(named_by_size(loss, evidence(0.901)), free);
+  EXPECT_EQ(named_by_size(loss, evidence(0.899)), loss);
   EXPECT_EQ(named_by_size({FaultKind::torque_loss, 1}, evidence(0.99)).kind, FaultKind::torque_loss)
       << "the size of another joint's loss";
   EXPECT_EQ(named_by_size({FaultKind::sensor_bias, 2}, {{{FaultKind::sensor_bias, 2}, 50.0, 3.0, 0.0}}).kind,

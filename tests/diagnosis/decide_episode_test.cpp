@@ -149,8 +149,8 @@ TEST(DecideEpisode, ALossOfNearlyAllTorqueIsAFreeJoint) {
         .label;
   };
   EXPECT_EQ(named(0.95), kFree1);
-  EXPECT_EQ(named(0.9301), kFree1);
-  EXPECT_EQ(named(0.92), kLoss1);
+  EXPECT_EQ(named(0.901), kFree1);
+  EXPECT_EQ(named(0.89), kLoss1);
 }
 
 TEST(DecideEpisode, ALossOfNearlyAllTorqueIsAFreeJointByLikelihoodToo) {

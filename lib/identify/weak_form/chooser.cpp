@@ -64,6 +64,7 @@ double Chooser::left(const WeakChoice& choice, const std::vector<bool>& wanted,
 
 bool Chooser::suits_each(const WeakChoice& without, const WeakChoice& with, const std::vector<bool>& wanted,
                          const Eigen::VectorXd& scale, int j) const {
+  if (!moments_.folds_are_logs()) return true;
   int better = 0;
   for (int fold = 0; fold < moments_.folds(); ++fold)
     better += moments_.left_alone(with, wanted, start_, scale, fold, j) <
