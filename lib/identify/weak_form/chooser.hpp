@@ -38,8 +38,8 @@ class Chooser {
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted) const {
     return error(choice, wanted, scale(choice, wanted));
   }
-  /// Whether most logs, each fitted alone, are told better by `with` at joint `j`: what only logs together ask
-  /// for makes up for how they differ. A single log tells nothing of that.
+  /// Whether most logs, each fitted alone, are told better by `with` at joint `j`: what only logs together
+  /// ask for makes up for how they differ. A single log tells nothing of that.
   bool suits_each(const WeakChoice& without, const WeakChoice& with, const std::vector<bool>& wanted,
                   const Eigen::VectorXd& scale, int j) const;
   /// Square of what is left of all joints together, each in its scale.
