@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/diagnosis/alternatives.hpp"
 #include "lib/diagnosis/finding_evidence.hpp"
@@ -11,6 +10,8 @@
 
 namespace faultline {
 namespace {
+
+constexpr double kSureOfSlow = 0.95;  // its interval alone leaves less, other kinds leave more
 
 std::vector<Precedent> precedents_of(const Votes& votes) {
   std::vector<Precedent> precedents;
@@ -56,17 +57,16 @@ FaultFinding finding_of(const SlowFault& fault, const Chain<double>& chain) {
   finding.onset_s = fault.left_s;
   finding.alarm_s = fault.alarm_s;
   finding.end_s = fault.end_s;
-  finding.confidence = 1.0 - 0.5 * normal_tail((fault.estimate.value - fault.estimate.state.normal_range()) /
-                                               fault.estimate.std);
+  finding.confidence = kSureOfSlow;
   finding.decided_by = DecidedBy::evidence;
   finding.evidence = {
       {item.name, item.value, item.unit,
-       fmt::format("{} against the robot that was identified, {} to {} with 95 %, normal within {}",
-                   item.what, value_text(item.ci95[0]), value_text(item.ci95[1]),
-                   value_text(item.normal_range))},
+       fmt::format("{} against the robot that was identified ({} to {} {} with 95 %, normal within {} {})",
+                   item.what, value_text(item.ci95[0]), value_text(item.ci95[1]), item.unit,
+                   value_text(item.normal_range), item.unit)},
       {"onset_interval", fault.left_s - fault.from_s, "s",
-       fmt::format("it left its normal range slowly, after {}; doubt of the onset",
-                   seconds_text(fault.from_s))}};
+       fmt::format("it began slowly, between {} and {}", seconds_text(fault.from_s),
+                   seconds_text(fault.left_s))}};
   finding.next_check = next_check_for(finding.label);
   return finding;
 }

@@ -20,6 +20,7 @@ std::string times(const FaultFinding& f, double period_s) {
 }
 
 std::string opinions(const FaultFinding& f) {
+  if (!was_asked(f.mlp) && !was_asked(f.rbfn)) return "";
   return html_table({"network", "says", "confidence"},
                     {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
                      {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});

@@ -136,8 +136,10 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
     text += html_finding(d.faults[i], figures, period);
     all.insert(all.end(), figures.begin(), figures.end());
   }
-  const std::string condition = html_table(condition_table(d));
-  if (!condition.empty()) text += "<h2 id=\"condition\">Condition</h2>\n" + condition;
+  const FactTable condition = condition_table(d);
+  if (!condition.rows.empty())
+    text += fmt::format("<h2 id=\"condition\">{}</h2>\n", escaped_markup(condition.title)) +
+            html_table(condition.head, condition.rows);
   text += "<h2 id=\"run\">The whole run</h2>\n" + html_plots(whole, 0, period) + residual_table(d);
   text += log_quality(d);
   if (!details.model.empty()) text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model);

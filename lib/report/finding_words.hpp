@@ -11,6 +11,9 @@ namespace faultline {
 /// Who settled what the fault is, such as "both networks agree".
 const char* decided_words(const FaultFinding& fault);
 
+/// Whether a network was asked at all.
+inline bool was_asked(const Opinion& opinion) { return opinion.confidence > 0.0; }
+
 /// "MLP residual of joint 2: 41.5 times healthy".
 std::string evidence_line(const EvidenceItem& item);
 

@@ -59,9 +59,10 @@ std::string finding(const FaultFinding& f) {
     similar.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
                        p.what_was_done.empty() ? "-" : p.what_was_done});
   text += table({"similar case", "similarity", "what it was", "what was done then"}, similar);
-  text += table({"network", "says", "confidence"},
-                {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
-                 {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
+  if (was_asked(f.mlp) || was_asked(f.rbfn))
+    text += table({"network", "says", "confidence"},
+                  {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
+                   {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
   return text + list("Evidence", evidence);
 }
 

@@ -74,6 +74,7 @@ class FaultBlock {
   }
 
   static std::string opinion(const char* network, const Opinion& opinion) {
+    if (!was_asked(opinion)) return "";
     return fmt::format("    {:<5}{:.2f}  {}\n", network, opinion.confidence, plain_words(opinion.label));
   }
 

@@ -26,9 +26,9 @@ void SlowWatch::take(const GaussianState& state, double time_s) {
 
 void SlowWatch::follow(Course& course, double value, double std, double time_s) {
   const double least = value - kNormal95 * std, range = course.state.normal_range();
-  if (std::isnan(course.within_s)) course.within_s = time_s;
+  if (std::isnan(course.within_s) || !(least > 0.0)) course.within_s = time_s;
   if (!(least > range)) {
-    course = {course.state, course.index, time_s};
+    course = {course.state, course.index, course.within_s};
     return;
   }
   if (std::isnan(course.left_s)) course.left_s = time_s;

@@ -13,8 +13,9 @@ namespace faultline {
 /// A slow state that left its normal range so far behind that it is no condition any more.
 struct SlowFault {
   SlowEstimate estimate;  ///< when it was farthest
-  double from_s = 0.0;    ///< when it was last within its normal range, or the log's first row
-  double left_s = 0.0;    ///< when its whole interval had left it: the fault began between the two
+  double from_s = 0.0;    ///< when it was last no more than identified for all the log told, or the first row
+  double left_s =
+      0.0;  ///< when its whole interval had left the normal range: the fault began between the two
   double alarm_s = 0.0;
   double end_s = 0.0;  ///< last row at which its whole interval was outside
 };

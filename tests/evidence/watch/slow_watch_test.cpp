@@ -38,8 +38,7 @@ TEST(SlowWatch, FrictionThatCreepsAwayIsAFaultWithAnIntervalOfItsOnset) {
   const SlowFault& fault = watch.faults().front();
   EXPECT_EQ(fault.estimate.state.joint, 1);
   EXPECT_NEAR(fault.left_s, 3.2, 0.11);  // .3 and its doubt
-  EXPECT_LT(fault.from_s, fault.left_s);
-  EXPECT_GT(fault.from_s, fault.left_s - 0.2);
+  EXPECT_NEAR(fault.from_s, 0.2, 0.11) << "more than identified from there on";
   EXPECT_NEAR(fault.alarm_s, 7.2, 0.21);  // twice that, for a second
   EXPECT_EQ(fault.end_s, 100.0);
   EXPECT_NEAR(fault.estimate.value, 10.0, 1e-9);
