@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lib/evidence/filter/follower.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 
