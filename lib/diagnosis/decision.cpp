@@ -39,12 +39,18 @@ double lead_of(const LabelEvidence& likely, const std::vector<LabelEvidence>& ev
   return likely.log_likelihood_ratio - second;
 }
 
+/// Without unknown disturbances, which explain anything.
+std::vector<LabelEvidence> known(std::vector<LabelEvidence> evidence) {
+  std::erase_if(evidence, [](const LabelEvidence& e) { return e.label.kind == FaultKind::unknown; });
+  return evidence;
+}
+
 Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, const DecisionOptions& options) {
   const LabelEvidence likely = likeliest(basis.evidence);
   if (likely.label.kind == FaultKind::unknown) return unnamed;
   const bool seconded = likely.label == basis.episode.mlp.label || likely.label == basis.episode.rbfn.label;
   if (!seconded && lead_of(likely, basis.evidence) < options.close_ratio) return unnamed;
-  return {likely.label, posterior_of(likely.label, basis.evidence), DecidedBy::evidence,
+  return {likely.label, posterior_of(likely.label, known(basis.evidence)), DecidedBy::evidence,
           DecisionReason::likelihood_names, likely.label};
 }
 
@@ -80,8 +86,8 @@ Decision unless_refuted(const Decision& decision, const DecisionBasis& basis) {
   const LabelEvidence* const best = likeliest_known(basis.evidence);
   if (!is_refuted(*best, basis.usual)) {
     const FaultLabel label = named_by_size(best->label, basis.evidence);
-    return {label, posterior_of(label, basis.evidence), DecidedBy::evidence, DecisionReason::others_refuted,
-            decision.voted};
+    return {label, posterior_of(label, known(basis.evidence)), DecidedBy::evidence,
+            DecisionReason::others_refuted, decision.voted};
   }
   return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::all_refuted, decision.voted};
 }

@@ -40,6 +40,7 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
   if (!diagnosis.verdict_reason.empty()) {
     diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.condition.clear();
     return;
   }
   diagnosis.faults = merge_continued(std::move(faults));

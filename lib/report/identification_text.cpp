@@ -12,6 +12,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kSeemsToPay = 0.98;  // of the residual without a term: less looks as if it paid
+
 constexpr double kHardlyTold = 0.03;  // share of a parameter's column that is its own
 
 std::string row(const ParameterEstimate& e) {
@@ -33,7 +35,7 @@ std::string fit_text(const Identification& id) {
         id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
   for (const ModelTerm& t : id.terms)
     text += fmt::format("  {:<9} {}: held-out residual of joint {} {:.4g} without, {:.4g} with it\n", t.name,
-                        t.kept ? "pays" : "does not pay", t.joint + 1, t.error_before, t.error_after);
+                        worth_words(t), t.joint + 1, t.error_before, t.error_after);
   return text + fmt::format("  condition number {:.3g}\n", id.condition_number);
 }
 
@@ -78,6 +80,12 @@ std::string flag_line(const ParameterTrend& t) {
 }
 
 }  // namespace
+
+const char* worth_words(const ModelTerm& term) {
+  if (term.kept) return "pays";
+  return term.error_after < kSeemsToPay * term.error_before ? "pays too little, or not in each log"
+                                                            : "does not pay";
+}
 
 std::vector<std::string> trend_lines(const Identification& id) {
   std::vector<std::string> lines;

@@ -20,6 +20,9 @@ std::vector<std::string> trend_lines(const Identification& identification);
 /// another.
 std::vector<std::string> excitation_lines(const Identification& identification);
 
+/// Whether a term pays, or why it is left out all the same.
+const char* worth_words(const ModelTerm& term);
+
 /// A mixture of parameters, such as "I1 - 0.98 mx2"; empty when there is none.
 std::string mixture_text(const Excitation& excitation);
 

@@ -85,6 +85,7 @@ TEST(Decide, ANameThatLeavesMoreThanNoiseGivesWayToTheLikeliestFaultThatDoesNot)
   EXPECT_EQ(decision.label, kBias);
   EXPECT_EQ(decision.decided_by, DecidedBy::evidence);
   EXPECT_EQ(decision.reason, DecisionReason::others_refuted);
+  EXPECT_GT(decision.confidence, 0.9) << "among the known ones";
 }
 
 TEST(Decide, WhereEveryKnownFaultLeavesMoreThanNoiseTheFaultIsUnknown) {

@@ -66,10 +66,12 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
   const std::vector<FaultFinding> faults = {fault(FaultKind::locked, 1, 1.0)};
   for (Diagnosis diagnosis : {of_log(1000, 1000, 1.4 * kPeriod_s), of_log(1000, 1000, kPeriod_s / 1.4),
                               of_log(19, 19), of_log(1000, 199)}) {
+    diagnosis.condition.resize(1);
     settle_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
     EXPECT_NE(diagnosis.verdict_reason, "");
     EXPECT_TRUE(diagnosis.faults.empty());
+    EXPECT_TRUE(diagnosis.condition.empty());
   }
 }
 

@@ -42,7 +42,7 @@ std::string term_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   for (const ModelTerm& t : id.terms)
     rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
-                    t.kept ? "it pays" : "it does not pay"});
+                    std::string("it ") + worth_words(t)});
   return html_part("What the model was offered, and what it leaves of torque that was not fitted",
                    html_table({"term", "joint", "without it", "with it", ""}, rows));
 }
