@@ -191,6 +191,11 @@ RunningHypothesis HypothesisTest::refined(const RunningHypothesis& coarse) const
   return better(to_the_end, coarse) ? to_the_end : coarse;
 }
 
+bool HypothesisTest::was_dropped(int hypothesis) const {
+  return std::none_of(running_.begin(), running_.end(),
+                      [&](const RunningHypothesis& running) { return running.hypothesis == hypothesis; });
+}
+
 HypothesisTest::Conclusion HypothesisTest::conclude() const {
   std::vector<RunningHypothesis> best = best_of_each();
   std::vector<int> order;
@@ -198,7 +203,10 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return better(best[a], best[b]); });
   for (int i = 0; i < kMostRefined && i < static_cast<int>(order.size()); ++i) {
     const int h = order[i];
-    if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining) best[h] = refined(best[h]);
+    if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining)
+      best[h] = refined(best[h]);
+    else if (std::isfinite(best[h].log_likelihood_ratio) && was_dropped(h))
+      best[h].surprise = run(h, best[h].onset, now_).surprise;  // to the end, like that of the others
   }
   Conclusion conclusion;
   EpisodeEvidence& out = conclusion.evidence;

@@ -44,6 +44,7 @@ class HypothesisTest {
   std::vector<RunningHypothesis> best_of_each() const;
   RunningHypothesis run(int hypothesis, std::int64_t onset, std::int64_t until) const;
   RunningHypothesis refined(const RunningHypothesis& coarse) const;
+  bool was_dropped(int hypothesis) const;
 
   const Bank& bank_;
   const History& history_;

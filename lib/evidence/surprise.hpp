@@ -19,6 +19,8 @@ class Surprise {
     if (has_dq) add_number(2 * j + 1, whitened_dq);
   }
   double numbers() const { return numbers_; }
+  /// Rows that they came from, where each gave as many.
+  double rows() const { return channels_ > 0.0 ? numbers_ / channels_ : 0.0; }
   /// Mean square, 1 of white noise; NaN of nothing.
   double mean_square() const { return numbers_ > 0.0 ? squares_ / numbers_ : std::nan(""); }
   /// Correlation of an innovation with the one before, 0 of white noise.
@@ -29,13 +31,17 @@ class Surprise {
 
   void add_number(int index, double whitened) {
     const double w = std::clamp(whitened, -kMost, kMost);
+    bool& seen = seen_[static_cast<std::size_t>(index)];
+    channels_ += seen ? 0.0 : 1.0;
+    seen = true;
     squares_ += w * w;
     products_ += w * last_[static_cast<std::size_t>(index)];
     last_[static_cast<std::size_t>(index)] = w;
     numbers_ += 1.0;
   }
 
-  double numbers_ = 0.0, squares_ = 0.0, products_ = 0.0;
+  double numbers_ = 0.0, squares_ = 0.0, products_ = 0.0, channels_ = 0.0;
+  std::array<bool, 2 * kMaxJoints> seen_{};
   std::array<double, 2 * kMaxJoints> last_{};
 };
 

@@ -49,7 +49,7 @@ TEST(Surprise, WhatIsUsualIsNoEvidence) {
 }
 
 TEST(Surprise, FewRowsOrAWildValueTellNothing) {
-  EXPECT_FALSE(is_far_from_white(surprise_of(250, 0.9, 3.0), {}));
+  EXPECT_FALSE(is_far_from_white(surprise_of(30, 0.9, 3.0), {}));
   Surprise wild = surprise_of(1500, 0.0, 1.0);
   for (int k = 0; k < 5; ++k) wild.add(0, 1e6, 0.0, false), wild.add(0, 0.0, 0.0, false);
   EXPECT_FALSE(is_far_from_white(wild, {}));
