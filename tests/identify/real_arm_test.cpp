@@ -66,5 +66,23 @@ TEST(IdentifyRealArm, AnUndrivenJointGivesNoAbsurdRobot) {
   std::cout << to_string(id.status) << "; " << id.reason << "\n";
 }
 
+TEST(IdentifyRealArm, NoJointsWindowsAreTooShortForTheOther) {
+  const std::string folder = testing::shared_data();
+  if (folder.empty()) return;
+  std::vector<MemorySource> sources;
+  for (const char* number : {"01", "02", "05", "06", "07", "08"})
+    sources.emplace_back(
+        testing::read_plain_csv(folder + "/double-pendulum/acrobot_undisturbed_" + number + ".csv", {1, 2},
+                                {3, 4}, {9, 10}),
+        number);
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  Robot robot = double_pendulum(0.2);
+  robot.log.torque = TorqueMeaning::commanded;
+  const Identification id = identify(logs, robot);
+  EXPECT_GE(id.held_out_r2[0], 0.9);
+  EXPECT_GE(id.held_out_r2[1], 0.99);
+}
+
 }  // namespace
 }  // namespace faultline

@@ -163,23 +163,52 @@ void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std
   }
 }
 
+/// Whether joint `j` is left with more by the one choice than by the other, by as much as a window is worth.
+bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
+  const Gain loss = gain_of(with, against, j);
+  return loss.mean > std::max(loss.error, 2.0 * kWindowWorthIt);
+}
+
+/// Joints share parameters: windows too short for what one joint's velocity is worth spoil the fit of the
+/// others. The shortest are made longer until no joint is worse off than with windows alike.
+void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
+                      ModelChoice& c) {
+  for (;;) {
+    const HeldOutError mixed = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
+    bool spoilt = false;
+    for (int j = 0; j < joints; ++j) spoilt = spoilt || loses(mixed, with_alike, j);
+    if (!spoilt) return;
+    int& shortest = *std::min_element(c.weak.set.begin(), c.weak.set.end());
+    if (shortest >= alike) break;
+    ++shortest;
+  }
+  c.weak.set.assign(joints, alike);
+}
+
+/// Joints count alike; one that stands still leaves nothing.
+double left_in_all(const HeldOutError& error) {
+  constexpr double kNothing = 1e-12;
+  return error.rms().array().max(kNothing).log().sum();
+}
+
 void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c) {
   std::vector<HeldOutError> errors;
+  int alike = 0;
   for (int set = 0; set < sets; ++set) {
     WeakChoice tried = c.weak;
     tried.set.assign(joints, set);
     errors.push_back(chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted)));
+    if (left_in_all(errors[set]) < left_in_all(errors[alike])) alike = set;
   }
   for (int j = 0; j < joints; ++j) {
     int best = 0;
     for (int set = 1; set < sets; ++set)
       if (errors[set].rms()[j] < errors[best].rms()[j]) best = set;
     c.weak.set[j] = best;
-    for (int set = best - 1; set >= 0; --set) {
-      const Gain loss = gain_of(errors[set], errors[best], j);
-      if (loss.mean <= std::max(loss.error, 2.0 * kWindowWorthIt)) c.weak.set[j] = set;
-    }
+    for (int set = best - 1; set >= 0; --set)
+      if (!loses(errors[set], errors[best], j)) c.weak.set[j] = set;
   }
+  spare_the_others(chooser, joints, alike, errors[alike], c);
 }
 
 }  // namespace
