@@ -162,6 +162,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
       learn_residual_generator(acting, model.robot, model.robot.torque_phi.value_or(0.0), options.residual,
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
+  model.has_velocity = !model.residual.shape.derive_velocity;
   tell(progress, "matching the noise", kResidualsLearned);
   model.motion = learn_motion_model(acting, identified_motion(out.identification),
                                     {.normal = model.robot.normal, .threads = options.threads});

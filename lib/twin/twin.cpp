@@ -40,6 +40,13 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
   return spec;
 }
 
+/// A joint whose dq is no measurement but the change of q since the row before has such a one here too.
+void differ_velocity(Log& log, const std::vector<char>& is_difference) {
+  for (std::size_t j = 0; j < is_difference.size(); ++j)
+    for (int k = log.rows() - 1; k > 0 && is_difference[j]; --k)
+      log.dq[j][k] = (log.q[j][k] - log.q[j][k - 1]) / (log.time[k] - log.time[k - 1]);
+}
+
 /// One try; the run may end early when the controller drawn does not hold this robot.
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
@@ -56,7 +63,10 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
     run.end_s = spec.faults.front().end_s;
   }
   run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;
-  if (!twin.has_velocity) run.log.dq.clear();
+  if (twin.has_velocity)
+    differ_velocity(run.log, twin.motion->dq_is_difference);
+  else
+    run.log.dq.clear();
   return run;
 }
 
