@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::array<double, 3> kPulses_s = {0.04, 0.1, 0.25};  // a knock, a bump, a push aside
+constexpr std::array<double, 5> kPulses_s = {0.04, 0.1, 0.25, 0.5, 1.0};  // from a knock to a push aside
 constexpr std::array<double, 1> kLasting = {0.0};
 
 /// The form beside the usual one that a kind may take at a joint.

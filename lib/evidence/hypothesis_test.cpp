@@ -28,6 +28,7 @@ constexpr int kOnsetTold = 64;           // samples after the trigger by which a
 constexpr double kRanAway = 300.0;       // nats: no row that a filter still follows can cost so much
 constexpr int kFewestConfirm = 16;       // samples
 constexpr int kUsualRows = 512;          // before the onset, for what is usually left unexplained
+constexpr double kOver_s = 0.25;         // of calm after a push, which tells it from what goes on
 constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
 
 void add_to(Surprise& surprise, const FollowedSample& at, int joints) {
@@ -40,6 +41,13 @@ bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
   return a.log_likelihood_ratio > b.log_likelihood_ratio;
 }
 
+/// By how much healthy days imitate each hypothesis.
+std::vector<double> imitations_of(const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options) {
+  std::vector<double> nats;
+  for (const Hypothesis& hypothesis : hypotheses) nats.push_back(options.imitation_of(hypothesis.label));
+  return nats;
+}
+
 }  // namespace
 
 HypothesisTest::HypothesisTest(const Bank& bank, const History& history, const EvidenceOptions& options,
@@ -47,6 +55,7 @@ HypothesisTest::HypothesisTest(const Bank& bank, const History& history, const E
     : bank_(bank),
       history_(history),
       options_(options),
+      imitation_(imitations_of(bank.hypotheses(), options)),
       earliest_(std::max(restart, history.first()) + 1),
       trigger_(history.last()),
       now_(history.last()) {
@@ -92,10 +101,16 @@ void HypothesisTest::advance() {
   if (first_time || (since >= kSecondPrune && since % kPruneEvery == 0)) prune();
 }
 
+/// Below the threshold of its own a fault that healthy days imitate counts only as far as it goes beyond
+/// them.
+double HypothesisTest::counted(int hypothesis, double ratio) const {
+  const double imitated = imitation_[hypothesis];
+  return ratio > options_.threshold + imitated ? ratio : ratio - imitated;
+}
+
 void HypothesisTest::update() {
   best_ratio_ = -std::numeric_limits<double>::infinity();
-  for (const RunningHypothesis& running : running_)
-    best_ratio_ = std::max(best_ratio_, running.log_likelihood_ratio);
+  for (const RunningHypothesis& running : running_) best_ratio_ = std::max(best_ratio_, counted(running));
   largest_ratio_ = std::max(largest_ratio_, best_ratio_);
   if (alarm_ < 0 && best_ratio_ > options_.threshold) alarm_ = now_;
 }
@@ -112,7 +127,7 @@ void HypothesisTest::prune() {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     of_this = i > 0 && running_[i].hypothesis == running_[i - 1].hypothesis ? of_this + 1 : 0;
     if (of_this >= keep) continue;
-    if (second && running_[i].log_likelihood_ratio < best_ratio_ - kHopeless) {
+    if (second && counted(running_[i]) < best_ratio_ - kHopeless) {
       dropped_.push_back(running_[i]);
       dropped_.back().log_likelihood_ratio -= best_ratio_;
     } else {
@@ -134,14 +149,21 @@ std::vector<RunningHypothesis> HypothesisTest::best_of_each() const {
   return best;
 }
 
+std::vector<double> HypothesisTest::ratios() const {
+  std::vector<double> ratios;
+  for (const RunningHypothesis& running : best_of_each()) ratios.push_back(running.log_likelihood_ratio);
+  return ratios;
+}
+
 double HypothesisTest::margin() const {
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   const auto& hypotheses = bank_.hypotheses();
   std::vector<double> best(hypotheses.size(), kNever);
   for (const RunningHypothesis& gone : dropped_)
-    best[gone.hypothesis] = std::max(best[gone.hypothesis], gone.log_likelihood_ratio + best_ratio_);
+    best[gone.hypothesis] =
+        std::max(best[gone.hypothesis], counted(gone.hypothesis, gone.log_likelihood_ratio + best_ratio_));
   for (const RunningHypothesis& running : running_)
-    best[running.hypothesis] = std::max(best[running.hypothesis], running.log_likelihood_ratio);
+    best[running.hypothesis] = std::max(best[running.hypothesis], counted(running));
   const auto top = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
   double second = kNever;
   for (std::size_t h = 0; h < best.size(); ++h)
@@ -149,11 +171,41 @@ double HypothesisTest::margin() const {
   return best[top] - second;
 }
 
-const RunningHypothesis* HypothesisTest::no_fault() const {
+const RunningHypothesis* HypothesisTest::likeliest() const {
+  const auto best = std::max_element(running_.begin(), running_.end(), [this](const auto& a, const auto& b) {
+    return counted(a) < counted(b);
+  });
+  return best == running_.end() ? nullptr : &*best;
+}
+
+const RunningHypothesis* HypothesisTest::work_piece() const {
   const RunningHypothesis* best = nullptr;
   for (const RunningHypothesis& running : running_)
-    if (!best || better(running, *best)) best = &running;
-  return best && is_healthy(bank_.hypotheses()[best->hypothesis]) ? best : nullptr;
+    if (bank_.hypotheses()[running.hypothesis].form == HypothesisForm::work_piece &&
+        (!best || better(running, *best)))
+      best = &running;
+  return best;
+}
+
+const RunningHypothesis* HypothesisTest::no_fault() const {
+  const RunningHypothesis* best = likeliest();
+  if (!best || is_healthy(bank_.hypotheses()[best->hypothesis])) return best;
+  const RunningHypothesis* piece = work_piece();
+  const bool changed = piece && piece->log_likelihood_ratio > options_.threshold;
+  return changed && counted(*best) < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
+}
+
+/// Whether no fault comes near. Another load than the work piece is one that differs: the next test's to
+/// tell.
+bool HypothesisTest::clearly_healthy() const {
+  const RunningHypothesis* healthy = no_fault();
+  if (!healthy) return false;
+  const bool piece = bank_.hypotheses()[healthy->hypothesis].form == HypothesisForm::work_piece;
+  return std::none_of(running_.begin(), running_.end(), [&](const RunningHypothesis& running) {
+    const Hypothesis& hypothesis = bank_.hypotheses()[running.hypothesis];
+    if (is_healthy(hypothesis) || (piece && hypothesis.label.kind == FaultKind::payload_change)) return false;
+    return counted(running) > healthy->log_likelihood_ratio - options_.clear_margin;
+  });
 }
 
 bool HypothesisTest::ready() const {
@@ -164,9 +216,19 @@ bool HypothesisTest::ready() const {
            history_[now_].time - history_[trigger_].time >= options_.confirm_s;
   const double since_s = history_[now_].time - history_[alarm_].time;
   const bool checked = now_ - alarm_ >= options_.fewest_samples && since_s >= kShortestCheck_s;
-  if (checked && no_fault() && margin() > options_.clear_margin) return true;
+  if (checked && clearly_healthy()) return true;
   if (now_ - alarm_ < options_.fewest_samples || since_s < options_.isolate_s) return false;
-  return since_s >= options_.longest_isolate_s || margin() > options_.clear_margin;
+  return since_s >= options_.longest_isolate_s || (margin() > options_.clear_margin && !lasts_still());
+}
+
+/// While a push lasts it explains whatever the robot does: only what comes after it tells it from other
+/// faults.
+bool HypothesisTest::lasts_still() const {
+  const RunningHypothesis* best = likeliest();
+  if (!best) return false;
+  const Hypothesis& hypothesis = bank_.hypotheses()[best->hypothesis];
+  return describe(hypothesis.label.kind).passes &&
+         history_[now_].time - best->onset_s < hypothesis.duration_s + kOver_s;
 }
 
 /// Onsets are held against each other by what a while after the trigger tells: what comes later tells them
@@ -200,10 +262,11 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   std::vector<RunningHypothesis> best = best_of_each();
   std::vector<int> order;
   for (std::size_t h = 0; h < best.size(); ++h) order.push_back(static_cast<int>(h));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return better(best[a], best[b]); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return counted(best[a]) > counted(best[b]); });
   for (int i = 0; i < kMostRefined && i < static_cast<int>(order.size()); ++i) {
     const int h = order[i];
-    if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining)
+    if (counted(best[h]) > best_ratio_ - kWorthRefining)
       best[h] = refined(best[h]);
     else if (std::isfinite(best[h].log_likelihood_ratio) && was_dropped(h))
       best[h].surprise = run(h, best[h].onset, now_).surprise;  // to the end, like that of the others
@@ -211,6 +274,7 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   Conclusion conclusion;
   EpisodeEvidence& out = conclusion.evidence;
   out.best = 0;
+  for (RunningHypothesis& running : best) running.log_likelihood_ratio = counted(running);
   for (std::size_t h = 0; h < best.size(); ++h) {
     out.hypotheses.push_back(std::isfinite(best[h].log_likelihood_ratio) ? bank_.evidence_of(best[h])
                                                                          : HypothesisEvidence{});

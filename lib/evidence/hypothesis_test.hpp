@@ -24,9 +24,12 @@ class HypothesisTest {
   bool ready() const;
   bool alarmed() const { return alarm_ >= 0; }
   /// The hypothesis without a fault (a misread row, a work piece picked up) that explains the log better than
-  /// any fault; null otherwise.
+  /// any fault, or so well that no fault passes the threshold on top of a change of the work piece; null
+  /// otherwise.
   const RunningHypothesis* no_fault() const;
   double best_ratio() const { return best_ratio_; }
+  /// What each hypothesis of the bank explains, nats; minus infinity for those not asked.
+  std::vector<double> ratios() const;
   double largest_ratio() const { return largest_ratio_; }
   /// The evidence so far, onsets refined for the hypotheses that matter, and the best of them.
   struct Conclusion {
@@ -39,8 +42,16 @@ class HypothesisTest {
  private:
   void begin_at(std::int64_t onset, bool slow_only);
   void update();
+  double counted(int hypothesis, double ratio) const;
+  double counted(const RunningHypothesis& running) const {
+    return counted(running.hypothesis, running.log_likelihood_ratio);
+  }
   void prune();
   double margin() const;
+  const RunningHypothesis* likeliest() const;
+  const RunningHypothesis* work_piece() const;
+  bool clearly_healthy() const;
+  bool lasts_still() const;
   std::vector<RunningHypothesis> best_of_each() const;
   RunningHypothesis run(int hypothesis, std::int64_t onset, std::int64_t until) const;
   RunningHypothesis refined(const RunningHypothesis& coarse) const;
@@ -49,7 +60,8 @@ class HypothesisTest {
   const Bank& bank_;
   const History& history_;
   EvidenceOptions options_;
-  std::int64_t earliest_;  ///< first sample from which a hypothesis can start
+  std::vector<double> imitation_;  ///< a hypothesis of the bank each, nats
+  std::int64_t earliest_;          ///< first sample from which a hypothesis can start
   std::int64_t trigger_;
   std::int64_t now_;
   std::int64_t alarm_ = -1;

@@ -143,12 +143,22 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
 void to_json(nlohmann::json& json, const EvidenceOptions& options) {
   json = nlohmann::json{{"fewest_samples", options.fewest_samples}};
   visit_options(options, [&](const char* key, double value) { json[key] = value; });
+  if (options.imitations.empty()) return;
+  for (const Imitation& imitation : options.imitations)
+    json["imitations"].push_back({{"kind", to_string(imitation.label.kind)},
+                                  {"joint", imitation.label.joint},
+                                  {"nats", imitation.nats}});
 }
 
 EvidenceOptions evidence_options_from_json(const nlohmann::json& json, const std::string& where) {
   EvidenceOptions options;
   options.fewest_samples = static_cast<int>(number_from_json(json, "fewest_samples", where));
   visit_options(options, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
+  if (!json.contains("imitations")) return options;
+  for (const nlohmann::json& entry : json.at("imitations"))
+    options.imitations.push_back(
+        {{fault_kind_from(entry.at("kind").get<std::string>()), entry.at("joint").get<int>()},
+         number_from_json(entry, "nats", where)});
   return options;
 }
 

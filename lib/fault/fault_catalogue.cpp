@@ -162,7 +162,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.15, .high = 1.0, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
-        .twin_length_s = {.low = 0.02, .high = 0.2, .spread = Spread::log_uniform},  // a bump, not a push
+        .twin_length_s = {.low = 0.02, .high = 0.8, .spread = Spread::log_uniform},  // from a bump to a push
     },
     {
         .kind = FaultKind::unknown,

@@ -45,6 +45,8 @@ KNOWN = {
     "payload_change": [1.5, -1.0],
     "collision": [25.0, 15.0, 80.0],
 }
+PUSHES_S = {"push of 0.2 s": 0.2, "push of 0.5 s": 0.5, "push of 1 s": 1.0}  # half a sine
+PUSHED = [15.0, 8.0, 60.0]
 
 
 class Change:
@@ -130,6 +132,8 @@ def disturbed(kind, j, size, since, seed, noise, drive):
         change.mass = size
     elif kind == "collision" and since < 0.08:
         drive[j] += size
+    elif kind in PUSHES_S:
+        drive[j] += size * max(0.0, math.sin(math.pi * since / PUSHES_S[kind])) * (since < PUSHES_S[kind])
     elif kind == "clipping drive":
         drive[j] = max(-size, min(size, drive[j]))
     elif kind == "vibration":
@@ -206,7 +210,8 @@ def main():
                     f"{OUT}/robot.toml", "-o", f"{OUT}/model.json"], stdout=subprocess.DEVNULL, check=True)
     seed = 100
     print("| fault | logs | right | missed | early | else |\n|---|---|---|---|---|---|")
-    groups = [("unknown", UNKNOWN), ("friction_increase", CREEPING), (None, KNOWN), ("none", {"healthy": [0.0] * 4})]
+    groups = [("unknown", UNKNOWN), ("friction_increase", CREEPING), (None, KNOWN),
+              ("collision", {push: PUSHED for push in PUSHES_S}), ("none", {"healthy": [0.0] * 4})]
     for wanted, kinds in groups:
         for kind, sizes in kinds.items():
             tally = collections.Counter()

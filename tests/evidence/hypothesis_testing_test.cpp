@@ -171,6 +171,27 @@ TEST(HypothesisTest, AFaultIsNamedBeforeTheHistoryForgetsWhereItBegan) {
   EXPECT_GE(rows, 28);
 }
 
+/// Whether a freed joint raises the alarm, and as what, where healthy days imitate these faults by so much.
+std::string named_where_imitated(bool the_true_one, bool the_others, double nats) {
+  const FaultLabel truth{FaultKind::free_swinging, 3};
+  EvidenceOptions options;
+  for (const FaultLabel& label : labels_of(hypotheses_of(3, TorqueMeaning::commanded)).labels)
+    if (label.kind != FaultKind::none && (label == truth ? the_true_one : the_others))
+      options.imitations.push_back({label, nats});
+  Watch watch(faulty_log(truth.kind, truth.joint), options);
+  EXPECT_TRUE(watch.wake());
+  watch.rows_until_ready();
+  return watch.test().alarmed() ? label_text(watch.label(watch.test().evidence())) : "nothing";
+}
+
+TEST(HypothesisTest, AFaultThatHealthyDaysImitateHasToExplainThatMuchMore) {
+  const std::string truth = label_text({FaultKind::free_swinging, 3});
+  EXPECT_EQ(named_where_imitated(false, true, 1e6), truth);
+  EXPECT_EQ(named_where_imitated(true, true, 5.0), truth);
+  EXPECT_NE(named_where_imitated(true, false, 1e6), truth);
+  EXPECT_EQ(named_where_imitated(true, true, 1e6), "nothing");
+}
+
 TEST(HypothesisTest, ASingleWildRowIsMisread) {
   Log log = healthy_log();
   log.q[0][300] += 0.05;

@@ -40,6 +40,7 @@ double surprise(const FollowedSample& sample, int joints) {
 EvidenceOptions less_sure(EvidenceOptions options) {
   options.trigger *= kLessKnown;
   options.threshold *= kLessKnown;
+  for (Imitation& imitation : options.imitations) imitation.nats *= kLessKnown;
   return options;
 }
 
@@ -226,5 +227,8 @@ const std::vector<SlowFault>& EpisodeDetector::slow_faults() const { return impl
 int EpisodeDetector::rejected_alarms() const { return impl_->healthy().rejected_alarms(); }
 double EpisodeDetector::largest_trigger() const { return impl_->healthy().largest_trigger(); }
 double EpisodeDetector::largest_ratio() const { return impl_->healthy().largest_ratio(); }
+const std::vector<double>& EpisodeDetector::largest_ratios() const {
+  return impl_->healthy().largest_ratios();
+}
 
 }  // namespace faultline

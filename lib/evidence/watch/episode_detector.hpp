@@ -41,6 +41,8 @@ class EpisodeDetector {
   int rejected_alarms() const;
   double largest_trigger() const;
   double largest_ratio() const;
+  /// With EvidenceOptions::only_measure: the most that each hypothesis explained; empty for nothing.
+  const std::vector<double>& largest_ratios() const;
 
  private:
   class Impl;

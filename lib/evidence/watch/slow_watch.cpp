@@ -8,8 +8,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kFar = 2.0;        // normal ranges: farther is a fault
-constexpr double kLasting_s = 1.0;  // of it: what passes sooner is the bank's to explain
+constexpr double kFar = 2.0;  // normal ranges: farther is a fault
+// What passes sooner is no state of the machine: a day's lost rows and offsets pass for friction for a while.
+constexpr double kLasting_s = 5.0;
 
 }  // namespace
 

@@ -95,6 +95,8 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
     largest_ratio_ = std::max(largest_ratio_, test_->largest_ratio());
   } else if (test_->best_ratio() < options_.threshold) {
     ++rejected_alarms_;
+  } else if (options_.only_measure) {
+    measure();
   } else {
     HypothesisTest::Conclusion found = test_->conclude();
     if (is_healthy(bank_.hypotheses()[found.best.hypothesis]))
@@ -104,6 +106,13 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
   }
   test_.reset();
   return named;
+}
+
+void Watch::measure() {
+  const std::vector<double> ratios = test_->ratios();
+  largest_ratios_.resize(ratios.size(), 0.0);
+  for (std::size_t h = 0; h < ratios.size(); ++h)
+    largest_ratios_[h] = std::max(largest_ratios_[h], ratios[h]);
 }
 
 /// The robot is healthy all the same. Filters before a change of the work piece know nothing of it.

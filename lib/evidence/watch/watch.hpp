@@ -57,6 +57,9 @@ class Watch {
   int rejected_alarms() const { return rejected_alarms_; }
   double largest_trigger() const { return largest_trigger_; }
   double largest_ratio() const { return largest_ratio_; }
+  /// The most that each hypothesis explained where faults were measured and not named; empty where nothing
+  /// passed the threshold.
+  const std::vector<double>& largest_ratios() const { return largest_ratios_; }
 
  private:
   static constexpr int kHistory = 4096;  // samples that a test can look back over
@@ -67,6 +70,7 @@ class Watch {
 
   void watch();
   std::optional<HypothesisTest::Conclusion> conclude();
+  void measure();
   void go_on_from(const RunningHypothesis& no_fault);
 
   FaultyRobot robot_;
@@ -85,6 +89,7 @@ class Watch {
   int rejected_alarms_ = 0;
   double largest_trigger_ = 0.0;
   double largest_ratio_ = 0.0;
+  std::vector<double> largest_ratios_;
 };
 
 }  // namespace faultline

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/motion_model_json.hpp"
 #include "lib/fault/label_text.hpp"
 #include "tests/support/rrp_runs.hpp"
 
@@ -225,6 +227,27 @@ TEST(CalibrateThresholds, KeepsHealthyLogsCalmWhenTheMassesAreOnePercentWrong) {
   for (const auto& log : owners) EXPECT_TRUE(detected(log->log(), 4096, options, model).empty());
   EXPECT_TRUE(detected(healthy_log(), 4096, options, model).empty()) << "nor in a run it did not see";
   EXPECT_FALSE(detected(faulty_log(FaultKind::free_swinging, 3), 4096, options, model).empty());
+}
+
+TEST(CalibrateThresholds, OnlyFaultsThatHealthyLogsImitateAreMadeHarderToFind) {
+  MotionModel model = rrp_motion_model(1.01);
+  const ProcessNoise before = model.noise;
+  const auto owners = healthy_rrp_logs();
+  std::vector<LogSource*> logs;
+  for (const auto& log : owners) logs.push_back(log.get());
+  const auto bank = hypotheses_of(3, TorqueMeaning::commanded);
+  const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {});
+  EXPECT_EQ(options.threshold, EvidenceOptions{}.threshold);
+  EXPECT_EQ(model.noise.torque_share, before.torque_share) << "the filter is not made blind";
+  EXPECT_LT(options.imitations.size(), labels_of(bank).labels.size());
+  nlohmann::json json;
+  to_json(json, options);
+  const EvidenceOptions read = evidence_options_from_json(json, "test");
+  ASSERT_EQ(read.imitations.size(), options.imitations.size());
+  for (const Imitation& imitation : options.imitations) {
+    EXPECT_GT(imitation.nats, 0.0);
+    EXPECT_EQ(read.imitation_of(imitation.label), imitation.nats);
+  }
 }
 
 TEST(LearnMotionModel, RefusesAHandfulOfRows) {
