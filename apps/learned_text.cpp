@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/fault/label_text.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/report/model_facts.hpp"
 
@@ -47,6 +49,24 @@ std::string validation_text(const Validation& validation) {
              validation.false_alarms, validation.healthy_hours, validation.early_alarms);
 }
 
+/// The thresholds, and the faults whose own lie above what most have.
+std::string threshold_text(const EvidenceOptions& evidence, const std::vector<Hypothesis>& bank) {
+  constexpr std::size_t kMostListed = 6;
+  std::vector<Imitation> most = evidence.imitations;
+  std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.nats > b.nats; });
+  const std::vector<FaultLabel> labels = labels_of(bank).labels;
+  const auto faults = std::count_if(labels.begin(), labels.end(),
+                                    [](const FaultLabel& label) { return label.kind != FaultKind::none; });
+  const double usual = std::ssize(most) == faults ? most.back().nats : 0.0;
+  std::erase_if(most, [&](const Imitation& imitation) { return imitation.nats <= usual; });
+  std::string text = fmt::format("Alarms from {:.0f} nats on", evidence.threshold + usual);
+  for (std::size_t i = 0; i < std::min(most.size(), kMostListed); ++i)
+    text += fmt::format("{} {:.0f} for {}", i == 0 ? "; from" : ",", evidence.threshold + most[i].nats,
+                        label_text(most[i].label));
+  if (most.size() > kMostListed) text += fmt::format(" and more for {} others", most.size() - kMostListed);
+  return text + (most.empty() ? ".\n" : ": what the healthy logs look like by themselves.\n");
+}
+
 std::string parameter_text(const Identification& identification) {
   std::string text;
   for (const ParameterEstimate* p : listed_parameters(identification))
@@ -68,6 +88,7 @@ std::string learned_text(const Learned& learned, const std::string& model_path,
                       parameter_text(learned.identification));
   text += fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
                       validation_text(learned.model.validation));
+  text += threshold_text(learned.model.evidence, learned.model.bank);
   text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
                       learned.cases.cases().size());
   return text;

@@ -39,7 +39,7 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
     items.push_back(remark("warning", std::move(warning)));
   items.push_back({"log_likelihood_ratio", basis.episode.evidence, "nats",
                    fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)",
-                               model.evidence.threshold + model.evidence.imitation_of(decision.label))});
+                               model.evidence.threshold)});
   if (decision.label.joint > 0)
     if (std::string size = size_words(observed.evidence, model, decision.label); !size.empty())
       items.push_back(remark("size", std::move(size)));

@@ -101,18 +101,19 @@ void HypothesisTest::advance() {
   if (first_time || (since >= kSecondPrune && since % kPruneEvery == 0)) prune();
 }
 
-/// Below the threshold of its own a fault that healthy days imitate counts only as far as it goes beyond
-/// them.
-double HypothesisTest::counted(int hypothesis, double ratio) const {
-  const double imitated = imitation_[hypothesis];
-  return ratio > options_.threshold + imitated ? ratio : ratio - imitated;
+/// A fault that healthy days imitate raises an alarm only as far as it goes beyond them.
+double HypothesisTest::counted(const RunningHypothesis& running) const {
+  return running.log_likelihood_ratio - imitation_[running.hypothesis];
 }
 
 void HypothesisTest::update() {
-  best_ratio_ = -std::numeric_limits<double>::infinity();
-  for (const RunningHypothesis& running : running_) best_ratio_ = std::max(best_ratio_, counted(running));
-  largest_ratio_ = std::max(largest_ratio_, best_ratio_);
-  if (alarm_ < 0 && best_ratio_ > options_.threshold) alarm_ = now_;
+  best_ratio_ = best_counted_ = -std::numeric_limits<double>::infinity();
+  for (const RunningHypothesis& running : running_) {
+    best_ratio_ = std::max(best_ratio_, running.log_likelihood_ratio);
+    best_counted_ = std::max(best_counted_, counted(running));
+  }
+  largest_ratio_ = std::max(largest_ratio_, best_counted_);
+  if (alarm_ < 0 && best_counted_ > options_.threshold) alarm_ = now_;
 }
 
 void HypothesisTest::prune() {
@@ -127,7 +128,7 @@ void HypothesisTest::prune() {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     of_this = i > 0 && running_[i].hypothesis == running_[i - 1].hypothesis ? of_this + 1 : 0;
     if (of_this >= keep) continue;
-    if (second && counted(running_[i]) < best_ratio_ - kHopeless) {
+    if (second && running_[i].log_likelihood_ratio < best_ratio_ - kHopeless) {
       dropped_.push_back(running_[i]);
       dropped_.back().log_likelihood_ratio -= best_ratio_;
     } else {
@@ -160,10 +161,9 @@ double HypothesisTest::margin() const {
   const auto& hypotheses = bank_.hypotheses();
   std::vector<double> best(hypotheses.size(), kNever);
   for (const RunningHypothesis& gone : dropped_)
-    best[gone.hypothesis] =
-        std::max(best[gone.hypothesis], counted(gone.hypothesis, gone.log_likelihood_ratio + best_ratio_));
+    best[gone.hypothesis] = std::max(best[gone.hypothesis], gone.log_likelihood_ratio + best_ratio_);
   for (const RunningHypothesis& running : running_)
-    best[running.hypothesis] = std::max(best[running.hypothesis], counted(running));
+    best[running.hypothesis] = std::max(best[running.hypothesis], running.log_likelihood_ratio);
   const auto top = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
   double second = kNever;
   for (std::size_t h = 0; h < best.size(); ++h)
@@ -172,9 +172,7 @@ double HypothesisTest::margin() const {
 }
 
 const RunningHypothesis* HypothesisTest::likeliest() const {
-  const auto best = std::max_element(running_.begin(), running_.end(), [this](const auto& a, const auto& b) {
-    return counted(a) < counted(b);
-  });
+  const auto best = std::min_element(running_.begin(), running_.end(), better);
   return best == running_.end() ? nullptr : &*best;
 }
 
@@ -192,7 +190,7 @@ const RunningHypothesis* HypothesisTest::no_fault() const {
   if (!best || is_healthy(bank_.hypotheses()[best->hypothesis])) return best;
   const RunningHypothesis* piece = work_piece();
   const bool changed = piece && piece->log_likelihood_ratio > options_.threshold;
-  return changed && counted(*best) < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
+  return changed && best_counted_ < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
 }
 
 /// Whether no fault comes near. Another load than the work piece is one that differs: the next test's to
@@ -262,11 +260,10 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   std::vector<RunningHypothesis> best = best_of_each();
   std::vector<int> order;
   for (std::size_t h = 0; h < best.size(); ++h) order.push_back(static_cast<int>(h));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return counted(best[a]) > counted(best[b]); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return better(best[a], best[b]); });
   for (int i = 0; i < kMostRefined && i < static_cast<int>(order.size()); ++i) {
     const int h = order[i];
-    if (counted(best[h]) > best_ratio_ - kWorthRefining)
+    if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining)
       best[h] = refined(best[h]);
     else if (std::isfinite(best[h].log_likelihood_ratio) && was_dropped(h))
       best[h].surprise = run(h, best[h].onset, now_).surprise;  // to the end, like that of the others
@@ -274,7 +271,6 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   Conclusion conclusion;
   EpisodeEvidence& out = conclusion.evidence;
   out.best = 0;
-  for (RunningHypothesis& running : best) running.log_likelihood_ratio = counted(running);
   for (std::size_t h = 0; h < best.size(); ++h) {
     out.hypotheses.push_back(std::isfinite(best[h].log_likelihood_ratio) ? bank_.evidence_of(best[h])
                                                                          : HypothesisEvidence{});

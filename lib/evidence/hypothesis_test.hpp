@@ -28,6 +28,8 @@ class HypothesisTest {
   /// otherwise.
   const RunningHypothesis* no_fault() const;
   double best_ratio() const { return best_ratio_; }
+  /// Whether a fault still explains more than its threshold, with what healthy days imitate of it.
+  bool passes() const { return best_counted_ >= options_.threshold; }
   /// What each hypothesis of the bank explains, nats; minus infinity for those not asked.
   std::vector<double> ratios() const;
   double largest_ratio() const { return largest_ratio_; }
@@ -42,10 +44,7 @@ class HypothesisTest {
  private:
   void begin_at(std::int64_t onset, bool slow_only);
   void update();
-  double counted(int hypothesis, double ratio) const;
-  double counted(const RunningHypothesis& running) const {
-    return counted(running.hypothesis, running.log_likelihood_ratio);
-  }
+  double counted(const RunningHypothesis& running) const;
   void prune();
   double margin() const;
   const RunningHypothesis* likeliest() const;
@@ -68,6 +67,7 @@ class HypothesisTest {
   bool pruned_ = false;
   bool lost_ = false;  ///< after the alarm the robot ran away from every filter: what came before counts
   double best_ratio_ = 0.0;
+  double best_counted_ = 0.0;
   double largest_ratio_ = 0.0;
   std::vector<RunningHypothesis> running_;
   std::vector<RunningHypothesis> before_;   ///< the same a sample ago, once an alarm stands

@@ -188,7 +188,8 @@ TEST(HypothesisTest, AFaultThatHealthyDaysImitateHasToExplainThatMuchMore) {
   const std::string truth = label_text({FaultKind::free_swinging, 3});
   EXPECT_EQ(named_where_imitated(false, true, 1e6), truth);
   EXPECT_EQ(named_where_imitated(true, true, 5.0), truth);
-  EXPECT_NE(named_where_imitated(true, false, 1e6), truth);
+  EXPECT_EQ(named_where_imitated(true, false, 1e6), truth)
+      << "others raise the alarm, the likeliest is named";
   EXPECT_EQ(named_where_imitated(true, true, 1e6), "nothing");
 }
 

@@ -93,7 +93,7 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
     go_on_from(*no_fault);
   } else if (!test_->alarmed()) {
     largest_ratio_ = std::max(largest_ratio_, test_->largest_ratio());
-  } else if (test_->best_ratio() < options_.threshold) {
+  } else if (!test_->passes()) {
     ++rejected_alarms_;
   } else if (options_.only_measure) {
     measure();
