@@ -29,6 +29,20 @@ Identification identify_excitation(const std::string& folder, double until_s) {
   return identify(logs, double_pendulum(0.3));
 }
 
+/// From undisturbed runs of that arm and these numbers, with the torque that was commanded.
+Identification identify_undisturbed(const std::string& folder, const std::string& arm,
+                                    const std::vector<std::string>& numbers, const Robot& robot) {
+  std::vector<MemorySource> sources;
+  for (const std::string& number : numbers)
+    sources.emplace_back(
+        testing::read_plain_csv(folder + "/double-pendulum/" + arm + "_undisturbed_" + number + ".csv",
+                                {1, 2}, {3, 4}, {9, 10}),
+        number);
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  return identify(logs, robot);
+}
+
 TEST(IdentifyRealArm, NoisyVelocityDoesNotDrownItsInertia) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
@@ -48,15 +62,8 @@ TEST(IdentifyRealArm, NoisyVelocityDoesNotDrownItsInertia) {
 TEST(IdentifyRealArm, AnUndrivenJointGivesNoAbsurdRobot) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
-  std::vector<MemorySource> sources;
-  for (const char* number : {"01", "02", "05"})
-    sources.emplace_back(
-        testing::read_plain_csv(folder + "/double-pendulum/pendubot_undisturbed_" + number + ".csv", {1, 2},
-                                {3, 4}, {9, 10}),
-        number);
-  std::vector<LogSource*> logs;
-  for (MemorySource& source : sources) logs.push_back(&source);
-  const Identification id = identify(logs, double_pendulum(0.2));
+  const Identification id =
+      identify_undisturbed(folder, "pendubot", {"01", "02", "05"}, double_pendulum(0.2));
   for (const ParameterEstimate& e : id.physical_parameters) {
     std::cout << e.name << " " << e.value << " +- " << e.std << " " << e.why_not << "\n";
     if (!e.identifiable || e.std == 0.0) continue;
@@ -69,17 +76,10 @@ TEST(IdentifyRealArm, AnUndrivenJointGivesNoAbsurdRobot) {
 TEST(IdentifyRealArm, NoJointsWindowsAreTooShortForTheOther) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
-  std::vector<MemorySource> sources;
-  for (const char* number : {"01", "02", "05", "06", "07", "08"})
-    sources.emplace_back(
-        testing::read_plain_csv(folder + "/double-pendulum/acrobot_undisturbed_" + number + ".csv", {1, 2},
-                                {3, 4}, {9, 10}),
-        number);
-  std::vector<LogSource*> logs;
-  for (MemorySource& source : sources) logs.push_back(&source);
   Robot robot = double_pendulum(0.2);
   robot.log.torque = TorqueMeaning::commanded;
-  const Identification id = identify(logs, robot);
+  const Identification id =
+      identify_undisturbed(folder, "acrobot", {"01", "02", "05", "06", "07", "08"}, robot);
   EXPECT_GE(id.held_out_r2[0], 0.9);
   EXPECT_GE(id.held_out_r2[1], 0.99);
 }
