@@ -25,6 +25,8 @@ const char* unit_of(Quantity quantity, AxisKind axis) {
     case Quantity::dq_ref:
       return velocity_unit(axis);
     case Quantity::tau:
+    case Quantity::tau_ref:
+    case Quantity::tau_meas:
       return torque_unit(axis);
   }
   return "";

@@ -23,6 +23,10 @@ const char* prefix_of(Quantity quantity) {
       return "q_ref";
     case Quantity::dq_ref:
       return "dq_ref";
+    case Quantity::tau_ref:
+      return "tau_ref";
+    case Quantity::tau_meas:
+      return "tau_meas";
   }
   return "";
 }
@@ -59,6 +63,10 @@ bool is_reference(const std::string& word) {
                       "commanded", "goal", "qg"});
 }
 
+bool is_measurement(const std::string& word) {
+  return among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm"});
+}
+
 /// Words of columns that are near a joint signal but are none.
 bool is_something_else(const std::string& word) {
   return among(word, {"error",   "err",      "acc",       "accel",       "acceleration", "accelerations",
@@ -84,8 +92,7 @@ std::optional<Quantity> quantity_of(const std::string& word) {
 int fitness_of(const std::vector<std::string>& words, Quantity quantity) {
   int fitness = 30;
   for (const std::string& word : words) {
-    if (among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm"}))
-      fitness += quantity == Quantity::tau ? -10 : 5;
+    if (is_measurement(word)) fitness += quantity == Quantity::tau ? -10 : 5;
     if (among(word, {"con", "ctrl", "control"})) fitness -= 5;
     if (is_reference(word) && quantity == Quantity::tau) fitness -= 6;
     if (among(word, {"filt", "filtered", "lp"})) fitness -= 15;
@@ -149,6 +156,10 @@ const char* meaning_of(Quantity quantity) {
       return "commanded position";
     case Quantity::dq_ref:
       return "commanded velocity";
+    case Quantity::tau_ref:
+      return "commanded torque";
+    case Quantity::tau_meas:
+      return "measured torque";
   }
   return "";
 }
@@ -157,11 +168,12 @@ NameReading read_name(const std::string& name) {
   NameReading reading;
   const auto words = tokens_of(name);
   int number_at = -1;
-  bool reference = false, other = false;
+  bool reference = false, measured = false, other = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::isdigit(static_cast<unsigned char>(words[i][0]))) number_at = static_cast<int>(i);
     if (const auto quantity = quantity_of(words[i])) reading.quantity = quantity;
     reference = reference || is_reference(words[i]);
+    measured = measured || is_measurement(words[i]);
     other = other || is_something_else(words[i]);
   }
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -169,9 +181,12 @@ NameReading read_name(const std::string& name) {
   if (number_at >= 0 && words[number_at].size() <= 3) reading.number = std::stoi(words[number_at]);
   if (other) reading.quantity.reset();
   if (!reading.quantity) return reading;
+  if (reading.quantity == Quantity::tau) reading.as_torque = fitness_of(words, Quantity::tau);
   reading.fitness = canonical_channel(name) ? 100 : fitness_of(words, *reading.quantity);
   if (reference && reading.quantity == Quantity::q) reading.quantity = Quantity::q_ref;
   if (reference && reading.quantity == Quantity::dq) reading.quantity = Quantity::dq_ref;
+  if (reference && reading.quantity == Quantity::tau) reading.quantity = Quantity::tau_ref;
+  if (measured && reading.quantity == Quantity::tau) reading.quantity = Quantity::tau_meas;
   return reading;
 }
 

@@ -6,8 +6,8 @@
 
 namespace faultline {
 
-/// Where a canonical channel ("t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1") comes from and how its raw value
-/// becomes SI: value = sign * scale * (raw * unit factor) + offset.
+/// Where a canonical channel ("t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1") comes
+/// from and how its raw value becomes SI: value = sign * scale * (raw * unit factor) + offset.
 struct ColumnSpec {
   std::string name{};  ///< column in the file; empty = find by the usual names
   std::string unit{};  ///< such as "deg", "mm", "ms", "ns"; empty = SI

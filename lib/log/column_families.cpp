@@ -6,6 +6,18 @@
 #include <utility>
 
 namespace faultline {
+namespace {
+
+/// The first of the highest rank among the families that are meant and have joints; null for none.
+template <typename IsMeant, typename Rank>
+const ColumnFamily* best_of(const std::vector<ColumnFamily>& families, IsMeant is_meant, Rank rank) {
+  const ColumnFamily* best = nullptr;
+  for (const ColumnFamily& family : families)
+    if (is_meant(family) && family.joints() > 0 && (!best || rank(family) > rank(*best))) best = &family;
+  return best;
+}
+
+}  // namespace
 
 std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
                                           const std::function<bool(int)>& is_free) {
@@ -16,7 +28,9 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
     const NameReading reading = read_name(names[i]);
     if (!reading.quantity) continue;
     const auto [at, fresh] = index.emplace(reading.stem, families.size());
-    if (fresh) families.push_back({*reading.quantity, reading.fitness, {}, reading.number.has_value()});
+    if (fresh)
+      families.push_back(
+          {*reading.quantity, reading.fitness, reading.as_torque, {}, reading.number.has_value()});
     ColumnFamily& family = families[at->second];
     family.fitness = std::max(family.fitness, reading.fitness);
     family.column_of.emplace(reading.number.value_or(1), static_cast<int>(i));
@@ -25,14 +39,20 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
 }
 
 const ColumnFamily* best_family(const std::vector<ColumnFamily>& families, Quantity quantity) {
-  const ColumnFamily* best = nullptr;
-  auto rank = [](const ColumnFamily& family) {
-    return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.joints());
-  };
-  for (const ColumnFamily& family : families)
-    if (family.quantity == quantity && family.joints() > 0 && (!best || rank(family) > rank(*best)))
-      best = &family;
-  return best;
+  return best_of(
+      families, [&](const ColumnFamily& family) { return family.quantity == quantity; },
+      [](const ColumnFamily& family) {
+        return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.joints());
+      });
+}
+
+const ColumnFamily* best_torque(const std::vector<ColumnFamily>& families) {
+  return best_of(
+      families, [](const ColumnFamily& family) { return is_torque(family.quantity); },
+      [](const ColumnFamily& family) {
+        const bool canonical = family.quantity == Quantity::tau && family.fitness >= 100;
+        return std::tuple(canonical, family.numbered, family.as_torque, family.joints());
+      });
 }
 
 std::optional<TimePair> find_time_pair(const std::vector<std::string>& names) {

@@ -15,6 +15,7 @@ namespace faultline {
 struct ColumnFamily {
   Quantity quantity = Quantity::q;
   int fitness = 0;
+  int as_torque = 0;
   std::map<int, int> column_of;  ///< by the number in the name; 1 when it has none
   bool numbered = false;
 
@@ -33,6 +34,9 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
 /// The family that fits a quantity best: canonical names first, then numbered ones, then the better fit, then
 /// more joints, then file order; null for none.
 const ColumnFamily* best_family(const std::vector<ColumnFamily>& families, Quantity quantity);
+
+/// The family that fits best as the torque of a log: by its canonical name, else commanded before measured.
+const ColumnFamily* best_torque(const std::vector<ColumnFamily>& families);
 
 /// Columns of seconds and nanoseconds, as ROS writes a stamp.
 struct TimePair {

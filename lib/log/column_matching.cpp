@@ -94,8 +94,9 @@ class Matcher {
     for (const auto& [name, spec] : map_) {
       const auto channel = canonical_channel(name);
       if (!channel)
-        throw Error(ErrorCode::usage, "[log.columns] " + name,
-                    "is no channel; the channels are t, q1.., dq1.., tau1.., q_ref1.., dq_ref1..");
+        throw Error(
+            ErrorCode::usage, "[log.columns] " + name,
+            "is no channel; the channels are t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., tau_ref1.., tau_meas1..");
       if (spec.name.empty()) continue;
       const int column = spec.name == kRowNumberName ? kRowNumber : column_named(spec.name);
       if (column == -1)
@@ -142,9 +143,24 @@ class Matcher {
         add({quantity, j}, column);
   }
 
+  const ColumnFamily* family_of(Quantity quantity) const {
+    if (named_in_map(quantity)) return nullptr;
+    if (quantity == Quantity::tau) return best_torque(families_);
+    if (is_torque(quantity) && quantity == meaning_of_tau()) return nullptr;
+    return best_family(families_, quantity);
+  }
+
+  /// Whether the name of the torque that was taken says commanded or measured; tau where it says neither.
+  Quantity meaning_of_tau() const {
+    for (const ChannelSource& source : matching_.channels)
+      if (source.channel.quantity == Quantity::tau && source.column >= 0)
+        return read_name(names_[source.column]).quantity.value_or(Quantity::tau);
+    return Quantity::tau;
+  }
+
   void match_quantity(Quantity quantity) {
     if (named_in_map(quantity)) match_usual_names(quantity);
-    const ColumnFamily* family = named_in_map(quantity) ? nullptr : best_family(families_, quantity);
+    const ColumnFamily* family = family_of(quantity);
     if (family) {
       const int joints =
           quantity == Quantity::q ? family->joints() : std::min(family->joints(), matching_.joints);
@@ -159,7 +175,8 @@ class Matcher {
     if (chosen.fitness >= 100) return;
     std::string rivals;
     for (const ColumnFamily& family : families_) {
-      if (family.quantity != quantity || &family == &chosen) continue;
+      const bool rival = family.quantity == quantity || family.quantity == chosen.quantity;
+      if (!rival || &family == &chosen) continue;
       rivals += (rivals.empty() ? "\"" : ", \"") + names_[family.column_of.begin()->second] + "\"";
     }
     if (rivals.empty()) return;
@@ -179,8 +196,7 @@ class Matcher {
     std::erase_if(channels, [joints](const ChannelSource& source) { return source.channel.joint > joints; });
     std::sort(channels.begin(), channels.end(),
               [](const ChannelSource& a, const ChannelSource& b) { return a.channel < b.channel; });
-    for (const Quantity quantity : {Quantity::dq, Quantity::tau, Quantity::q_ref, Quantity::dq_ref})
-      note_gaps(quantity);
+    for (const Quantity quantity : kJointQuantities) note_gaps(quantity);
     std::set<int> used;
     for (const ChannelSource& source : channels) used.insert({source.column, source.nanoseconds_column});
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i)

@@ -27,6 +27,8 @@ struct Log {
   JointSignals tau;            ///< torque or force; its meaning (commanded, measured) is in the robot file
   JointSignals q_ref;          ///< commanded position
   JointSignals dq_ref;         ///< commanded velocity
+  JointSignals tau_ref;        ///< commanded torque or force, beside `tau`
+  JointSignals tau_meas;       ///< measured torque or force, beside `tau`
   std::vector<ExtraChannel> extra;
 
   int rows() const { return static_cast<int>(time.size()); }

@@ -15,6 +15,10 @@ auto& signals_in(AnyLog& log, Quantity quantity) {
       return log.q_ref;
     case Quantity::dq_ref:
       return log.dq_ref;
+    case Quantity::tau_ref:
+      return log.tau_ref;
+    case Quantity::tau_meas:
+      return log.tau_meas;
     case Quantity::time:  // belongs to no joint
     case Quantity::q:
       break;

@@ -17,7 +17,9 @@ constexpr std::int64_t kFewestValues = 20;
 bool starts_with(const std::string& name, const char* prefix) { return name.rfind(prefix, 0) == 0; }
 
 bool is_measurement(const ChannelSummary& channel) {
-  return channel.canonical && !starts_with(channel.name, "q_ref") && !starts_with(channel.name, "dq_ref");
+  const auto known = canonical_channel(channel.name);
+  return channel.canonical && known && known->quantity != Quantity::q_ref &&
+         known->quantity != Quantity::dq_ref && known->quantity != Quantity::tau_ref;
 }
 
 double share(std::int64_t part, std::int64_t all) {

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "lib/log/log_channels.hpp"
+
 namespace faultline {
 namespace {
 
@@ -12,8 +14,7 @@ std::int64_t bytes_of(const std::vector<double>& values) {
 
 std::int64_t bytes_of(const Log& log) {
   std::int64_t bytes = sizeof(Log) + bytes_of(log.time);
-  for (const JointSignals* signals : {&log.q, &log.dq, &log.tau, &log.q_ref, &log.dq_ref})
-    for (const std::vector<double>& values : *signals) bytes += bytes_of(values);
+  for_each_joint_channel(log, [&](const std::vector<double>& values, Channel) { bytes += bytes_of(values); });
   for (const ExtraChannel& channel : log.extra) bytes += bytes_of(channel.values);
   return bytes;
 }

@@ -73,7 +73,8 @@ LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
     if (std::find(names.begin(), names.end(), channel) == names.end())
       columns.fail(channel,
                    fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
-                               "tau1..tau{0}, q_ref1..q_ref{0} or dq_ref1..dq_ref{0}",
+                               "tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, tau_ref1..tau_ref{0} or "
+                               "tau_meas1..tau_meas{0}",
                                joints));
     result.columns[channel] = column_spec(columns, channel);
   }

@@ -24,6 +24,20 @@ Names matched(const std::vector<std::string>& names, const ColumnMap& map = {}) 
   return result;
 }
 
+TEST(ColumnMatching, ASecondTorqueIsTheCommandedOrTheMeasuredOne) {
+  EXPECT_EQ(matched({"time", "pos_meas1", "tau_con1", "tau_meas1"}),
+            (Names{{"t", "time"}, {"q1", "pos_meas1"}, {"tau1", "tau_con1"}, {"tau_meas1", "tau_meas1"}}));
+  EXPECT_EQ(matched({"t", "q1", "target_torque_1", "actual_torque_1"}),
+            (Names{{"t", "t"}, {"q1", "q1"}, {"tau1", "target_torque_1"}, {"tau_meas1", "actual_torque_1"}}))
+      << "what tau's own name says is not there a second time";
+  EXPECT_EQ(
+      matched({"t", "q1", "tau1", "tau_ref1", "tau_meas1"}),
+      (Names{
+          {"t", "t"}, {"q1", "q1"}, {"tau1", "tau1"}, {"tau_ref1", "tau_ref1"}, {"tau_meas1", "tau_meas1"}}));
+  EXPECT_EQ(matched({"t", "q1", "tau_meas1"}), (Names{{"t", "t"}, {"q1", "q1"}, {"tau1", "tau_meas1"}}))
+      << "the only torque is the torque";
+}
+
 TEST(ColumnMatching, NamesThatCountFromZero) {
   EXPECT_EQ(matched({"timestamp", "target_q_0", "target_q_1", "actual_q_0", "actual_q_1", "actual_qd_0",
                      "actual_qd_1", "target_moment_0", "target_moment_1", "actual_TCP_pose_0"}),
@@ -88,10 +102,10 @@ TEST(ColumnMatching, AJointWithoutAColumnIsTold) {
 }
 
 TEST(ColumnMatching, SeveralCandidatesAreTold) {
-  const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"tau_meas1", ""}, {"tau_con1", ""}};
+  const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"tau_con1", ""}, {"tau_ctrl1", ""}};
   const Matching matching = match_columns(columns, {}, "log");
   ASSERT_NE(matching.issues.find("channel_ambiguous", "tau1"), nullptr);
-  EXPECT_NE(matching.issues.find("channel_ambiguous", "tau1")->message.find("tau_meas1"), std::string::npos);
+  EXPECT_NE(matching.issues.find("channel_ambiguous", "tau1")->message.find("tau_ctrl1"), std::string::npos);
 }
 
 TEST(ColumnMatching, AChannelThatDoesNotExistIsAUsageError) {

@@ -26,7 +26,8 @@ inline std::string text_of(const std::vector<double>& values) {
 
 inline std::string text_of(const Log& log) {
   std::string text = std::to_string(log.first_row) + "\n" + text_of(log.time);
-  for (const JointSignals* signals : {&log.q, &log.dq, &log.tau, &log.q_ref, &log.dq_ref})
+  for (const JointSignals* signals :
+       {&log.q, &log.dq, &log.tau, &log.q_ref, &log.dq_ref, &log.tau_ref, &log.tau_meas})
     for (const auto& values : *signals) text += text_of(values);
   for (const ExtraChannel& extra : log.extra) text += extra.name + " " + text_of(extra.values);
   return text;

@@ -36,7 +36,7 @@ void mix(JointSignals& signals, const Eigen::MatrixXd& matrix, JointSignals& mix
 
 void mix_all(Log& log, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& torque, JointSignals& mixed) {
   for (const Quantity quantity : kJointQuantities)
-    mix(signals_of(log, quantity), quantity == Quantity::tau ? torque : motion, mixed);
+    mix(signals_of(log, quantity), is_torque(quantity) ? torque : motion, mixed);
 }
 
 class CoupledSource : public LogSource {
