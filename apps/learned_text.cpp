@@ -10,6 +10,7 @@
 #include "lib/fault/label_text.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/report/model_facts.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -67,6 +68,22 @@ std::string threshold_text(const EvidenceOptions& evidence, const std::vector<Hy
   return text + (most.empty() ? ".\n" : ": what the healthy logs look like by themselves.\n");
 }
 
+/// What of the torques second residuals know, and from where on they speak.
+std::string relations_text(const Model& model) {
+  std::string text;
+  for (const SignalRelation& relation : model.relations) {
+    const WindowLimit& middle = relation.windows[relation.windows.size() / 2];
+    text += fmt::format(
+        "Joint {}: the {} explains {:.2f} % of logs left out; seen from {:.3g} {} over {:g} s on.\n",
+        relation.joint + 1,
+        relation.kind == RelationKind::actuator ? "commanded torque, for the measured one,"
+                                                : "control law, for the commanded torque,",
+        100.0 * relation.r2, middle.limit + relation.offset_range,
+        torque_unit(model.robot.chain.geometry[relation.joint].kind), middle.window_s);
+  }
+  return text;
+}
+
 std::string parameter_text(const Identification& identification) {
   std::string text;
   for (const ParameterEstimate* p : listed_parameters(identification))
@@ -89,6 +106,7 @@ std::string learned_text(const Learned& learned, const std::string& model_path,
   text += fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
                       validation_text(learned.model.validation));
   text += threshold_text(learned.model.evidence, learned.model.bank);
+  text += relations_text(learned.model);
   text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
                       learned.cases.cases().size());
   return text;
@@ -101,7 +119,8 @@ std::string learned_json(const Learned& learned) {
   json["identification"].erase("state");
   json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
                  {"persistence_mse", learned.residual.persistence_mse}};
-  for (const char* key : {"sample_period_s", "sources", "validation", "evidence"}) json[key] = model[key];
+  for (const char* key : {"sample_period_s", "sources", "validation", "evidence", "relations"})
+    if (model.contains(key)) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();
   return json.dump(2) + "\n";
 }

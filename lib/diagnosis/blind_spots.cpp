@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "lib/fault/fault_catalogue.hpp"
@@ -25,6 +26,22 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
         "The logged torque is a motor current: faults between controller and motor current cannot be seen.");
   if (!has_velocity)
     spots.push_back("The log has no velocities: small and short faults are seen later or not at all.");
+  return spots;
+}
+
+std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,
+                                        const std::vector<double>& judged_s) {
+  std::vector<std::string> spots;
+  for (std::size_t i = 0; i < std::min(relations.size(), judged_s.size()); ++i) {
+    if (judged_s[i] > 0.0) continue;
+    const bool drive = relations[i].kind == RelationKind::actuator;
+    spots.push_back(fmt::format(
+        "The healthy logs show how joint {}'s {}, but this log lacks the signals ({}): {} cannot be seen.",
+        relations[i].joint + 1,
+        drive ? "measured torque follows the commanded one" : "commanded torque follows reference and motion",
+        drive ? "commanded and measured torque" : "references, motion and torque",
+        drive ? "small faults of the drive" : "faults of control and of who commands"));
+  }
   return spots;
 }
 

@@ -11,6 +11,10 @@ namespace faultline {
 /// What a log cannot show, a sentence each, by what its torque means and whether it has velocities.
 std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
 
+/// Second residuals of the model that a log lacks the signals for, a sentence each; `judged_s` by relation.
+std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,
+                                        const std::vector<double>& judged_s);
+
 /// Share of the simulated faults that a model found; NaN where none were simulated.
 double power_of(const Validation& validation);
 

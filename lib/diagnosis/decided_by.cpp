@@ -13,6 +13,10 @@ const char* to_string(DecidedBy decided_by) {
       return "evidence";
     case DecidedBy::criterion:
       return "criterion";
+    case DecidedBy::actuator:
+      return "actuator";
+    case DecidedBy::control_law:
+      return "control_law";
     case DecidedBy::abstained:
       return "abstained";
   }

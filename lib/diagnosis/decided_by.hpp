@@ -5,11 +5,13 @@ namespace faultline {
 
 /// Who settled what a fault is.
 enum class DecidedBy {
-  agreement,  ///< both networks
-  cases,      ///< similar cases and the networks' opinions, by vote
-  evidence,   ///< the likelihood of the physical hypotheses
-  criterion,  ///< the fault criterion over single samples
-  abstained,  ///< nobody: too thin or too even to name a fault
+  agreement,    ///< both networks
+  cases,        ///< similar cases and the networks' opinions, by vote
+  evidence,     ///< the likelihood of the physical hypotheses
+  criterion,    ///< the fault criterion over single samples
+  actuator,     ///< the second residual of measured against commanded torque
+  control_law,  ///< that of commanded torque against what the controller reads
+  abstained,    ///< nobody: too thin or too even to name a fault
 };
 const char* to_string(DecidedBy decided_by);
 

@@ -20,9 +20,15 @@ double or_last(double time_s) {
 bool passes(const FaultFinding& finding) { return describe(finding.label.kind).passes; }
 bool is_unknown(const FaultFinding& finding) { return finding.label.kind == FaultKind::unknown; }
 
+/// Second residuals tell when a fault is over, so that the next one is another.
+bool has_its_end(const FaultFinding& finding) {
+  return finding.decided_by == DecidedBy::actuator || finding.decided_by == DecidedBy::control_law;
+}
+
 /// Whether nothing was healthy for long between the two.
 bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
-  return later.decided_by != DecidedBy::criterion && !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
+  return later.decided_by != DecidedBy::criterion && !has_its_end(earlier) && !has_its_end(later) &&
+         !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
 }
 
 /// Whether `later` is what `earlier` looks like a while on; pushes are part of an unknown disturbance.

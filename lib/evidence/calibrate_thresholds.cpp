@@ -3,7 +3,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
-#include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 
 namespace faultline {

@@ -132,6 +132,7 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   for (double& floor : noise.floor) floor *= options.safety;
   for (SlowState& slow : model.slow)
     if (slow.kind == SlowKind::coloured_torque) slow.day_std *= options.safety;
+  if (options.normal) allow_model_error(model, options.normal->model_error);
   return model;
 }
 

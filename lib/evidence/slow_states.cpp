@@ -15,7 +15,7 @@ constexpr double kColourShare = 0.01;     // of the largest torque, where matchi
 constexpr double kFirstMemory_s = 0.05;   // likewise
 constexpr double kCarriedInPriors = 2.0;  // the payload's prior is half of what is carried
 constexpr double kDayPace = 0.05;         // of a day's spread: what wanders of it in a second (root of time)
-constexpr int kSurveyedRows = 4000;       // enough calm blocks at any rate
+constexpr double kModelErrorMemory_s = 0.03;  // of ripple, springs and friction that is met again and again
 
 bool rubs(const Friction<double>& friction) { return friction.viscous != 0.0 || friction.coulomb != 0.0; }
 
@@ -83,13 +83,13 @@ LogNoise log_noise(const MotionModel& model, const Log& rows) {
   return noise;
 }
 
-LogNoise survey_noise(LogSource& log, const MotionModel& model) {
-  log.rewind();
-  Log first;
-  for (Log segment; first.rows() < kSurveyedRows && log.next(segment);)
-    append(first, slice(segment, 0, std::min(segment.rows(), kSurveyedRows - first.rows())));
-  log.rewind();
-  return log_noise(model, first);
+void allow_model_error(MotionModel& model, double share) {
+  for (SlowState& slow : model.slow) {
+    const double least = share * model.torque_scale[slow.joint];
+    if (slow.kind != SlowKind::coloured_torque || least <= slow.day_std) continue;
+    slow.day_std = least;
+    slow.memory_s = kModelErrorMemory_s;
+  }
 }
 
 }  // namespace faultline

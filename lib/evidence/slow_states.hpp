@@ -5,7 +5,7 @@
 
 #include "lib/evidence/match_noise.hpp"
 #include "lib/evidence/motion_model.hpp"
-#include "lib/log/log_source.hpp"
+#include "lib/log/log.hpp"
 #include "lib/robot/normal_range.hpp"
 
 namespace faultline {
@@ -21,7 +21,8 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
 /// How a log of these rows, or of that level, measures against the model's logs.
 LogNoise log_noise(const MotionModel& model, const Log& rows);
 
-/// The same of a log that is not judged yet, from its first rows. Rewinds the log before and after.
-LogNoise survey_noise(LogSource& log, const MotionModel& model);
+/// Raises each coloured torque to what the equations of motion miss at the least, `share` of the joint's
+/// largest torque.
+void allow_model_error(MotionModel& model, double share);
 
 }  // namespace faultline

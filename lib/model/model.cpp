@@ -10,6 +10,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/twin/twin_json.hpp"
 
@@ -113,6 +114,8 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.evidence = evidence_options_from_json(json.at("evidence"), where);
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
+  if (json.contains("relations"))
+    model.relations = relations_from_json(json["relations"], model.robot.joints(), where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
@@ -144,6 +147,7 @@ std::string model_to_json(const Model& model) {
   json["evidence"] = evidence;
   json["motion"] = motion;
   json["residual"] = residual;
+  if (!model.relations.empty()) json["relations"] = relations_to_json(model.relations);
   json["judges"] = judges;
   json["samples"] = samples_to_json(model.samples);
   return json.dump(1) + "\n";

@@ -12,6 +12,7 @@
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
 #include "lib/identify/identification.hpp"
+#include "lib/residual/relation/signal_relation.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/twin/twin_options.hpp"
@@ -67,6 +68,7 @@ struct Model {
   EvidenceOptions evidence;
   std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
   ResidualGenerator residual;
+  std::vector<SignalRelation> relations;  ///< second residuals; none where the logs lack the signals
   EpisodeClassifier episode_classifier;
   SampleMode samples;
   Validation validation;

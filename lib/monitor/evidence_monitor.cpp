@@ -22,8 +22,8 @@ std::vector<JointResidual> RecentResiduals::between(double from_s, double to_s) 
   return summary.joints();
 }
 
-EvidenceMonitor::EvidenceMonitor(const Model& model, const LogNoise& noise)
-    : detector_(model.motion, model.bank, model.evidence, noise) {}
+EvidenceMonitor::EvidenceMonitor(const Model& model, const MotionModel& motion, const LogNoise& noise)
+    : detector_(motion, model.bank, model.evidence, noise) {}
 
 void EvidenceMonitor::take(const Log& segment, Residuals residuals) {
   recent_.add(std::move(residuals));

@@ -25,7 +25,8 @@ class RecentResiduals {
 /// time.
 class EvidenceMonitor {
  public:
-  explicit EvidenceMonitor(const Model& model, const LogNoise& noise = {});
+  /// `motion` is the model's as it suits the log (survey_log()); both outlive this.
+  EvidenceMonitor(const Model& model, const MotionModel& motion, const LogNoise& noise);
 
   void take(const Log& segment, Residuals residuals);
   /// After the last segment.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/monitor.hpp"
 
-#include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/survey/survey_log.hpp"
+#include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/monitor/evidence_monitor.hpp"
 #include "lib/monitor/log_tally.hpp"
+#include "lib/monitor/relation_monitor.hpp"
 #include "lib/monitor/sample_monitor.hpp"
 #include "lib/residual/residuals.hpp"
 
@@ -11,12 +13,18 @@ namespace faultline {
 
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   const bool by_samples = options.mode == ClassifyMode::samples;
-  EvidenceMonitor evidence(model, survey_noise(log, model.motion));
+  const LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
+  EvidenceMonitor evidence(model, by_samples ? model.motion : day.model, day.noise);
   SampleMonitor samples(model.samples, options);
+  const std::vector<SignalRelation> none;
+  RelationMonitor relations(by_samples ? none : model.relations);
+  WatchedSource watched(log, relations);
+  DelayedTorqueSource in_time(watched, day.torque_delay_s);
+  LogSource& acting = day.torque_delay_s.empty() ? static_cast<LogSource&>(watched) : in_time;
   LogTally tally;
   ResidualState state;
   ResidualSummary whole;
-  for (Log segment; log.next(segment);) {
+  for (Log segment; acting.next(segment);) {
     tally.take(segment, log, model);
     Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.add(residuals);
@@ -27,13 +35,12 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   }
   evidence.finish();
   samples.finish();
-  return {log_facts(log, tally, model, evidence.rejected_alarms()),
-          whole.joints(),
-          evidence.episodes(),
-          samples.alarms(),
-          evidence.largest_ratio(),
-          evidence.slow_estimates(),
-          evidence.slow_faults()};
+  relations.finish();
+  LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
+  facts.issues.merge(day.notes);
+  return {std::move(facts),       whole.joints(),           evidence.episodes(),
+          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
+          evidence.slow_faults(), relations.episodes(),     relations.judged_s()};
 }
 
 }  // namespace faultline

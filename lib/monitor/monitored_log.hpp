@@ -7,18 +7,21 @@
 #include "lib/diagnosis/monitored_episode.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
 #include "lib/evidence/watch/slow_watch.hpp"
+#include "lib/residual/relation/relation_watch.hpp"
 
 namespace faultline {
 
 /// What one pass over a log gives before anything is decided.
 struct MonitoredLog {
   LogFacts log;
-  std::vector<JointResidual> residuals;    ///< of the MLP, over the whole log
-  std::vector<MonitoredEpisode> episodes;  ///< found by the bank of hypotheses
-  std::vector<SampleAlarm> sample_alarms;  ///< found by the paper's fault criterion
-  double largest_ratio = 0.0;              ///< log likelihood ratio that raised no alarm
-  std::vector<SlowEstimate> slow;          ///< empty where no hypotheses were followed
-  std::vector<SlowFault> slow_faults;      ///< likewise
+  std::vector<JointResidual> residuals;            ///< of the MLP, over the whole log
+  std::vector<MonitoredEpisode> episodes;          ///< found by the bank of hypotheses
+  std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
+  double largest_ratio = 0.0;                      ///< log likelihood ratio that raised no alarm
+  std::vector<SlowEstimate> slow;                  ///< empty where no hypotheses were followed
+  std::vector<SlowFault> slow_faults;              ///< likewise
+  std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
+  std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
 };
 
 }  // namespace faultline

@@ -8,6 +8,7 @@
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
+#include "lib/diagnosis/relation_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
 #include "lib/monitor/monitor.hpp"
 
@@ -37,6 +38,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
     faults.push_back(decide_episode(episode, model, cases));
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
   add_slow_faults(run.slow_faults, model, faults);
+  faults = with_relations(std::move(faults), run.relation_episodes, model.motion.chain);
 
   Diagnosis diagnosis;
   diagnosis.log = run.log;
@@ -45,6 +47,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
   diagnosis.cannot_see = blind_spots(model.robot.log.torque, run.log.has_velocity);
+  for (std::string& spot : relation_spots(model.relations, run.relations_judged_s))
+    diagnosis.cannot_see.push_back(std::move(spot));
   for (std::string& spot : weak_spots(model.validation)) diagnosis.cannot_see.push_back(std::move(spot));
   settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   return diagnosis;

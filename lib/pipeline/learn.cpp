@@ -14,6 +14,7 @@
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/training_episodes.hpp"
 #include "lib/pipeline/twin_study.hpp"
+#include "lib/residual/relation/learn_relations.hpp"
 
 namespace faultline {
 namespace {
@@ -170,6 +171,11 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   tell(progress, "checking the alarm threshold", kResidualsLearned);
   model.evidence = calibrate_thresholds(acting, model.motion, model.bank, {}, options.threads);
   learn_from_twin(out, labelled, reading, options, progress);
+  model.relations =
+      learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
+                               .period_s = model.sample_period_s,
+                               .torque_offset = model.robot.normal.torque_offset,
+                               .torque_gain = model.robot.normal.torque_constant});
   model.sources = sources_of(out.identification, labelled);
   model.twin = options.twin;
   return out;

@@ -20,6 +20,10 @@ const char* decided_words(const FaultFinding& fault) {
       return "the physical evidence decided";
     case DecidedBy::criterion:
       return "the networks' fault criterion decided";
+    case DecidedBy::actuator:
+      return "measured against commanded torque decided";
+    case DecidedBy::control_law:
+      return "commanded torque against the control law decided";
     case DecidedBy::abstained:
       return "not named: the evidence is too thin";
   }

@@ -42,6 +42,7 @@ NormalRange normal_range_from_table(const TomlTable& normal) {
   range.torque_constant = share(normal, "torque_constant", range.torque_constant);
   range.torque_offset = share(normal, "torque_offset", range.torque_offset);
   range.tip_mass = share(normal, "tip_mass", range.tip_mass);
+  range.model_error = share(normal, "model_error", range.model_error);
   range.noise = noise_factors(normal, range.noise);
   if (normal.has("work_pieces_kg")) {
     range.work_pieces_kg = normal.numbers("work_pieces_kg", -1);
@@ -54,9 +55,10 @@ std::string normal_range_text(const NormalRange& normal) {
   if (normal == NormalRange{}) return "";
   std::string text = fmt::format(
       "\n[normal]\nfriction = {}\nfriction_pace = {}\ntorque_constant = {}\ntorque_offset = {}\ntip_mass = {}\n"
-      "noise = {}\n",
+      "model_error = {}\nnoise = {}\n",
       toml_number(normal.friction), toml_number(normal.friction_pace), toml_number(normal.torque_constant),
-      toml_number(normal.torque_offset), toml_number(normal.tip_mass), list_text(normal.noise.data(), 2));
+      toml_number(normal.torque_offset), toml_number(normal.tip_mass), toml_number(normal.model_error),
+      list_text(normal.noise.data(), 2));
   if (!normal.work_pieces_kg.empty())
     text +=
         "work_pieces_kg = " + list_text(normal.work_pieces_kg.data(), normal.work_pieces_kg.size()) + "\n";

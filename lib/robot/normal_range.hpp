@@ -18,6 +18,9 @@ struct NormalRange {
   double torque_constant = 0.02;  ///< share of the drive's torque: temperature of the magnets
   double torque_offset = 0.01;    ///< share of the largest torque
   double tip_mass = 0.02;         ///< share of what the robot carries: tools, hoses
+  /// Share of the largest torque that the equations of motion miss at the least, for some hundredths of a
+  /// second each time: ripple, springs, friction of another shape, stamps a sample late.
+  double model_error = 0.005;
   std::array<double, 2> noise = {0.5, 2.0};  ///< times the measurement noise of the healthy logs
   std::vector<double> work_pieces_kg;        ///< that come and go; empty to learn whether one does
 

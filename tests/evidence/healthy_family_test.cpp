@@ -8,6 +8,7 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 #include "lib/fault/label_text.hpp"
 #include "tests/support/rrp_runs.hpp"

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/relation_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/number_text.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/fault/label_text.hpp"
+#include "lib/robot/axis_units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLostShare = 0.1;           // of the command, which a technician calls a loss of torque
+constexpr double kShareExplains = 0.5;       // of the residual: a share of the command, not an offset
+constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit, and just beyond it
+constexpr double kWellBeyond = 1.5;          // times the limit
+constexpr double kSameTime_s = 0.1;          // the motion may show it so much sooner
+constexpr double kAftermath_s = 0.3;         // and so long after it has ended
+constexpr double kLeftLaw_s = 1.0;           // a law that is left for longer after a fault follows from it
+
+bool is_lost_torque(const RelationEpisode& episode) {
+  return episode.kind == RelationKind::actuator && episode.share > kLostShare &&
+         episode.share_explains > kShareExplains;
+}
+
+std::string what_strayed(const RelationEpisode& episode, const std::string& size) {
+  if (episode.kind == RelationKind::actuator)
+    return fmt::format("the measured torque of joint {} is not what was commanded: {} on average",
+                       episode.joint + 1, size);
+  return fmt::format(
+      "the commanded torque of joint {} is not what the controller makes of reference and motion: {} on average",
+      episode.joint + 1, size);
+}
+
+std::string next_check_of(const RelationEpisode& episode) {
+  if (episode.kind == RelationKind::actuator)
+    return fmt::format(
+        "Look at the drive of joint {}: its current limit, its supply and its torque or current sensor; somebody "
+        "may have added torque behind the controller.",
+        episode.joint + 1);
+  return fmt::format(
+      "Look at what commands joint {}: another controller mode, a changed gain or filter, a feed-forward, or "
+      "somebody who writes to the same command.",
+      episode.joint + 1);
+}
+
+std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const std::string& unit) {
+  std::vector<EvidenceItem> items;
+  items.push_back(
+      {"decision", std::nan(""), "", what_strayed(episode, value_text(episode.mean) + " " + unit)});
+  items.push_back({"torque_difference", episode.mean, unit, "mean difference"});
+  items.push_back({"times_limit", episode.times_limit, "", "largest mean over what healthy logs reach"});
+  items.push_back(
+      {"log_likelihood_ratio", episode.nats, "nats", "log likelihood ratio against no difference"});
+  if (is_lost_torque(episode))
+    items.push_back(
+        {"torque_share", 100.0 * episode.share, "%", "share of the commanded torque that is missing"});
+  return items;
+}
+
+bool loses_torque(FaultKind kind) {
+  return kind == FaultKind::torque_loss || kind == FaultKind::free_swinging;
+}
+
+double end_of(const RelationEpisode& episode) {
+  return episode.lasts ? std::numeric_limits<double>::infinity() : episode.end_s;
+}
+
+bool begins_within(const FaultFinding& finding, const RelationEpisode& episode) {
+  return finding.onset_s >= episode.onset_s - kSameTime_s &&
+         finding.onset_s <= end_of(episode) + kAftermath_s;
+}
+
+bool follows_from(const RelationEpisode& episode, const std::vector<FaultFinding>& earlier) {
+  if (episode.kind != RelationKind::control_law || episode.end_s - episode.onset_s < kLeftLaw_s) return false;
+  return std::any_of(earlier.begin(), earlier.end(), [&](const FaultFinding& finding) {
+    return finding.onset_s < episode.onset_s + kSameTime_s;
+  });
+}
+
+/// The motion's word on the same thing becomes evidence; where both say lost torque, its name stays.
+void take_over(FaultFinding& finding, const FaultFinding& motion) {
+  if (loses_torque(motion.label.kind) && motion.label.joint == finding.label.joint &&
+      finding.decided_by == DecidedBy::actuator && motion.decided_by != DecidedBy::criterion) {
+    finding.label = motion.label;
+    finding.next_check = motion.next_check;
+  }
+  if (finding.trace.time.empty()) {
+    finding.mlp = motion.mlp;
+    finding.rbfn = motion.rbfn;
+    finding.episode = motion.episode;
+    finding.trace = motion.trace;
+  }
+  finding.onset_s = std::min(finding.onset_s, std::max(motion.onset_s, finding.onset_s - kSameTime_s));
+  finding.alarm_s = std::min(finding.alarm_s, motion.alarm_s);
+  finding.evidence.push_back(
+      {"motion", motion.onset_s, "s",
+       fmt::format("the motion shows it too (it alone says {})", label_text(motion.label, " at joint "))});
+  if (motion.label != finding.label)
+    finding.could_also_be.push_back({motion.label, "what the motion alone says"});
+}
+
+}  // namespace
+
+FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain) {
+  FaultFinding finding;
+  const bool lost = is_lost_torque(episode);
+  finding.label = {lost ? FaultKind::torque_loss : FaultKind::unknown, episode.joint + 1};
+  finding.onset_s = episode.onset_s;
+  finding.alarm_s = episode.alarm_s;
+  finding.end_s = episode.end_s;
+  finding.confidence = episode.times_limit > kWellBeyond ? kSure : kLess;
+  finding.decided_by = episode.kind == RelationKind::actuator ? DecidedBy::actuator : DecidedBy::control_law;
+  finding.evidence = evidence_of(episode, torque_unit(chain.geometry[episode.joint].kind));
+  finding.next_check = lost ? next_check_for(finding.label) : next_check_of(episode);
+  return finding;
+}
+
+std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
+                                         const std::vector<RelationEpisode>& episodes,
+                                         const Chain<double>& chain) {
+  std::vector<FaultFinding> found;
+  const std::vector<FaultFinding> by_motion = motion;
+  for (const RelationEpisode& episode : episodes) {
+    std::vector<FaultFinding> earlier = found;
+    for (const FaultFinding& finding : by_motion)
+      if (!begins_within(finding, episode) || finding.onset_s < episode.onset_s) earlier.push_back(finding);
+    if (follows_from(episode, earlier)) continue;
+    FaultFinding finding = finding_of(episode, chain);
+    const auto within = std::stable_partition(
+        motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });
+    for (auto m = within; m != motion.end(); ++m) take_over(finding, *m);
+    motion.erase(within, motion.end());
+    found.push_back(std::move(finding));
+  }
+  motion.insert(motion.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+  return motion;
+}
+
+}  // namespace faultline

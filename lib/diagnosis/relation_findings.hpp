@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/model/model.hpp"
+#include "lib/residual/relation/relation_watch.hpp"
+
+namespace faultline {
+
+/// What a second residual found: a loss of torque where a share of the command is missing, else an unknown
+/// fault of that joint's drive or control.
+FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain);
+
+/// The findings of the motion together with those of second residuals: what the motion showed of the same
+/// thing becomes evidence of one finding, and a control law that is left after a fault is its consequence.
+std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
+                                         const std::vector<RelationEpisode>& episodes,
+                                         const Chain<double>& chain);
+
+}  // namespace faultline

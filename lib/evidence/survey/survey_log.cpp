@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/survey/survey_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "lib/core/make_issue.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/evidence/filter/follower.hpp"
+#include "lib/evidence/slow_states.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kSurveyedRows = 4000;     // enough calm blocks at any rate
+constexpr int kStretches = 8;           // that the rows are cut into
+constexpr int kSettlingRows = 10;       // which the filter needs to forget its guess
+constexpr double kWellExplained = 1.2;  // mean chi-square of a number: nothing is tried below
+constexpr double kMoves = 0.1;          // of the usual speed: slower rows say nothing of torques
+constexpr int kPeriodRows = 32;
+constexpr double kLostRow = 0.75;     // periods more than those rows take
+constexpr double kLeastGain = 10.0;   // nats, in one of the first two stretches that move
+constexpr double kMostOfFirst = 2.0;  // times the first gain: more may be a fault that came later
+constexpr double kPeaks = 2.0;        // times the level that suits the whole, for where it peaks
+constexpr std::array kShares = {0.003, 0.006, 0.012, 0.025, 0.05, 0.1};  // of the largest torque
+constexpr std::array kMemories_s = {0.004, 0.03};
+
+/// How well a day explains the rows.
+struct Explained {
+  std::array<double, kStretches> log_likelihood{};
+  double chi_square = 0.0;  ///< mean of a number
+};
+
+Log first_rows(LogSource& log) {
+  log.rewind();
+  Log first;
+  for (Log segment; first.rows() < kSurveyedRows && log.next(segment);)
+    append(first, slice(segment, 0, std::min(segment.rows(), kSurveyedRows - first.rows())));
+  log.rewind();
+  return first;
+}
+
+/// The torque of row k is that of row k + rows.
+Log with_torque_shifted(Log log, int rows) {
+  for (std::vector<double>& tau : log.tau) {
+    const std::vector<double> logged = tau;
+    for (int k = 0; k < log.rows(); ++k) tau[k] = logged[std::clamp(k + rows, 0, log.rows() - 1)];
+  }
+  return log;
+}
+
+Explained explained(const Log& rows, const MotionModel& model, const LogNoise& noise) {
+  Explained out;
+  Follower follower(model, noise);
+  FollowedSample sample;
+  double chi_square = 0.0;
+  long long numbers = 0;
+  for (int k = 0; k < rows.rows(); ++k) {
+    follower.follow(rows, k, sample);
+    if (k < kSettlingRows) continue;
+    out.log_likelihood[static_cast<std::size_t>(k) * kStretches / rows.rows()] += sample.total_log_likelihood;
+    for (int j = 0; j < model.joints(); ++j) {
+      chi_square += sample.chi_square[j];
+      numbers += std::isfinite(sample.q[j]) + std::isfinite(sample.dq[j]);
+    }
+  }
+  out.chi_square = numbers > 0 ? chi_square / static_cast<double>(numbers) : 0.0;
+  return out;
+}
+
+/// The first two stretches in which the robot moves.
+std::vector<int> first_moving(const Log& rows, const MotionModel& model) {
+  std::vector<int> moving;
+  for (int s = 0; s < kStretches && moving.size() < 2; ++s) {
+    const int begin = s * rows.rows() / kStretches, end = (s + 1) * rows.rows() / kStretches;
+    bool moves = false;
+    for (int j = 0; j < model.joints() && end - begin > 1; ++j) {
+      const auto [low, high] = std::minmax_element(rows.q[j].begin() + begin, rows.q[j].begin() + end);
+      moves =
+          moves || *high - *low > kMoves * model.velocity_scale[j] * (rows.time[end - 1] - rows.time[begin]);
+    }
+    if (moves) moving.push_back(s);
+  }
+  return moving;
+}
+
+/// Median of the steps over some rows, which wobble less than single ones.
+double rough_period(const Log& rows, int over) {
+  std::vector<double> periods;
+  for (int k = over; k < rows.rows(); ++k) periods.push_back((rows.time[k] - rows.time[k - over]) / over);
+  return upper_median(periods);
+}
+
+/// From the first row to the last, over the rows between them and those that were lost there.
+double mean_period(const Log& rows) {
+  const int over = std::min(kPeriodRows, rows.rows() - 1), last = rows.rows() - 1;
+  const double rough = rough_period(rows, over);
+  double steps = last;
+  for (int k = 0; k + over <= last; k += over) {
+    const double more = (rows.time[k + over] - rows.time[k]) / rough - over;
+    if (more > kLostRow) steps += std::round(more);
+  }
+  return (rows.time[last] - rows.time[0]) / steps;
+}
+
+class Survey {
+ public:
+  Survey(const Log& rows, const MotionModel& model) : rows_(rows) {
+    day_.model = model;
+    day_.noise = log_noise(model, rows);
+  }
+
+  LogDay run() {
+    if (rows_.rows() < 2 * kStretches) return std::move(day_);
+    moving_ = first_moving(rows_, day_.model);
+    best_ = explained(rows_, day_.model, day_.noise);
+    if (best_.chi_square > kWellExplained && !rows_.tau.empty()) {
+      try_stamps_and_timing();
+      try_rough_torque();
+    }
+    return std::move(day_);
+  }
+
+ private:
+  /// What a day gains, as far as the first stretches speak for it; 0 where they do not.
+  double gain_of(const Explained& with) const {
+    double first = 0.0;
+    for (const int s : moving_) first = std::max(first, with.log_likelihood[s] - best_.log_likelihood[s]);
+    if (first < kLeastGain) return 0.0;
+    double sum = 0.0;
+    for (int s = 0; s < kStretches; ++s)
+      sum += std::min(with.log_likelihood[s] - best_.log_likelihood[s], kMostOfFirst * first);
+    return sum;
+  }
+
+  void try_stamps_and_timing() {
+    const double period = mean_period(rows_);
+    MotionModel steady = day_.model;
+    steady.steady_period_s = period;
+    const Explained in_step = explained(rows_, steady, day_.noise);
+    const bool may_wobble = day_.model.steady_period_s == 0.0 && day_.model.clock_std > 0.0;
+    const double gain_in_step = may_wobble ? gain_of(in_step) : 0.0;
+    double best_gain = gain_in_step;
+    int best_shift = 0;
+    Explained shifted_best;
+    for (const int shift : {1, -1}) {
+      const Explained shifted = explained(with_torque_shifted(rows_, shift), day_.model, day_.noise);
+      if (const double gain = gain_of(shifted); gain > best_gain)
+        best_gain = gain, best_shift = shift, shifted_best = shifted;
+    }
+    if (best_gain <= 0.0) return;
+    if (best_shift == 0) {
+      day_.model = std::move(steady);
+      best_ = in_step;
+      note("stamps_wobble",
+           "the time stamps wobble, as those of the learned logs do not; the rows are taken in step");
+      return;
+    }
+    rows_ = with_torque_shifted(rows_, best_shift);
+    best_ = shifted_best;
+    day_.torque_delay_s.assign(day_.model.joints(), -best_shift * period);
+    note("torque_timing",
+         fmt::format("the torque is logged a row {} than in the learned logs; it is taken where it acts",
+                     best_shift > 0 ? "later" : "earlier"));
+  }
+
+  /// The day with a coloured torque of `joint` (-1: of all) that is at least that rough.
+  std::optional<MotionModel> rougher(int joint, double share, double memory_s) const {
+    MotionModel model = day_.model;
+    bool changed = false;
+    for (SlowState& slow : model.slow) {
+      if (slow.kind != SlowKind::coloured_torque || (joint >= 0 && slow.joint != joint)) continue;
+      const double level = share * model.torque_scale[slow.joint];
+      if (level <= slow.day_std) continue;
+      slow.day_std = level;
+      slow.memory_s = memory_s;
+      changed = true;
+    }
+    if (!changed) return std::nullopt;
+    return model;
+  }
+
+  /// All joints alike, then each more.
+  void try_rough_torque() {
+    const MotionModel before = day_.model;
+    bool rough = false;
+    for (int joint = -1; joint < before.joints(); ++joint) rough = try_rough_torque(joint) || rough;
+    if (!rough) return;
+    for (std::size_t s = 0; s < before.slow.size(); ++s)
+      if (day_.model.slow[s].day_std > before.slow[s].day_std) day_.model.slow[s].day_std *= kPeaks;
+    note("torque_rough",
+         "the model misses more torque in this log than in the learned ones from its first rows on; "
+         "small faults are seen later or not at all");
+  }
+
+  bool try_rough_torque(int joint) {
+    std::optional<MotionModel> best;
+    Explained best_explained;
+    double best_gain = 0.0;
+    for (const double memory_s : kMemories_s)
+      for (const double share : kShares) {
+        std::optional<MotionModel> model = rougher(joint, share, memory_s);
+        if (!model) continue;
+        const Explained with = explained(rows_, *model, day_.noise);
+        if (const double gain = gain_of(with); gain > best_gain)
+          best_gain = gain, best = std::move(model), best_explained = with;
+      }
+    if (!best) return false;
+    day_.model = std::move(*best);
+    best_ = best_explained;
+    return true;
+  }
+
+  void note(const char* code, std::string message) {
+    day_.notes.add(make_issue(code, Severity::note, std::move(message)));
+  }
+
+  Log rows_;
+  LogDay day_;
+  std::vector<int> moving_;
+  Explained best_;
+};
+
+}  // namespace
+
+LogNoise survey_noise(LogSource& log, const MotionModel& model) { return log_noise(model, first_rows(log)); }
+
+LogDay survey_log(LogSource& log, const MotionModel& model) {
+  const Log rows = first_rows(log);
+  return Survey(rows, model).run();
+}
+
+}  // namespace faultline

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "lib/residual/relation/signal_relation.hpp"
+
+namespace faultline {
+
+/// The latest rows of a relation's inputs, as the terms that its weights multiply.
+class LagLine {
+ public:
+  explicit LagLine(const SignalRelation& relation);
+
+  /// Takes row `row`; false while what came before it is too short, or something is missing.
+  bool take(const Log& log, int row);
+  /// After take() said true: as many as SignalRelation::weights_needed().
+  const std::vector<double>& terms() const { return terms_; }
+  /// Of an input in the row itself.
+  double value(int input) const { return terms_[input * (lags_ + 1)]; }
+
+ private:
+  std::vector<Quantity> inputs_;
+  int joint_, lags_;
+  double period_s_;
+  std::vector<double> before_;  ///< by input, the latest row first
+  std::vector<double> terms_;
+  int rows_ = 0;  ///< in step, the row itself among them
+  double last_s_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace faultline

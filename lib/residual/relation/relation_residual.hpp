@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "lib/residual/relation/lag_line.hpp"
+
+namespace faultline {
+
+/// A row of a relation's residual.
+struct RelationSample {
+  double time = 0.0;  ///< s
+  double predicted = 0.0;
+  double residual = 0.0;  ///< target less predicted, N m or N
+};
+
+/// The residual of a relation along a log, row by row; its state crosses segment borders.
+class RelationResidual {
+ public:
+  /// `relation` outlives this.
+  explicit RelationResidual(const SignalRelation& relation) : relation_(relation), line_(relation) {}
+
+  /// nullopt where the row cannot be judged. Where target and prediction are both beyond what healthy logs
+  /// reached, as of a drive in its limit, the residual is 0.
+  /// `log` has the signals (has_signals()).
+  std::optional<RelationSample> take(const Log& log, int row);
+
+ private:
+  bool inputs_are_known() const;
+
+  const SignalRelation& relation_;
+  LagLine line_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "lib/residual/relation/relation_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace faultline {
+namespace {
+
+constexpr double kStillStrays = 0.5;  // of what is allowed: an episode goes on
+constexpr double kCalm_s = 0.1;       // after which it is over
+constexpr double kLookBack = 1.5;     // windows before the alarm that the onset may lie in
+
+std::vector<double> lengths_of(const SignalRelation& relation) {
+  std::vector<double> lengths;
+  for (const WindowLimit& window : relation.windows) lengths.push_back(window.window_s);
+  return lengths;
+}
+
+}  // namespace
+
+void RelationWatch::Sums::add(const RelationSample& sample) {
+  residual += sample.residual;
+  square += sample.residual * sample.residual;
+  product += sample.residual * sample.predicted;
+  predicted_square += sample.predicted * sample.predicted;
+  ++rows;
+}
+
+RelationWatch::RelationWatch(const SignalRelation& relation)
+    : relation_(relation),
+      residual_(relation),
+      means_(window_rows(lengths_of(relation), relation.period_s)),
+      predicted_(window_rows(lengths_of(relation), relation.period_s)) {}
+
+void RelationWatch::take(const Log& segment) {
+  if (!has_signals(segment, relation_)) return;
+  for (int k = 0; k < segment.rows(); ++k) {
+    if (const auto sample = residual_.take(segment, k)) {
+      judge(*sample);
+      continue;
+    }
+    if (now_) close(false);
+    means_.restart();
+    predicted_.restart();
+    recent_.clear();
+  }
+}
+
+void RelationWatch::finish() {
+  if (now_) close(true);
+}
+
+void RelationWatch::judge(const RelationSample& sample) {
+  ++judged_rows_;
+  means_.add(sample.residual);
+  predicted_.add(std::abs(sample.predicted));
+  recent_.push_back(sample);
+  const auto longest = static_cast<std::size_t>(means_.rows(static_cast<int>(relation_.windows.size()) - 1));
+  if (recent_.size() > 2 * longest) recent_.pop_front();
+  const Strayed strayed = farthest();
+  if (now_)
+    go_on(sample, strayed);
+  else if (strayed.times > 1.0)
+    open(sample, strayed);
+}
+
+double RelationWatch::allowed(int window) const {
+  return relation_.windows[window].limit + relation_.offset_range +
+         relation_.gain_range * predicted_.mean(window);
+}
+
+RelationWatch::Strayed RelationWatch::farthest() const {
+  Strayed strayed;
+  for (int w = 0; w < means_.full(); ++w) {
+    const double times = std::abs(means_.mean(w)) / allowed(w);
+    if (times > strayed.times) strayed = {w, times};
+  }
+  return strayed;
+}
+
+/// Where an offset that lasts until now most likely began: index into recent_.
+std::size_t RelationWatch::onset_in(int window) const {
+  const auto back = static_cast<std::size_t>(kLookBack * means_.rows(window));
+  const std::size_t first = recent_.size() - std::min(recent_.size(), std::max<std::size_t>(back, 1));
+  double sum = 0.0, best = 0.0;
+  std::size_t at = recent_.size() - 1;
+  for (std::size_t i = recent_.size(); i-- > first;) {
+    sum += recent_[i].residual;
+    const double gain = sum * sum / static_cast<double>(recent_.size() - i);
+    if (gain > best) best = gain, at = i;
+  }
+  return at;
+}
+
+void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
+  const std::size_t onset = onset_in(strayed.window);
+  now_ = RelationEpisode{.kind = relation_.kind, .joint = relation_.joint};
+  now_->onset_s = recent_[onset].time;
+  now_->alarm_s = sample.time;
+  window_ = strayed.window;
+  since_onset_ = {};
+  for (std::size_t i = onset; i + 1 < recent_.size(); ++i) since_onset_.add(recent_[i]);
+  go_on(sample, strayed);
+}
+
+void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) {
+  since_onset_.add(sample);
+  if (strayed.times > 1.0) window_ = std::min(window_, strayed.window);
+  if (strayed.times > now_->times_limit) {
+    const double z = means_.mean(strayed.window) / relation_.windows[strayed.window].std;
+    now_->times_limit = strayed.times;
+    now_->nats = 0.5 * z * z;
+  }
+  if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {
+    now_->end_s = sample.time;
+    strayed_ = since_onset_;
+  } else if (sample.time - now_->end_s > kCalm_s) {
+    close(false);
+  }
+}
+
+void RelationWatch::close(bool lasts) {
+  RelationEpisode episode = *now_;
+  now_.reset();
+  means_.restart();
+  predicted_.restart();
+  recent_.clear();
+  episode.lasts = lasts;
+  const double rows = static_cast<double>(strayed_.rows);
+  episode.mean = strayed_.residual / rows;
+  if (strayed_.predicted_square > 0.0 && strayed_.square > 0.0) {
+    episode.share = -strayed_.product / strayed_.predicted_square;
+    episode.share_explains =
+        strayed_.product * strayed_.product / (strayed_.predicted_square * strayed_.square);
+  }
+  episodes_.push_back(episode);
+}
+
+}  // namespace faultline

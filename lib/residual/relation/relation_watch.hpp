@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lib/residual/relation/relation_residual.hpp"
+#include "lib/residual/relation/windowed_means.hpp"
+
+namespace faultline {
+
+/// A stretch of a log in which a signal does not follow what it follows in healthy logs.
+struct RelationEpisode {
+  RelationKind kind = RelationKind::actuator;
+  int joint = 0;                                              ///< from 0
+  double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< begin of what strayed
+  double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< first row with a mean beyond its limit
+  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last row that strayed
+  bool lasts = false;                                         ///< to the last row
+  double mean = 0.0;                                          ///< of the residual from onset to end, N m or N
+  double share = 0.0;           ///< of the predicted torque that is missing, by least squares
+  double share_explains = 0.0;  ///< of the residual's square that this share explains
+  double times_limit = 0.0;     ///< the largest mean over its limit
+  double nats = 0.0;            ///< log likelihood ratio of an offset in that window against none
+};
+
+/// Watches one relation along a log for means over windows beyond their limits.
+class RelationWatch {
+ public:
+  /// `relation` outlives this.
+  explicit RelationWatch(const SignalRelation& relation);
+
+  void take(const Log& segment);
+  /// After the last segment.
+  void finish();
+  const std::vector<RelationEpisode>& episodes() const { return episodes_; }
+  double judged_s() const { return static_cast<double>(judged_rows_) * relation_.period_s; }
+
+ private:
+  /// The window whose mean is farthest beyond what is allowed, and how far.
+  struct Strayed {
+    int window = 0;
+    double times = 0.0;
+  };
+
+  /// Of the rows of an episode.
+  struct Sums {
+    double residual = 0.0, square = 0.0, product = 0.0, predicted_square = 0.0;
+    long long rows = 0;
+
+    void add(const RelationSample& sample);
+  };
+
+  void judge(const RelationSample& sample);
+  Strayed farthest() const;
+  double allowed(int window) const;
+  std::size_t onset_in(int window) const;
+  void open(const RelationSample& sample, const Strayed& strayed);
+  void go_on(const RelationSample& sample, const Strayed& strayed);
+  void close(bool lasts);
+
+  const SignalRelation& relation_;
+  RelationResidual residual_;
+  WindowedMeans means_, predicted_;
+  std::deque<RelationSample> recent_;  ///< in step, of twice the longest window
+  std::vector<RelationEpisode> episodes_;
+  std::optional<RelationEpisode> now_;
+  int window_ = 0;  ///< the shortest that showed the episode
+  Sums since_onset_, strayed_;
+  long long judged_rows_ = 0;
+};
+
+}  // namespace faultline

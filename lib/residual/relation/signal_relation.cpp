@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "lib/residual/relation/signal_relation.hpp"
+
+#include <algorithm>
+
+#include "lib/core/error.hpp"
+#include "lib/log/log_channels.hpp"
+
+namespace faultline {
+namespace {
+
+bool has(const Log& log, Quantity quantity, int joint) {
+  return static_cast<int>(signals_of(log, quantity).size()) > joint;
+}
+
+std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is_it) {
+  if (!signals_of(log, quantity).empty()) return quantity;
+  if (tau_is_it && !log.tau.empty()) return Quantity::tau;
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* to_string(RelationKind kind) {
+  return kind == RelationKind::actuator ? "actuator" : "control_law";
+}
+
+RelationKind relation_kind_from(const std::string& name, const std::string& where) {
+  for (const RelationKind kind : kRelationKinds)
+    if (name == to_string(kind)) return kind;
+  throw Error(ErrorCode::input, where,
+              "has the unknown relation \"" + name + "\"; expected actuator or control_law");
+}
+
+std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded) {
+  return torque_of(log, Quantity::tau_ref, torque_is_commanded);
+}
+
+std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded) {
+  return torque_of(log, Quantity::tau_meas, !torque_is_commanded);
+}
+
+bool has_signals(const Log& log, const SignalRelation& relation) {
+  return has(log, relation.target, relation.joint) &&
+         std::all_of(relation.inputs.begin(), relation.inputs.end(),
+                     [&](Quantity input) { return has(log, input, relation.joint); });
+}
+
+}  // namespace faultline

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/log/channel_names.hpp"
+#include "lib/log/log.hpp"
+
+/// Second residuals: signals of a log that follow each other whatever the robot's mechanics do. What the
+/// drive gave follows what it was asked for; what it was asked for follows what the controller reads.
+namespace faultline {
+
+enum class RelationKind {
+  actuator,     ///< measured torque by commanded torque
+  control_law,  ///< commanded torque by reference and motion
+};
+inline constexpr std::array kRelationKinds{RelationKind::actuator, RelationKind::control_law};
+
+/// "actuator", "control_law".
+const char* to_string(RelationKind kind);
+/// Throws Error(input) when `name` is none of them; `where` names the file.
+RelationKind relation_kind_from(const std::string& name, const std::string& where);
+
+/// How far the mean of a residual over a window strays while nothing is wrong.
+struct WindowLimit {
+  double window_s = 0.0;
+  double std = 0.0;  ///< of the mean in healthy logs, none of which was in the fit that it was measured with
+  double limit = 0.0;  ///< beyond it is an alarm, N m or N
+};
+
+/// A signal of one joint as a linear function of others in the same row and some rows before, learned from
+/// healthy logs.
+struct SignalRelation {
+  RelationKind kind = RelationKind::actuator;
+  int joint = 0;  ///< from 0
+  Quantity target = Quantity::tau_meas;
+  std::vector<Quantity> inputs{};  ///< of the same joint
+  int lags = 0;                    ///< rows before that count, beside the row itself
+  double period_s = 0.0;           ///< from row to row; after a longer step the lags begin anew
+  /// By input: of its value, then of its changes from row to row, the latest first. The last one is a
+  /// constant.
+  std::vector<double> weights{};
+  double low = 0.0, high = 0.0;  ///< of the target in the healthy logs, N m or N
+  /// Of each input of a control law, beyond which nothing was learned of it; empty for none.
+  std::vector<double> input_low{}, input_high{};
+  double r2 = 0.0;                     ///< share of the target's variance that is explained of a log left out
+  std::vector<WindowLimit> windows{};  ///< the shortest first
+  double offset_range = 0.0;           ///< N m or N by which healthy days may differ at all times
+  double gain_range = 0.0;             ///< share of the target by which they may differ
+
+  int weights_needed() const { return static_cast<int>(inputs.size()) * (lags + 1) + 1; }
+};
+
+/// The quantities of the log that hold the commanded and the measured torque; nullopt where it has none.
+/// `torque_is_commanded` says what `tau` is.
+std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded);
+std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded);
+
+/// Whether the log has the channels that the relation needs.
+bool has_signals(const Log& log, const SignalRelation& relation);
+
+}  // namespace faultline

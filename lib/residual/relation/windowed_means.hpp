@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace faultline {
+
+/// Lengths over which residuals are averaged, from a bump to a lasting offset, s.
+inline constexpr double kRelationWindows_s[] = {0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
+
+/// Means of a series of samples over its latest windows.
+class WindowedMeans {
+ public:
+  /// Windows of so many rows, at least 1 each, the shortest first.
+  explicit WindowedMeans(std::vector<int> rows);
+
+  void add(double value);
+  /// The series is interrupted: all windows begin anew.
+  void restart();
+  /// Windows that are full; the shortest first.
+  int full() const;
+  double mean(int window) const { return sum_[window] / rows_[window]; }
+  int rows(int window) const { return rows_[window]; }
+
+ private:
+  std::vector<int> rows_;
+  std::vector<double> ring_;  ///< the latest values of the longest window
+  std::vector<double> sum_;   ///< by window
+  std::size_t next_ = 0;      ///< where the next value goes
+  long long count_ = 0;
+};
+
+/// Rows of each window at that period; at least one.
+std::vector<int> window_rows(std::span<const double> windows_s, double period_s);
+
+}  // namespace faultline

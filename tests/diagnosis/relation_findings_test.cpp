@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/relation_findings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/diagnosis/merge_faults.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+namespace {
+
+Chain<double> chain() { return preset_robot("RR").chain; }
+
+RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end_s) {
+  RelationEpisode out;
+  out.kind = kind;
+  out.joint = joint - 1;
+  out.onset_s = onset_s;
+  out.alarm_s = onset_s + 0.02;
+  out.end_s = end_s;
+  out.mean = 0.6;
+  out.times_limit = 3.0;
+  return out;
+}
+
+FaultFinding by_motion(FaultKind kind, int joint, double onset_s) {
+  FaultFinding finding;
+  finding.label = {kind, joint};
+  finding.onset_s = onset_s;
+  finding.alarm_s = onset_s + 0.1;
+  finding.end_s = onset_s + 1.0;
+  return finding;
+}
+
+TEST(RelationFindings, WhatTheMotionShowsOfTheSameThingIsEvidenceOfOneFinding) {
+  const auto faults =
+      with_relations({by_motion(FaultKind::collision, 2, 3.05), by_motion(FaultKind::locked, 2, 8.0)},
+                     {episode(RelationKind::actuator, 1, 3.0, 3.2)}, chain());
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(faults[1].decided_by, DecidedBy::actuator);
+  ASSERT_FALSE(faults[1].could_also_be.empty());
+  EXPECT_EQ(faults[1].could_also_be[0].label, (FaultLabel{FaultKind::collision, 2}));
+}
+
+TEST(RelationFindings, ALossOfTorqueThatTheDriveSecondsKeepsItsName) {
+  const auto faults = with_relations({by_motion(FaultKind::free_swinging, 1, 3.05)},
+                                     {episode(RelationKind::actuator, 1, 3.0, 9.0)}, chain());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::free_swinging, 1}));
+}
+
+TEST(RelationFindings, AShareOfTheCommandThatIsMissingIsALossOfTorque) {
+  RelationEpisode lost = episode(RelationKind::actuator, 1, 3.0, 9.0);
+  lost.share = 0.4;
+  lost.share_explains = 0.9;
+  EXPECT_EQ(finding_of(lost, chain()).label, (FaultLabel{FaultKind::torque_loss, 1}));
+  lost.share_explains = 0.2;
+  EXPECT_EQ(finding_of(lost, chain()).label, (FaultLabel{FaultKind::unknown, 1}));
+}
+
+TEST(RelationFindings, ALawThatIsLeftForLongAfterAFaultFollowsFromIt) {
+  const auto faults = with_relations({by_motion(FaultKind::locked, 1, 3.0)},
+                                     {episode(RelationKind::control_law, 1, 4.0, 9.0)}, chain());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].label.kind, FaultKind::locked);
+}
+
+TEST(RelationFindings, ALawThatIsLeftWithNothingBeforeItIsAFinding) {
+  const auto faults = with_relations({}, {episode(RelationKind::control_law, 2, 4.0, 9.0)}, chain());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].decided_by, DecidedBy::control_law);
+  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::unknown, 2}));
+}
+
+TEST(RelationFindings, PulsesInQuickSuccessionStaySingle) {
+  auto faults = with_relations(
+      {}, {episode(RelationKind::actuator, 1, 3.0, 3.2), episode(RelationKind::actuator, 1, 3.6, 3.8)},
+      chain());
+  EXPECT_EQ(merge_continued(std::move(faults)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace faultline
