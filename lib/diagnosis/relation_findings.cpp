@@ -16,15 +16,21 @@ namespace {
 
 constexpr double kLostShare = 0.1;           // of the command, which a technician calls a loss of torque
 constexpr double kShareExplains = 0.5;       // of the residual: a share of the command, not an offset
+constexpr double kBetterThanOffset = 0.5;    // times what a constant leaves of it
+constexpr double kAll = 1.2;                 // of the command: what is missing beyond it was turned around
 constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit, and just beyond it
 constexpr double kWellBeyond = 1.5;          // times the limit
 constexpr double kSameTime_s = 0.1;          // the motion may show it so much sooner
 constexpr double kAftermath_s = 0.3;         // and so long after it has ended
+constexpr double kVague_s = 1.0;             // by which the motion may tell an onset too early
 constexpr double kLeftLaw_s = 1.0;           // a law that is left for longer after a fault follows from it
+constexpr double kJolt_s = 0.1;              // another drive may stray for so long meanwhile
 
 bool is_lost_torque(const RelationEpisode& episode) {
-  return episode.kind == RelationKind::actuator && episode.share > kLostShare &&
-         episode.share_explains > kShareExplains;
+  const bool as_a_share = episode.share_explains > kShareExplains &&
+                          1.0 - episode.share_explains < kBetterThanOffset * (1.0 - episode.offset_explains);
+  return episode.kind == RelationKind::actuator && as_a_share && episode.share > kLostShare &&
+         episode.share < kAll;
 }
 
 std::string what_strayed(const RelationEpisode& episode, const std::string& size) {
@@ -70,15 +76,28 @@ double end_of(const RelationEpisode& episode) {
   return episode.lasts ? std::numeric_limits<double>::infinity() : episode.end_s;
 }
 
+/// The onset of what creeps is told late and vaguely, its alarm is not.
 bool begins_within(const FaultFinding& finding, const RelationEpisode& episode) {
-  return finding.onset_s >= episode.onset_s - kSameTime_s &&
-         finding.onset_s <= end_of(episode) + kAftermath_s;
+  const auto within = [&](double time_s) {
+    return time_s >= episode.onset_s - kSameTime_s && time_s <= end_of(episode) + kAftermath_s;
+  };
+  return within(finding.onset_s) || (within(finding.alarm_s) && finding.onset_s > episode.onset_s - kVague_s);
 }
 
 bool follows_from(const RelationEpisode& episode, const std::vector<FaultFinding>& earlier) {
   if (episode.kind != RelationKind::control_law || episode.end_s - episode.onset_s < kLeftLaw_s) return false;
   return std::any_of(earlier.begin(), earlier.end(), [&](const FaultFinding& finding) {
     return finding.onset_s < episode.onset_s + kSameTime_s;
+  });
+}
+
+/// A jolt of another drive while the controller answers to what is going on.
+bool answers(const RelationEpisode& episode, const std::vector<RelationEpisode>& all) {
+  if (episode.kind != RelationKind::actuator || episode.end_s - episode.onset_s > kJolt_s) return false;
+  return std::any_of(all.begin(), all.end(), [&](const RelationEpisode& other) {
+    return other.joint != episode.joint && other.kind == RelationKind::actuator &&
+           other.end_s - other.onset_s > kJolt_s && episode.onset_s > other.onset_s &&
+           episode.onset_s < end_of(other) + kSameTime_s;
   });
 }
 
@@ -129,7 +148,7 @@ std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
     std::vector<FaultFinding> earlier = found;
     for (const FaultFinding& finding : by_motion)
       if (!begins_within(finding, episode) || finding.onset_s < episode.onset_s) earlier.push_back(finding);
-    if (follows_from(episode, earlier)) continue;
+    if (follows_from(episode, earlier) || answers(episode, episodes)) continue;
     FaultFinding finding = finding_of(episode, chain);
     const auto within = std::stable_partition(
         motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });

@@ -14,7 +14,8 @@ namespace faultline {
 FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain);
 
 /// The findings of the motion together with those of second residuals: what the motion showed of the same
-/// thing becomes evidence of one finding, and a control law that is left after a fault is its consequence.
+/// thing becomes evidence of one finding, and what follows from a fault is none: a control law that is
+/// left for long after it, a jolt of another drive meanwhile.
 std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
                                          const std::vector<RelationEpisode>& episodes,
                                          const Chain<double>& chain);

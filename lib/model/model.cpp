@@ -10,6 +10,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/model/validation_json.hpp"
 #include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/twin/twin_json.hpp"
@@ -19,37 +20,6 @@ namespace {
 
 constexpr const char* kSchemaName = "faultline/model/";
 constexpr int kSchemaVersion = 1;
-
-nlohmann::json validation_to_json(const Validation& validation) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const ValidationRow& row : validation.rows)
-    rows.push_back({{"kind", to_string(row.kind)},
-                    {"runs", row.runs},
-                    {"detected", row.detected},
-                    {"right_kind", row.right_kind},
-                    {"right_joint", row.right_joint},
-                    {"right_kind_and_joint", row.right_kind_and_joint},
-                    {"right_or_named", row.right_or_named},
-                    {"median_delay_s", number_or_null(row.median_delay_s)},
-                    {"p90_delay_s", number_or_null(row.p90_delay_s)}});
-  return {{"rows", rows},
-          {"early_alarms", validation.early_alarms},
-          {"healthy_hours", validation.healthy_hours},
-          {"false_alarms", validation.false_alarms}};
-}
-
-Validation validation_from_json(const nlohmann::json& json) {
-  Validation validation;
-  for (const auto& row : json.at("rows"))
-    validation.rows.push_back({fault_kind_from(row.at("kind")), row.at("runs"), row.at("detected"),
-                               row.at("right_kind"), row.at("right_joint"), row.at("right_kind_and_joint"),
-                               row.at("right_or_named"), number_or_nan(row.at("median_delay_s")),
-                               number_or_nan(row.at("p90_delay_s"))});
-  validation.early_alarms = json.at("early_alarms");
-  validation.healthy_hours = json.at("healthy_hours");
-  validation.false_alarms = json.at("false_alarms");
-  return validation;
-}
 
 nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
   nlohmann::json list = nlohmann::json::array();

@@ -32,10 +32,23 @@ struct ValidationRow {
   double p90_delay_s = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// How small a fault of one kind at one joint may be to be found all the same, by simulated runs.
+struct Reach {
+  FaultLabel label;
+  int runs = 0;
+  int found = 0;
+  /// Found nine times of ten from this size on: share, rad, m, N m, N, kg and so on, of a collision its
+  /// impulse. NaN for kinds without a size, and where none is large enough.
+  double size = std::numeric_limits<double>::quiet_NaN();
+  double least_size = std::numeric_limits<double>::quiet_NaN();  ///< the smallest that was simulated
+  double median_delay_s = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// How good a model is, on runs of the identified robot (its parameters drawn from their uncertainty).
 struct Validation {
   std::vector<ValidationRow> rows;
-  int early_alarms = 0;  ///< alarms before the onset, in the runs of `rows`
+  std::vector<Reach> reach;  ///< in the order of the bank; also of the runs that were trained on
+  int early_alarms = 0;      ///< alarms before the onset, in the runs of `rows`
   double healthy_hours = 0.0;
   int false_alarms = 0;  ///< in them
 };

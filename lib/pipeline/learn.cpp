@@ -12,6 +12,7 @@
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/identified_model.hpp"
 #include "lib/pipeline/learn_samples.hpp"
+#include "lib/pipeline/reach.hpp"
 #include "lib/pipeline/training_episodes.hpp"
 #include "lib/pipeline/twin_study.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int kSampleRunsPerLabel = 6;  // of the paper's classifiers, two thirds for training
 constexpr int kHealthySampleRuns = 24;
+constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 
 // Shares of the work that are done after its stages, roughly.
 constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kCalibrated = 0.4, kSimulated = 0.8,
@@ -69,7 +71,7 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
   for (const LabelledLog& entry : labelled) {
     DelayedTorqueSource log = reading.of(*entry.log);
     log.rewind();
-    runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(log, model)});
+    runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(log, model), kNoSize});
   }
   return runs;
 }
@@ -116,6 +118,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.evidence.threshold = calm_threshold(model.evidence.threshold, runs_of(calm, kHealthySeeds, {}));
   std::vector<MonitoredRun> runs =
       runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kCalibrated, kSimulated));
+  const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
   tell(progress, "training networks on episodes", kSimulated);
@@ -127,9 +130,12 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   tell(progress, "training networks on samples", kSimulated);
   model.samples = learn_sample_mode(twin, model, sample_labels(model.bank, options.kinds),
                                     seed + kSampleSeeds, options.threads);
-  model.validation = validate(
-      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0)),
-      runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  std::vector<MonitoredRun> checks =
+      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0));
+  model.validation = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());
+  std::move(checks.begin(), checks.end(), std::back_inserter(runs));
+  model.validation.reach = reach_of(runs);
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ void count(const MonitoredRun& run, double alarm_s, const FaultFinding& finding,
   delays.push_back(alarm_s - run.onset_s);
 }
 
+double size_of(const TwinRun& run) {
+  const FaultDescription& fault = describe(run.label.kind);
+  if (fault.size_count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return fault.passes ? run.size * (run.end_s - run.onset_s) : run.size;
+}
+
 }  // namespace
 
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
@@ -55,7 +61,7 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated");
-    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitor(source, model)};
+    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitor(source, model), size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct MonitoredRun {
   double length_s = 0.0;  ///< time from its first to its last row
   std::string origin;     ///< where it comes from, as a case tells it
   MonitoredLog log;
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
 };
 
 /// One run of the twin for each label, monitored with the model; run i has the seed stream `first_seed + i`.

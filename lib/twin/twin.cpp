@@ -61,6 +61,7 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
     run.onset_s = random.uniform(onset.low, onset.high) * spec.duration_s;
     spec.faults = draw_faults(twin, label, run.onset_s, random);
     run.end_s = spec.faults.front().end_s;
+    run.size = spec.faults.front().size;
   }
   run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;
   if (twin.has_velocity)

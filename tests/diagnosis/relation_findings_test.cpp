@@ -67,6 +67,23 @@ TEST(RelationFindings, ALawThatIsLeftForLongAfterAFaultFollowsFromIt) {
   EXPECT_EQ(faults[0].label.kind, FaultKind::locked);
 }
 
+TEST(RelationFindings, AJoltOfAnotherDriveMeanwhileFollowsFromIt) {
+  const auto faults = with_relations(
+      {}, {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.45, 4.5)},
+      chain());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].label.joint, 1);
+}
+
+TEST(RelationFindings, TwoDrivesThatStrayAtTheSameTimeAreTwoFindings) {
+  EXPECT_EQ(
+      with_relations(
+          {}, {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.1, 4.6)},
+          chain())
+          .size(),
+      2u);
+}
+
 TEST(RelationFindings, ALawThatIsLeftWithNothingBeforeItIsAFinding) {
   const auto faults = with_relations({}, {episode(RelationKind::control_law, 2, 4.0, 9.0)}, chain());
   ASSERT_EQ(faults.size(), 1u);

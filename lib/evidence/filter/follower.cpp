@@ -103,6 +103,7 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       usual_dt_(before.usual_dt_),
       clock_(before.clock_),
       last_torque_missing_(before.last_torque_missing_),
+      speed_unknown_(before.speed_unknown_),
       last_q_(before.last_q_),
       last_dq_(before.last_dq_),
       last_torque_(before.last_torque_),
@@ -203,6 +204,7 @@ void Follower::start(FollowedSample& out) {
     state_.p(n + j, n + j) = dq_std * dq_std;
     out.log_likelihood[j] = out.chi_square[j] = out.whitened[j] = out.whitened[n + j] = 0.0;
     out.repeats[j] = out.pressed[j] = false;
+    speed_unknown_[j] = !has_dq;
     out.in_range = true;
   }
   out.dt = 0.0;
@@ -217,6 +219,19 @@ void Follower::keep_some_mass() {
       double& mass = state_.mean[2 * model_.joints() + static_cast<int>(s)];
       mass = std::max(mass, -kMostTakenOff * model_.priors.payload);
     }
+}
+
+/// A log may begin in the middle of a move. Friction bends most at rest, so the step must be linearised where
+/// the joint is; the doubt of the speed stays what it was.
+void Follower::guess_unknown_speed(const FollowedSample& out) {
+  const int n = model_.joints();
+  for (int j = 0; j < n; ++j) {
+    if (!speed_unknown_[j] || !std::isfinite(out.q[j]) || !std::isfinite(last_q_[j]) || !(out.dt > 0.0))
+      continue;
+    const double fastest = kFarBeyond * model_.velocity_scale[j];
+    state_.mean[n + j] = std::clamp((out.q[j] - state_.mean[j]) / out.dt, -fastest, fastest);
+    speed_unknown_[j] = false;
+  }
 }
 
 void Follower::follow(const Log& segment, int row, FollowedSample& out) {
@@ -235,6 +250,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
       out.pressed[j] = faults_.held[j] || is_pressed(out, j);
       out.in_range = out.in_range && !(out.q[j] < low_[j]) && !(out.q[j] > high_[j]);
     }
+    guess_unknown_speed(out);
     const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
     set_measurement_noise(speed_before, out);

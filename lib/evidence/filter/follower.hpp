@@ -93,6 +93,7 @@ class Follower {
   void start(FollowedSample& out);
   void restart_slow_states(double gap_s);
   double step_to_stamp(double stamp);
+  void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();
   void set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const;
 
@@ -106,6 +107,8 @@ class Follower {
   double usual_dt_ = 0.0;
   double clock_ = 0.0;  ///< s: when the last row was taken, as far as its stamp can be believed
   JointFlags last_torque_missing_{};
+  JointFlags
+      speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities
   JointArray last_q_{}, last_dq_{}, last_torque_{};
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };

@@ -9,7 +9,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kLostRow = 1.7;  // periods from one row to the next: between them one is missing
+constexpr double kGap =
+    5.5;  // periods from one row to the next: a controller that paused for less goes on as before
 
 }  // namespace
 
@@ -24,7 +25,7 @@ LagLine::LagLine(const SignalRelation& relation)
 bool LagLine::take(const Log& log, int row) {
   const double dt = log.time[row] - last_s_;
   last_s_ = log.time[row];
-  if (!(dt > 0.0 && dt < kLostRow * period_s_)) rows_ = 0;
+  if (!(dt > 0.0 && dt < kGap * period_s_)) rows_ = 0;
   const std::size_t kept = lags_ + 1;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     double* line = &before_[i * kept];

@@ -17,8 +17,6 @@ class LagLine {
   bool take(const Log& log, int row);
   /// After take() said true: as many as SignalRelation::weights_needed().
   const std::vector<double>& terms() const { return terms_; }
-  /// Of an input in the row itself.
-  double value(int input) const { return terms_[input * (lags_ + 1)]; }
 
  private:
   std::vector<Quantity> inputs_;

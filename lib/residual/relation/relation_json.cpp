@@ -36,8 +36,8 @@ bool fits(const SignalRelation& relation, int joints) {
   const bool shape = relation.joint >= 0 && relation.joint < joints && !relation.inputs.empty() &&
                      relation.lags >= 0 && relation.lags <= kMostLags &&
                      static_cast<int>(relation.weights.size()) == relation.weights_needed() &&
-                     relation.input_low.size() == relation.input_high.size() &&
-                     (relation.input_low.empty() || relation.input_low.size() == relation.inputs.size());
+                     relation.term_low.size() + 1 == relation.weights.size() &&
+                     relation.term_high.size() == relation.term_low.size();
   const bool windows =
       !relation.windows.empty() && relation.windows.size() <= kMostWindows &&
       std::all_of(relation.windows.begin(), relation.windows.end(), [](const WindowLimit& w) {
@@ -47,7 +47,7 @@ bool fits(const SignalRelation& relation, int joints) {
                                      [](const auto& a, const auto& b) { return a.window_s < b.window_s; });
   return shape && windows && rising && relation.period_s > 0.0 && relation.low <= relation.high &&
          relation.offset_range >= 0.0 && relation.gain_range >= 0.0 && relation.gain_range < 1.0 &&
-         all_finite(relation.weights) && all_finite(relation.input_low) && all_finite(relation.input_high);
+         all_finite(relation.weights) && all_finite(relation.term_low) && all_finite(relation.term_high);
 }
 
 nlohmann::json to_json(const SignalRelation& relation) {
@@ -64,8 +64,8 @@ nlohmann::json to_json(const SignalRelation& relation) {
           {"weights", relation.weights},
           {"low", relation.low},
           {"high", relation.high},
-          {"input_low", relation.input_low},
-          {"input_high", relation.input_high},
+          {"term_low", relation.term_low},
+          {"term_high", relation.term_high},
           {"r2", relation.r2},
           {"windows", windows},
           {"offset_range", relation.offset_range},
@@ -83,8 +83,8 @@ SignalRelation relation_from_json(const nlohmann::json& json, const std::string&
   relation.weights = json.at("weights").get<std::vector<double>>();
   relation.low = json.at("low");
   relation.high = json.at("high");
-  relation.input_low = json.at("input_low").get<std::vector<double>>();
-  relation.input_high = json.at("input_high").get<std::vector<double>>();
+  relation.term_low = json.at("term_low").get<std::vector<double>>();
+  relation.term_high = json.at("term_high").get<std::vector<double>>();
   relation.r2 = json.at("r2");
   for (const auto& window : json.at("windows"))
     relation.windows.push_back({window.at("window_s"), window.at("std"), window.at("limit")});

@@ -6,24 +6,37 @@
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
+namespace {
 
-bool RelationResidual::inputs_are_known() const {
-  for (std::size_t i = 0; i < relation_.input_low.size(); ++i) {
-    const double value = line_.value(static_cast<int>(i));
-    if (value < relation_.input_low[i] || value > relation_.input_high[i]) return false;
+constexpr double kSettle_s = 0.15;  // after a command that no healthy log held, such as a jump to the limit
+
+}  // namespace
+
+bool RelationResidual::terms_are_known() const {
+  for (std::size_t i = 0; i < relation_.term_low.size(); ++i) {
+    const double term = line_.terms()[i];
+    if (term < relation_.term_low[i] || term > relation_.term_high[i]) return false;
   }
   return true;
 }
 
 std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
   const double target = signals_of(log, relation_.target)[relation_.joint][row];
-  if (!line_.take(log, row) || !std::isfinite(target) || !inputs_are_known()) return std::nullopt;
+  if (!line_.take(log, row)) return std::nullopt;
+  if (!terms_are_known()) unknown_s_ = log.time[row];
+  if (!std::isfinite(target) || log.time[row] - unknown_s_ < kSettle_s) return std::nullopt;
   double predicted = 0.0;
-  for (std::size_t i = 0; i < relation_.weights.size(); ++i)
+  double by_command = 0.0;
+  const std::size_t of_command = relation_.lags + 1;
+  for (std::size_t i = 0; i < relation_.weights.size(); ++i) {
     predicted += relation_.weights[i] * line_.terms()[i];
+    if (i < of_command) by_command = predicted;
+  }
+  const bool drive = relation_.kind == RelationKind::actuator;
+  const double by_speed = drive ? predicted - by_command - relation_.weights.back() : 0.0;
   const bool above = target >= relation_.high && predicted >= relation_.high;
   const bool below = target <= relation_.low && predicted <= relation_.low;
-  return RelationSample{log.time[row], predicted, above || below ? 0.0 : target - predicted};
+  return RelationSample{log.time[row], predicted, by_speed, above || below ? 0.0 : target - predicted};
 }
 
 }  // namespace faultline

@@ -10,7 +10,10 @@ namespace {
 
 constexpr double kStillStrays = 0.5;  // of what is allowed: an episode goes on
 constexpr double kCalm_s = 0.1;       // after which it is over
-constexpr double kLookBack = 1.5;     // windows before the alarm that the onset may lie in
+constexpr double kFarDay = 1.65;      // times the normal range of days: one in a thousand is farther
+constexpr double kOfItsLength =
+    0.5;                           // of the limit over its length: less is a signal that came sooner or later
+constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
 
 std::vector<double> lengths_of(const SignalRelation& relation) {
   std::vector<double> lengths;
@@ -32,19 +35,13 @@ RelationWatch::RelationWatch(const SignalRelation& relation)
     : relation_(relation),
       residual_(relation),
       means_(window_rows(lengths_of(relation), relation.period_s)),
-      predicted_(window_rows(lengths_of(relation), relation.period_s)) {}
+      predicted_(window_rows(lengths_of(relation), relation.period_s)),
+      by_speed_(window_rows(lengths_of(relation), relation.period_s)) {}
 
 void RelationWatch::take(const Log& segment) {
   if (!has_signals(segment, relation_)) return;
   for (int k = 0; k < segment.rows(); ++k) {
-    if (const auto sample = residual_.take(segment, k)) {
-      judge(*sample);
-      continue;
-    }
-    if (now_) close(false);
-    means_.restart();
-    predicted_.restart();
-    recent_.clear();
+    if (const auto sample = residual_.take(segment, k)) judge(*sample);
   }
 }
 
@@ -54,8 +51,9 @@ void RelationWatch::finish() {
 
 void RelationWatch::judge(const RelationSample& sample) {
   ++judged_rows_;
-  means_.add(sample.residual);
-  predicted_.add(std::abs(sample.predicted));
+  means_.add(sample.residual, sample.time);
+  predicted_.add(std::abs(sample.predicted), sample.time);
+  by_speed_.add(std::abs(sample.by_speed), sample.time);
   recent_.push_back(sample);
   const auto longest = static_cast<std::size_t>(means_.rows(static_cast<int>(relation_.windows.size()) - 1));
   if (recent_.size() > 2 * longest) recent_.pop_front();
@@ -67,8 +65,17 @@ void RelationWatch::judge(const RelationSample& sample) {
 }
 
 double RelationWatch::allowed(int window) const {
-  return relation_.windows[window].limit + relation_.offset_range +
-         relation_.gain_range * predicted_.mean(window);
+  const double by_days =
+      std::hypot(kFarDay * relation_.offset_range, kFarDay * relation_.gain_range * predicted_.mean(window));
+  return std::hypot(relation_.windows[window].limit, by_days, by_speed_.mean(window));
+}
+
+/// What is allowed of a mean over as many rows as the sums have.
+double RelationWatch::allowed_over(const Sums& sums) const {
+  int window = 0;
+  while (window + 1 < static_cast<int>(relation_.windows.size()) && means_.rows(window + 1) <= sums.rows)
+    ++window;
+  return relation_.windows[window].limit;
 }
 
 RelationWatch::Strayed RelationWatch::farthest() const {
@@ -100,6 +107,7 @@ void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
   now_->onset_s = recent_[onset].time;
   now_->alarm_s = sample.time;
   window_ = strayed.window;
+  peak_ = 0.0;
   since_onset_ = {};
   for (std::size_t i = onset; i + 1 < recent_.size(); ++i) since_onset_.add(recent_[i]);
   go_on(sample, strayed);
@@ -107,7 +115,11 @@ void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
 
 void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) {
   since_onset_.add(sample);
-  if (strayed.times > 1.0) window_ = std::min(window_, strayed.window);
+  if (strayed.times > 1.0 && strayed.window < window_) {
+    window_ = strayed.window;
+    peak_ = 0.0;
+  }
+  peak_ = std::max(peak_, std::abs(means_.mean(window_)));
   if (strayed.times > now_->times_limit) {
     const double z = means_.mean(strayed.window) / relation_.windows[strayed.window].std;
     now_->times_limit = strayed.times;
@@ -121,21 +133,32 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
   }
 }
 
+/// The mean over a window still strays for a while after what strayed is over: for the longer, the larger it
+/// was.
+double RelationWatch::end_of(double last_s) const {
+  const double still = kStillStrays * relation_.windows[window_].limit;
+  const double late_s = relation_.windows[window_].window_s * (1.0 - std::min(still / peak_, 1.0));
+  return std::max(last_s - late_s, now_->onset_s + relation_.period_s);
+}
+
 void RelationWatch::close(bool lasts) {
+  if (!lasts) now_->end_s = end_of(now_->end_s);
   RelationEpisode episode = *now_;
   now_.reset();
   means_.restart();
   predicted_.restart();
+  by_speed_.restart();
   recent_.clear();
   episode.lasts = lasts;
-  const double rows = static_cast<double>(strayed_.rows);
+  const double rows = std::max((episode.end_s - episode.onset_s) / relation_.period_s + 1.0, 1.0);
   episode.mean = strayed_.residual / rows;
+  if (strayed_.square > 0.0) episode.offset_explains = episode.mean * episode.mean * rows / strayed_.square;
   if (strayed_.predicted_square > 0.0 && strayed_.square > 0.0) {
     episode.share = -strayed_.product / strayed_.predicted_square;
     episode.share_explains =
         strayed_.product * strayed_.product / (strayed_.predicted_square * strayed_.square);
   }
-  episodes_.push_back(episode);
+  if (std::abs(episode.mean) > kOfItsLength * allowed_over(strayed_)) episodes_.push_back(episode);
 }
 
 }  // namespace faultline

@@ -20,10 +20,11 @@ struct RelationEpisode {
   double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last row that strayed
   bool lasts = false;                                         ///< to the last row
   double mean = 0.0;                                          ///< of the residual from onset to end, N m or N
-  double share = 0.0;           ///< of the predicted torque that is missing, by least squares
-  double share_explains = 0.0;  ///< of the residual's square that this share explains
-  double times_limit = 0.0;     ///< the largest mean over its limit
-  double nats = 0.0;            ///< log likelihood ratio of an offset in that window against none
+  double share = 0.0;            ///< of the predicted torque that is missing, by least squares
+  double share_explains = 0.0;   ///< of the residual's square that this share explains
+  double offset_explains = 0.0;  ///< of the residual's square that a constant explains
+  double times_limit = 0.0;      ///< the largest mean over its limit
+  double nats = 0.0;             ///< log likelihood ratio of an offset in that window against none
 };
 
 /// Watches one relation along a log for means over windows beyond their limits.
@@ -56,19 +57,22 @@ class RelationWatch {
   void judge(const RelationSample& sample);
   Strayed farthest() const;
   double allowed(int window) const;
+  double allowed_over(const Sums& sums) const;
   std::size_t onset_in(int window) const;
   void open(const RelationSample& sample, const Strayed& strayed);
   void go_on(const RelationSample& sample, const Strayed& strayed);
   void close(bool lasts);
+  double end_of(double last_s) const;
 
   const SignalRelation& relation_;
   RelationResidual residual_;
-  WindowedMeans means_, predicted_;
+  WindowedMeans means_, predicted_, by_speed_;
   std::deque<RelationSample> recent_;  ///< in step, of twice the longest window
   std::vector<RelationEpisode> episodes_;
   std::optional<RelationEpisode> now_;
   int window_ = 0;  ///< the shortest that showed the episode
   Sums since_onset_, strayed_;
+  double peak_ = 0.0;  ///< largest mean over that window, either sign
   long long judged_rows_ = 0;
 };
 

@@ -14,8 +14,8 @@ bool has(const Log& log, Quantity quantity, int joint) {
 }
 
 std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is_it) {
-  if (!signals_of(log, quantity).empty()) return quantity;
   if (tau_is_it && !log.tau.empty()) return Quantity::tau;
+  if (!signals_of(log, quantity).empty()) return quantity;
   return std::nullopt;
 }
 

@@ -44,8 +44,8 @@ struct SignalRelation {
   /// constant.
   std::vector<double> weights{};
   double low = 0.0, high = 0.0;  ///< of the target in the healthy logs, N m or N
-  /// Of each input of a control law, beyond which nothing was learned of it; empty for none.
-  std::vector<double> input_low{}, input_high{};
+  /// Of each term that a weight multiplies but the constant: beyond them nothing was learned.
+  std::vector<double> term_low{}, term_high{};
   double r2 = 0.0;                     ///< share of the target's variance that is explained of a log left out
   std::vector<WindowLimit> windows{};  ///< the shortest first
   double offset_range = 0.0;           ///< N m or N by which healthy days may differ at all times

@@ -5,11 +5,18 @@
 #include <cmath>
 
 namespace faultline {
+namespace {
+
+constexpr double kPause_s = 0.2;
+
+}  // namespace
 
 WindowedMeans::WindowedMeans(std::vector<int> rows)
     : rows_(std::move(rows)), ring_(rows_.back()), sum_(rows_.size()) {}
 
-void WindowedMeans::add(double value) {
+void WindowedMeans::add(double value, double time_s) {
+  if (time_s - last_s_ > kPause_s) restart();
+  last_s_ = time_s;
   for (std::size_t w = 0; w < rows_.size(); ++w) {
     const std::size_t size = ring_.size();
     sum_[w] += value;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace faultline {
 
-/// Lengths over which residuals are averaged, from a bump to a lasting offset, s.
-inline constexpr double kRelationWindows_s[] = {0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
+/// Lengths over which residuals are averaged, s: shorter ones show each jolt of a current loop.
+inline constexpr double kRelationWindows_s[] = {0.1, 0.2, 0.4, 0.8, 1.6};
 
 /// Means of a series of samples over its latest windows.
 class WindowedMeans {
@@ -15,8 +16,8 @@ class WindowedMeans {
   /// Windows of so many rows, at least 1 each, the shortest first.
   explicit WindowedMeans(std::vector<int> rows);
 
-  void add(double value);
-  /// The series is interrupted: all windows begin anew.
+  /// A pause of more than a fifth of a second interrupts the series: all windows begin anew.
+  void add(double value, double time_s);
   void restart();
   /// Windows that are full; the shortest first.
   int full() const;
@@ -29,6 +30,7 @@ class WindowedMeans {
   std::vector<double> sum_;   ///< by window
   std::size_t next_ = 0;      ///< where the next value goes
   long long count_ = 0;
+  double last_s_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Rows of each window at that period; at least one.

@@ -15,7 +15,8 @@ struct DrivenJoint {
   double lag_s = 0.01;  ///< of the drive, first order
   double noise = 0.02;  ///< N m, of the measured torque
   double reading_noise =
-      1e-3;  ///< rad, of the position that the controller reads; ten times that of the speed
+      1e-3;               ///< rad, of the position that the controller reads; ten times that of the speed
+  double by_speed = 0.0;  ///< N m s/rad that the drive gives less, as the voltage that it induces does
   double kp = 40.0, kd = 3.0;
   std::uint64_t seed = 1;
   /// N m added at a time: behind the controller, in the drive; and to what it commands.
@@ -43,7 +44,8 @@ struct DrivenJoint {
       out.q_ref[0].push_back(q_ref), out.dq_ref[0].push_back(dq_ref);
       out.tau[0].push_back(command);
       out.tau_meas[0].push_back(drive + noise * random.normal());
-      const double wanted = command * (t >= drive_gain_from_s ? drive_gain : 1.0) + in_drive(t);
+      const double wanted =
+          command * (t >= drive_gain_from_s ? drive_gain : 1.0) + in_drive(t) - by_speed * dq;
       drive = wanted + kept * (drive - wanted);
       dq += period_s * (drive - 0.8 * dq) / 0.5;
       q += period_s * dq;
