@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lib/fault/fault_catalogue.hpp"
@@ -61,6 +62,33 @@ std::vector<std::string> weak_spots(const Validation& validation) {
       spots.push_back(fmt::format("Of simulated faults \"{}\" the model finds only {} of {}.",
                                   describe(row.kind).heading, row.detected, row.runs));
   return spots;
+}
+
+std::string reach_text(const Reach& reach, const Chain<double>& chain) {
+  const FaultDescription& fault = describe(reach.label.kind);
+  if (fault.size_count == 0) return "";
+  if (!std::isfinite(reach.size)) return "not surely";
+  const bool turns = chain.geometry[reach.label.joint - 1].kind == AxisKind::revolute;
+  const SizeMeasure measure = fault.sizes().back().feature;
+  if (measure == SizeMeasure::torque_share) return fmt::format("{:.0f} %", 100.0 * reach.size);
+  return fmt::format("{:.2g} {}", reach.size, unit_of(measure, turns));
+}
+
+std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain<double>& chain) {
+  std::vector<std::string> sentences;
+  for (int k = 0; k < kFaultKinds; ++k) {
+    std::string joints;
+    for (const Reach& each : reach) {
+      if (each.label.kind != static_cast<FaultKind>(k) || describe(each.label.kind).size_count == 0) continue;
+      joints +=
+          fmt::format("{}joint {} {}", joints.empty() ? "" : ", ", each.label.joint, reach_text(each, chain));
+    }
+    if (!joints.empty())
+      sentences.push_back(
+          fmt::format("Smaller than this, \"{}\" may be missed (9 of 10 simulated are found): {}.",
+                      describe(static_cast<FaultKind>(k)).heading, joints));
+  }
+  return sentences;
 }
 
 }  // namespace faultline

@@ -21,4 +21,11 @@ double power_of(const Validation& validation);
 /// The kinds of which it found too few, a sentence each.
 std::vector<std::string> weak_spots(const Validation& validation);
 
+/// How small a fault is surely found, a sentence for each kind that has a size.
+std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain<double>& chain);
+
+/// The size from which on a fault is surely found, such as "22 %" or "0.004 rad"; "not surely" where none is
+/// large enough, "" for kinds without a size.
+std::string reach_text(const Reach& reach, const Chain<double>& chain);
+
 }  // namespace faultline

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLostShare = 0.1;           // of the command, which a technician calls a loss of torque
 constexpr double kShareExplains = 0.5;       // of the residual: a share of the command, not an offset
+constexpr double kShareMayExplain = 0.3;     // the same where the motion says so too
 constexpr double kBetterThanOffset = 0.5;    // times what a constant leaves of it
 constexpr double kAll = 1.2;                 // of the command: what is missing beyond it was turned around
 constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit, and just beyond it
@@ -101,10 +102,16 @@ bool answers(const RelationEpisode& episode, const std::vector<RelationEpisode>&
   });
 }
 
+/// Whether the drive gave less than was commanded, so that a loss of torque may be true.
+bool gave_less(const RelationEpisode& episode) {
+  return episode.kind == RelationKind::actuator && episode.share > kLostShare &&
+         episode.share_explains > kShareMayExplain;
+}
+
 /// The motion's word on the same thing becomes evidence; where both say lost torque, its name stays.
-void take_over(FaultFinding& finding, const FaultFinding& motion) {
-  if (loses_torque(motion.label.kind) && motion.label.joint == finding.label.joint &&
-      finding.decided_by == DecidedBy::actuator && motion.decided_by != DecidedBy::criterion) {
+void take_over(FaultFinding& finding, const FaultFinding& motion, const RelationEpisode& episode) {
+  if (loses_torque(motion.label.kind) && motion.label.joint == finding.label.joint && gave_less(episode) &&
+      motion.decided_by != DecidedBy::criterion) {
     finding.label = motion.label;
     finding.next_check = motion.next_check;
   }
@@ -152,7 +159,7 @@ std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
     FaultFinding finding = finding_of(episode, chain);
     const auto within = std::stable_partition(
         motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });
-    for (auto m = within; m != motion.end(); ++m) take_over(finding, *m);
+    for (auto m = within; m != motion.end(); ++m) take_over(finding, *m, episode);
     motion.erase(within, motion.end());
     found.push_back(std::move(finding));
   }

@@ -15,6 +15,7 @@ constexpr double kColourShare = 0.01;     // of the largest torque, where matchi
 constexpr double kFirstMemory_s = 0.05;   // likewise
 constexpr double kCarriedInPriors = 2.0;  // the payload's prior is half of what is carried
 constexpr double kDayPace = 0.05;         // of a day's spread: what wanders of it in a second (root of time)
+constexpr double kNearFloor = 0.25;       // of the least level: what the logs show of it keeps its time
 constexpr double kModelErrorMemory_s = 0.03;  // of ripple, springs and friction that is met again and again
 
 bool rubs(const Friction<double>& friction) { return friction.viscous != 0.0 || friction.coulomb != 0.0; }
@@ -87,8 +88,8 @@ void allow_model_error(MotionModel& model, double share) {
   for (SlowState& slow : model.slow) {
     const double least = share * model.torque_scale[slow.joint];
     if (slow.kind != SlowKind::coloured_torque || least <= slow.day_std) continue;
+    if (slow.day_std < kNearFloor * least) slow.memory_s = kModelErrorMemory_s;
     slow.day_std = least;
-    slow.memory_s = kModelErrorMemory_s;
   }
 }
 

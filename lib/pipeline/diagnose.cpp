@@ -50,6 +50,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   for (std::string& spot : relation_spots(model.relations, run.relations_judged_s))
     diagnosis.cannot_see.push_back(std::move(spot));
   for (std::string& spot : weak_spots(model.validation)) diagnosis.cannot_see.push_back(std::move(spot));
+  for (std::string& sentence : reach_sentences(model.validation.reach, model.motion.chain))
+    diagnosis.cannot_see.push_back(std::move(sentence));
   settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   return diagnosis;
 }

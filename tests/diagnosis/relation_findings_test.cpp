@@ -45,10 +45,16 @@ TEST(RelationFindings, WhatTheMotionShowsOfTheSameThingIsEvidenceOfOneFinding) {
 }
 
 TEST(RelationFindings, ALossOfTorqueThatTheDriveSecondsKeepsItsName) {
-  const auto faults = with_relations({by_motion(FaultKind::free_swinging, 1, 3.05)},
-                                     {episode(RelationKind::actuator, 1, 3.0, 9.0)}, chain());
+  RelationEpisode less = episode(RelationKind::actuator, 1, 3.0, 9.0);
+  less.share = 0.95;
+  less.share_explains = 0.4;
+  const auto faults = with_relations({by_motion(FaultKind::free_swinging, 1, 3.05)}, {less}, chain());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::free_swinging, 1}));
+  less.share = -0.5;
+  const auto added = with_relations({by_motion(FaultKind::torque_loss, 1, 3.05)}, {less}, chain());
+  ASSERT_EQ(added.size(), 1u);
+  EXPECT_EQ(added[0].label.kind, FaultKind::unknown) << "the drive gave more, not less";
 }
 
 TEST(RelationFindings, AShareOfTheCommandThatIsMissingIsALossOfTorque) {

@@ -32,7 +32,7 @@ constexpr std::array kMemories_s = {0.004, 0.03};
 /// How well a day explains the rows.
 struct Explained {
   std::array<double, kStretches> log_likelihood{};
-  double chi_square = 0.0;  ///< mean of a number
+  std::array<double, kStretches> chi_square{};  ///< mean of a number
 };
 
 Log first_rows(LogSource& log) {
@@ -57,18 +57,19 @@ Explained explained(const Log& rows, const MotionModel& model, const LogNoise& n
   Explained out;
   Follower follower(model, noise);
   FollowedSample sample;
-  double chi_square = 0.0;
-  long long numbers = 0;
+  std::array<long long, kStretches> numbers{};
   for (int k = 0; k < rows.rows(); ++k) {
     follower.follow(rows, k, sample);
     if (k < kSettlingRows) continue;
-    out.log_likelihood[static_cast<std::size_t>(k) * kStretches / rows.rows()] += sample.total_log_likelihood;
+    const std::size_t stretch = static_cast<std::size_t>(k) * kStretches / rows.rows();
+    out.log_likelihood[stretch] += sample.total_log_likelihood;
     for (int j = 0; j < model.joints(); ++j) {
-      chi_square += sample.chi_square[j];
-      numbers += std::isfinite(sample.q[j]) + std::isfinite(sample.dq[j]);
+      out.chi_square[stretch] += sample.chi_square[j];
+      numbers[stretch] += std::isfinite(sample.q[j]) + std::isfinite(sample.dq[j]);
     }
   }
-  out.chi_square = numbers > 0 ? chi_square / static_cast<double>(numbers) : 0.0;
+  for (int s = 0; s < kStretches; ++s)
+    if (numbers[s] > 0) out.chi_square[s] /= static_cast<double>(numbers[s]);
   return out;
 }
 
@@ -118,7 +119,7 @@ class Survey {
     if (rows_.rows() < 2 * kStretches) return std::move(day_);
     moving_ = first_moving(rows_, day_.model);
     best_ = explained(rows_, day_.model, day_.noise);
-    if (best_.chi_square > kWellExplained && !rows_.tau.empty()) {
+    if (is_badly_explained() && !rows_.tau.empty()) {
       try_stamps_and_timing();
       try_rough_torque();
     }
@@ -126,6 +127,12 @@ class Survey {
   }
 
  private:
+  /// The first stretches of motion alone say so: later ones may be faulty.
+  bool is_badly_explained() const {
+    return std::any_of(moving_.begin(), moving_.end(),
+                       [&](int s) { return best_.chi_square[s] > kWellExplained; });
+  }
+
   /// What a day gains, as far as the first stretches speak for it; 0 where they do not.
   double gain_of(const Explained& with) const {
     double first = 0.0;

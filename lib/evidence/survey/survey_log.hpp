@@ -22,7 +22,7 @@ struct LogDay {
 /// How a log measures against the model's logs, from its first rows. Rewinds the log before and after.
 LogNoise survey_noise(LogSource& log, const MotionModel& model);
 
-/// Where the model does not explain the first rows, what is tried is: rows in step whose stamps wobble,
+/// Where the model does not explain the first motion, what is tried is: rows in step whose stamps wobble,
 /// torque logged a row late or early, and a rougher coloured torque. It is taken only where the very first
 /// stretches of motion ask for it, so that a fault within these rows is not excused. Rewinds the log before
 /// and after.
