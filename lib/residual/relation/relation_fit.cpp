@@ -18,7 +18,8 @@ constexpr int kFewestFolds = 4;      // fewer logs are cut into pieces
 constexpr int kFewestRows = 20;      // for each weight
 constexpr double kRidge = 1e-11;     // of each term's power
 constexpr double kBeyondSeen = 0.2;  // of an input's range
-constexpr double kLeastR2 = 0.9;     // of rows left out, for a law: what commands in another way is no law
+// Of rows left out, for a law: what an integrator adds differs from day to day with friction and load.
+constexpr double kLeastR2 = 0.999;
 
 constexpr double kSecondsPerHour = 3600.0;
 constexpr int kFewestWindows = 10;      // that healthy logs fill one behind the other
