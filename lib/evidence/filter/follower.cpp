@@ -18,10 +18,7 @@ constexpr double kGapPeriods = 5.5;               // a gap of more than five per
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
 constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
 constexpr double kFarBeyond = 20.0;    // times the usual speed or the largest torque: a filter gone astray
-constexpr double kLostStep = 0.75;     // of a period: a stamp farther off is believed
-constexpr double kLeastStep = 0.1;     // of a period
 constexpr double kMostTakenOff = 1.8;  // times half of what is carried: less would leave hardly any mass
-constexpr double kClockGain = 0.01;    // of what a stamp is off: drift of a clock is slow
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 double velocity_read(const Log& segment, int row, int joint) {
@@ -67,16 +64,17 @@ Step step_to(const FollowedSample& at, const JointArray& torque_before, const Jo
 }
 
 /// Noise of the sensors, and what an error of the time stamp makes of speed and acceleration.
-void Follower::set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const {
+void Follower::set_measurement_noise(const GaussianState& state, const JointArray& speed_before,
+                                     FollowedSample& out) const {
   const int n = model_.joints();
   for (int j = 0; j < n; ++j) {
     out.q_tail[j] = model_.q_tail.empty() ? kNoTail : model_.q_tail[j];
     out.dq_tail[j] = model_.dq_tail.empty() ? kNoTail : model_.dq_tail[j];
     const double fastest = kFarBeyond * model_.velocity_scale[j];
     const double steepest = kFarBeyond * model_.torque_scale[j] / model_.inertia_scale[j];
-    const double speed = std::clamp(state_.mean[n + j], -fastest, fastest);
+    const double speed = std::clamp(state.mean[n + j], -fastest, fastest);
     const double acceleration =
-        std::clamp((state_.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
+        std::clamp((state.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
     out.q_std[j] = std::hypot(noise_.q_scale[j] * model_.q_std[j], model_.clock_std * speed);
     out.dq_std[j] = std::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
   }
@@ -175,20 +173,6 @@ void Follower::restart_slow_states(double gap_s) {
   }
 }
 
-/// Seconds since the row before. Where the model knows that rows are taken in step and only their stamps
-/// wobble, the steps are whole periods and the stamps only keep them from drifting.
-double Follower::step_to_stamp(double stamp) {
-  const double period = model_.steady_period_s, since = stamp - clock_;
-  double step = stamp - last_time_;
-  if (period > 0.0) {
-    const double periods = std::max(std::round(since / period), 1.0), late = since - periods * period;
-    const bool lost = std::abs(late) > kLostStep * period;
-    step = lost ? std::max(since, kLeastStep * period) : periods * period + kClockGain * late;
-  }
-  clock_ += step;
-  return step;
-}
-
 void Follower::start(FollowedSample& out) {
   const int n = model_.joints();
   restart_slow_states(out.time - last_time_);
@@ -237,7 +221,7 @@ void Follower::guess_unknown_speed(const FollowedSample& out) {
 void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   const int n = model_.joints();
   read_row(segment, row, out);
-  const double dt = started_ ? step_to_stamp(out.time) : 0.0;
+  const double dt = started_ ? step_to_stamp(out) : 0.0;
   const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, kLeastGap_s);
   if (!started_ || gap) {
     start(out);
@@ -253,7 +237,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
     guess_unknown_speed(out);
     const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);
-    set_measurement_noise(speed_before, out);
+    set_measurement_noise(state_, speed_before, out);
     out.total_log_likelihood = 0.0;
     for (int j = 0; j < n; ++j) {
       const JointObservation seen = observe_joint(state_, n, out, j);

@@ -92,10 +92,13 @@ class Follower {
   void read_row(const Log& segment, int row, FollowedSample& out) const;
   void start(FollowedSample& out);
   void restart_slow_states(double gap_s);
-  double step_to_stamp(double stamp);
+  double step_to_stamp(const FollowedSample& out);
+  double step_in_periods(double since, double periods) const;
+  double log_likelihood_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();
-  void set_measurement_noise(const JointArray& speed_before, FollowedSample& out) const;
+  void set_measurement_noise(const GaussianState& state, const JointArray& speed_before,
+                             FollowedSample& out) const;
 
   const MotionModel& model_;
   LogNoise noise_;

@@ -61,6 +61,20 @@ TEST(EpisodeDetector, IsSilentOnHealthyRuns) {
     EXPECT_TRUE(detected(healthy_log(10.0, seed)).empty()) << seed;
 }
 
+TEST(EpisodeDetector, AStampBetweenTwoRowsIsReadByTheMotion) {
+  MotionModel model = rrp_motion_model();
+  model.steady_period_s = 0.01;
+  for (const double off_s : {0.0049, 0.0051}) {
+    Log log = healthy_log(10.0, 81);
+    for (int k = 100; k < log.rows(); k += 50) log.time[k] += off_s;
+    MemorySource source(log);
+    EpisodeDetector detector(model, hypotheses_of(3, TorqueMeaning::commanded), {}, {});
+    for (Log segment; source.next(segment);) detector.take(segment);
+    detector.finish();
+    EXPECT_TRUE(detector.episodes().empty()) << off_s;
+  }
+}
+
 TEST(EpisodeDetector, ALogThatBeginsInTheMiddleOfAMoveIsSilent) {
   for (const bool with_speed : {true, false}) {
     Log log = healthy_log(20.0, 80);
