@@ -87,14 +87,14 @@ std::string threshold_text(const EvidenceOptions& evidence, const std::vector<Hy
 std::string relations_text(const Model& model) {
   std::string text;
   for (const SignalRelation& relation : model.relations) {
-    const WindowLimit& middle = relation.windows[relation.windows.size() / 2];
+    const int middle = static_cast<int>(relation.windows.size()) / 2;
     text += fmt::format(
         "Joint {}: the {} explains {:.2f} % of logs left out; seen from {:.3g} {} over {:g} s on.\n",
         relation.joint + 1,
         relation.kind == RelationKind::actuator ? "commanded torque, for the measured one,"
                                                 : "control law, for the commanded torque,",
-        100.0 * relation.r2, middle.limit + relation.offset_range,
-        torque_unit(model.robot.chain.geometry[relation.joint].kind), middle.window_s);
+        100.0 * relation.r2, allowed_mean(relation, middle),
+        torque_unit(model.robot.chain.geometry[relation.joint].kind), relation.windows[middle].window_s);
   }
   return text;
 }

@@ -26,7 +26,9 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
     spots.push_back(
         "The logged torque is a motor current: faults between controller and motor current cannot be seen.");
   if (!has_velocity)
-    spots.push_back("The log has no velocities: small and short faults are seen later or not at all.");
+    spots.push_back(
+        "The log has no velocities: small and short faults are seen later or not at all, and a stuck encoder may be called a "
+        "locked joint.");
   return spots;
 }
 

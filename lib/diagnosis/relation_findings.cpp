@@ -35,6 +35,9 @@ bool is_lost_torque(const RelationEpisode& episode) {
 }
 
 std::string what_strayed(const RelationEpisode& episode, const std::string& size) {
+  if (is_lost_torque(episode))
+    return fmt::format("the measured torque of joint {} is {:.0f} % less than what was commanded",
+                       episode.joint + 1, 100.0 * episode.share);
   if (episode.kind == RelationKind::actuator)
     return fmt::format("the measured torque of joint {} is not what was commanded: {} on average",
                        episode.joint + 1, size);
@@ -59,7 +62,7 @@ std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const std:
   std::vector<EvidenceItem> items;
   items.push_back(
       {"decision", std::nan(""), "", what_strayed(episode, value_text(episode.mean) + " " + unit)});
-  items.push_back({"torque_difference", episode.mean, unit, "mean difference"});
+  items.push_back({"torque_difference", episode.mean, unit, "mean difference from onset to end"});
   items.push_back({"times_limit", episode.times_limit, "", "largest mean over what healthy logs reach"});
   items.push_back(
       {"log_likelihood_ratio", episode.nats, "nats", "log likelihood ratio against no difference"});
@@ -85,10 +88,13 @@ bool begins_within(const FaultFinding& finding, const RelationEpisode& episode) 
   return within(finding.onset_s) || (within(finding.alarm_s) && finding.onset_s > episode.onset_s - kVague_s);
 }
 
-bool follows_from(const RelationEpisode& episode, const std::vector<FaultFinding>& earlier) {
-  if (episode.kind != RelationKind::control_law || episode.end_s - episode.onset_s < kLeftLaw_s) return false;
-  return std::any_of(earlier.begin(), earlier.end(), [&](const FaultFinding& finding) {
-    return finding.onset_s < episode.onset_s + kSameTime_s;
+/// A law that is left while another fault lasts, or for long after one: the controller's answer to it.
+bool follows_from(const RelationEpisode& episode, const std::vector<FaultFinding>& others) {
+  if (episode.kind != RelationKind::control_law) return false;
+  const bool is_long = episode.end_s - episode.onset_s >= kLeftLaw_s;
+  return std::any_of(others.begin(), others.end(), [&](const FaultFinding& other) {
+    return other.onset_s < episode.onset_s + kSameTime_s &&
+           (is_long || !(other.end_s < episode.onset_s - kSameTime_s));
   });
 }
 
@@ -152,10 +158,9 @@ std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
   std::vector<FaultFinding> found;
   const std::vector<FaultFinding> by_motion = motion;
   for (const RelationEpisode& episode : episodes) {
-    std::vector<FaultFinding> earlier = found;
-    for (const FaultFinding& finding : by_motion)
-      if (!begins_within(finding, episode) || finding.onset_s < episode.onset_s) earlier.push_back(finding);
-    if (follows_from(episode, earlier) || answers(episode, episodes)) continue;
+    std::vector<FaultFinding> others = found;
+    others.insert(others.end(), by_motion.begin(), by_motion.end());
+    if (follows_from(episode, others) || answers(episode, episodes)) continue;
     FaultFinding finding = finding_of(episode, chain);
     const auto within = std::stable_partition(
         motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });

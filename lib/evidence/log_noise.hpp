@@ -14,6 +14,10 @@ struct LogNoise {
 
   std::array<bool, kMaxJoints> dq_is_difference{};  ///< of q: no measurement of its own
 
+  bool has_velocity = true;
+  /// A position that repeats may be a joint at rest: the model knows only how often both repeat together.
+  bool repeats_say_nothing = false;
+
   LogNoise() {
     q_scale.fill(1.0);
     dq_scale.fill(1.0);

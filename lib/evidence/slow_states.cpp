@@ -79,6 +79,7 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
 
 LogNoise log_noise(const MotionModel& model, const Log& rows) {
   LogNoise noise = noise_against(model.usual_noise, noise_level(rows), model.noise_range);
+  noise.has_velocity = !rows.dq.empty();
   const std::vector<char> differences = velocities_by_difference(rows);
   for (std::size_t j = 0; j < differences.size(); ++j) noise.dq_is_difference[j] = differences[j] != 0;
   return noise;

@@ -13,7 +13,8 @@ namespace faultline {
 
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   const bool by_samples = options.mode == ClassifyMode::samples;
-  const LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
+  LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
+  day.noise.repeats_say_nothing = model.has_velocity && !day.noise.has_velocity;
   EvidenceMonitor evidence(model, by_samples ? model.motion : day.model, day.noise);
   SampleMonitor samples(model.samples, options);
   const std::vector<SignalRelation> none;

@@ -180,6 +180,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,
+                               .least_share = model.robot.normal.model_error,
                                .torque_offset = model.robot.normal.torque_offset,
                                .torque_gain = model.robot.normal.torque_constant});
   model.sources = sources_of(out.identification, labelled);

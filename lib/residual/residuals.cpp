@@ -43,7 +43,9 @@ Residuals residuals_of(const ResidualGenerator& generator, const Transitions& tr
 }
 
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
-  return residuals_of(generator, collect_transitions(segment, generator.shape, state));
+  TransitionShape shape = generator.shape;
+  shape.derive_velocity = shape.derive_velocity || segment.dq.empty();
+  return residuals_of(generator, collect_transitions(segment, shape, state));
 }
 
 }  // namespace faultline

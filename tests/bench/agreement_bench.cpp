@@ -45,7 +45,7 @@ int largest(const Eigen::MatrixXd& outputs, Eigen::Index i) {
 }
 
 /// Samples of faulty runs from the onset on, or all of fault-free ones.
-void add(Agreement& agreement, const SampleDetector& detector, const MonitoredRun& run) {
+void add(Agreement& agreement, const SampleDetector& detector, const ExperimentRun& run) {
   const SampleOutputs outputs = outputs_of(detector, run.log);
   const OutputMeaning meaning{detector.classifier.classes, detector.classifier.prior};
   const Eigen::MatrixXd mlp = sample_log_odds(meaning, outputs.mlp, kSampleCap);
@@ -78,7 +78,7 @@ void measure(double sigma) {
   const SampleDetector detector = train_best_detector(generator, runs(plan.training, SeedUse::run_training),
                                                       plan.patterns_per_class, kSeed);
   Agreement faulty, fault_free;
-  for (const MonitoredRun& run : runs({.faulty = 100, .fault_free_h = 3.0}, SeedUse::run_tuning))
+  for (const ExperimentRun& run : runs({.faulty = 100, .fault_free_h = 3.0}, SeedUse::run_tuning))
     add(run.faulty() ? faulty : fault_free, detector, run);
   for (const Agreement* a : {&faulty, &fault_free}) {
     fmt::print("noise {}, {}: log odds correlated by {:.2f}, the same class in {:.2f} % of {} samples", sigma,

@@ -171,8 +171,17 @@ TEST(Residuals, AnotherRobotsLogIsRefused) {
   ResidualState state;
   EXPECT_THROW(compute_residuals(quick_generator(), log, state), Error);
   log = bench_log(bench_robot(), {.duration_s = 2.0});
-  log.dq.clear();
+  log.tau.clear();
   EXPECT_THROW(compute_residuals(quick_generator(), log, state), Error);
+}
+
+TEST(Residuals, ALogWithoutVelocitiesHasThemFromItsPositions) {
+  Log log = bench_log(bench_robot(), {.duration_s = 2.0});
+  log.dq.clear();
+  ResidualState state;
+  const Residuals residuals = compute_residuals(quick_generator(), log, state);
+  EXPECT_GT(residuals.count(), 0);
+  EXPECT_TRUE(std::isfinite(residuals.velocity(0, residuals.count() - 1)));
 }
 
 }  // namespace

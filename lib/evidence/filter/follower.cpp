@@ -147,8 +147,8 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
-    out.repeats[j] = started_ && !faults_.held[j] && !faults_.blind[j] && q == last_q_[j] &&
-                     (std::isnan(dq) || dq == last_dq_[j]);
+    out.repeats[j] = started_ && !noise_.repeats_say_nothing && !faults_.held[j] && !faults_.blind[j] &&
+                     q == last_q_[j] && (std::isnan(dq) || dq == last_dq_[j]);
     out.q[j] = faults_.blind[j] ? kNaN : q - faults_.bias[j] - faults_.drift[j] * out.time;
     out.dq[j] = faults_.blind[j] || noise_.dq_is_difference[j] ? kNaN : dq - faults_.velocity_bias[j];
   }

@@ -17,7 +17,7 @@ double share_of(const std::vector<RunOutcome>& outcomes, bool RunOutcome::*what,
 
 }  // namespace
 
-void AlarmScore::add(const MonitoredRun& run, const Alarms& alarms) {
+void AlarmScore::add(const ExperimentRun& run, const Alarms& alarms) {
   if (run.log.rows() == 0) return;
   fault_free_h += (std::min(run.onset_s, run.log.time.back()) - run.log.time.front()) / 3600.0;
   RunOutcome outcome;

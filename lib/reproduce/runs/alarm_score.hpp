@@ -31,7 +31,7 @@ struct AlarmScore {
   int false_alarms = 0;
   double fault_free_h = 0.0;  ///< fault-free runs, and faulty ones up to their onset
 
-  void add(const MonitoredRun& run, const Alarms& alarms);
+  void add(const ExperimentRun& run, const Alarms& alarms);
   void add(const AlarmScore& other);
 
   double detected() const;     ///< share of the faulty runs

@@ -84,12 +84,12 @@ Index class_of(const std::vector<FaultLabel>& classes, const FaultLabel& label) 
 
 }  // namespace
 
-CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const ExperimentRun> runs,
                              double sample_cap, double least, int most_false) {
   CaseBase cases(suspicion_feature_names(static_cast<int>(detector.classifier.classes.size()) - 1));
   std::vector<Suspicion> wrong;
   const auto& classes = detector.classifier.classes;
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     const auto suspicions =
         suspicions_of(detector.classifier, outputs_of(detector, run.log), sample_cap, least);
     for (const Suspicion& s : heights(suspicions, run.onset_s)) wrong.push_back(s);
@@ -127,14 +127,14 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
   return alarms;
 }
 
-CaseBase cases_of_samples(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+CaseBase cases_of_samples(const SampleDetector& detector, std::span<const ExperimentRun> runs,
                           int most_of_class) {
   const auto& classes = detector.classifier.classes;
   std::vector<std::vector<Episode>> of_class(classes.size());
   std::vector<std::string> names;
   for (const char* network : {"mlp_", "rbfn_"})
     for (std::size_t c = 0; c < classes.size(); ++c) names.push_back(network + std::to_string(c + 1));
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     const SampleOutputs outputs = outputs_of(detector, run.log);
     for (Index i = 0; i < outputs.time.size(); ++i)
       if (says_something(outputs, i))

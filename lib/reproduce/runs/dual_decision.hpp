@@ -15,7 +15,7 @@ namespace faultline {
 
 /// Cases of suspicions of known truth in these runs: of each faulty run the first few after its onset, and
 /// false ones in between, at most `most_false` of all runs.
-CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const ExperimentRun> runs,
                              double sample_cap, double least, int most_false);
 
 /// Decision at the level of the episode, for each threshold (nats, ascending): both networks sum up log odds,
@@ -27,7 +27,7 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
                                       std::span<const double> thresholds);
 
 /// Cases of single samples with both networks' outputs: at most `most_of_class` of each class.
-CaseBase cases_of_samples(const SampleDetector& detector, std::span<const MonitoredRun> runs,
+CaseBase cases_of_samples(const SampleDetector& detector, std::span<const ExperimentRun> runs,
                           int most_of_class);
 /// Decision at each sample, the naive reading of figure 2: 1 for the class decided, classes x samples.
 Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<FaultLabel>& classes,

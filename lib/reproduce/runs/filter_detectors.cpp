@@ -12,10 +12,10 @@ namespace {
 const std::vector<double> kThresholds = {7, 10, 14, 20, 28, 40, 56, 80, 110, 160, 220};
 constexpr double kName_s = 0.6;
 
-std::vector<AlarmScore> scores(const MotionModel& model, std::span<const MonitoredRun> runs,
+std::vector<AlarmScore> scores(const MotionModel& model, std::span<const ExperimentRun> runs,
                                const std::vector<double>& thresholds) {
   std::vector<AlarmScore> scores(thresholds.size());
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     const auto alarms = watch_free_joints(model, run.log, {thresholds, kName_s});
     for (std::size_t i = 0; i < alarms.size(); ++i) scores[i].add(run, alarms[i]);
   }
@@ -25,17 +25,18 @@ std::vector<AlarmScore> scores(const MotionModel& model, std::span<const Monitor
 }  // namespace
 
 DetectorResult watch_with_filters(const std::string& detector, const MotionModel& model,
-                                  std::span<const MonitoredRun> tuning, std::span<const MonitoredRun> test) {
+                                  std::span<const ExperimentRun> tuning,
+                                  std::span<const ExperimentRun> test) {
   const double threshold = kThresholds[choose_setting(scores(model, tuning, kThresholds))];
   return {detector, decision_name::kLogOdds, threshold, scores(model, test, {threshold}).front()};
 }
 
-std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const MonitoredRun> test) {
+std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test) {
   const double threshold = learned.model.evidence.threshold;
   std::vector<DetectorResult> results;
   for (const char* name : {detector_name::kBankMlp, detector_name::kBankRbfn, detector_name::kBankCases})
     results.push_back({name, decision_name::kBank, threshold, {}});
-  for (const MonitoredRun& run : test) {
+  for (const ExperimentRun& run : test) {
     const ProductAlarms alarms = product_alarms(learned, run.log);
     results[0].score.add(run, alarms.mlp);
     results[1].score.add(run, alarms.rbfn);
@@ -44,10 +45,10 @@ std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span
   return results;
 }
 
-std::vector<MonitoredRun> some_of(std::span<const MonitoredRun> runs, int faulty, double fault_free_h) {
-  std::vector<MonitoredRun> some;
+std::vector<ExperimentRun> some_of(std::span<const ExperimentRun> runs, int faulty, double fault_free_h) {
+  std::vector<ExperimentRun> some;
   double hours = 0.0;
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     if (run.faulty() ? faulty-- <= 0 : hours > fault_free_h - 1e-3) continue;
     if (!run.faulty()) hours += run.log.time.back() / 3600.0;
     some.push_back(run);

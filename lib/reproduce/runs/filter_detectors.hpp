@@ -12,12 +12,12 @@ namespace faultline {
 /// Filters for the healthy robot and each free joint, the threshold of their summed log likelihood ratio
 /// chosen on `tuning`; the fault is named 0.6 s after the alarm, as `diagnose` does.
 DetectorResult watch_with_filters(const std::string& detector, const MotionModel& model,
-                                  std::span<const MonitoredRun> tuning, std::span<const MonitoredRun> test);
+                                  std::span<const ExperimentRun> tuning, std::span<const ExperimentRun> test);
 
 /// What `diagnose` says with this model, named by either network alone and by both with cases.
-std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const MonitoredRun> test);
+std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test);
 
 /// The first `faulty` faulty runs and fault-free ones of about `fault_free_h` hours.
-std::vector<MonitoredRun> some_of(std::span<const MonitoredRun> runs, int faulty, double fault_free_h);
+std::vector<ExperimentRun> some_of(std::span<const ExperimentRun> runs, int faulty, double fault_free_h);
 
 }  // namespace faultline

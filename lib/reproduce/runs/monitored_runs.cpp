@@ -11,9 +11,9 @@ namespace {
 constexpr std::uint64_t kFaultFreeRuns = 1'000'000;  // their indices begin here
 constexpr std::uint64_t kNoise = 2'000'000;
 
-MonitoredRun faulty_run(const Experiment& experiment, const RunSet& set, int index, std::uint64_t seed) {
+ExperimentRun faulty_run(const Experiment& experiment, const RunSet& set, int index, std::uint64_t seed) {
   Random random = Random::stream(seed, 3);
-  MonitoredRun run;
+  ExperimentRun run;
   run.fault = {FaultKind::free_swinging, 1 + index % experiment.robot.joints()};
   run.onset_s = random.uniform(set.earliest_onset_s, set.latest_onset_s);
   run.log =
@@ -24,14 +24,14 @@ MonitoredRun faulty_run(const Experiment& experiment, const RunSet& set, int ind
 
 }  // namespace
 
-std::vector<MonitoredRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use) {
-  std::vector<MonitoredRun> runs;
+std::vector<ExperimentRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use) {
+  std::vector<ExperimentRun> runs;
   for (int i = 0; i < set.faulty; ++i)
     runs.push_back(faulty_run(experiment, set, i, seed_of(experiment.seed, use, i)));
   double left_s = set.fault_free_h * 3600.0;
   for (std::uint64_t i = kFaultFreeRuns; left_s > kSamplePeriod; ++i) {
     const double duration_s = std::min(left_s, set.hour_s);
-    MonitoredRun run;
+    ExperimentRun run;
     run.log =
         run_of_moves(experiment.robot, experiment.controller, {duration_s}, seed_of(experiment.seed, use, i));
     runs.push_back(std::move(run));
@@ -40,8 +40,8 @@ std::vector<MonitoredRun> monitored_runs(const Experiment& experiment, const Run
   return runs;
 }
 
-std::vector<MonitoredRun> with_noise(std::vector<MonitoredRun> runs, const Experiment& experiment,
-                                     double sigma, SeedUse use) {
+std::vector<ExperimentRun> with_noise(std::vector<ExperimentRun> runs, const Experiment& experiment,
+                                      double sigma, SeedUse use) {
   for (std::size_t i = 0; i < runs.size(); ++i)
     add_noise(runs[i].log, experiment.ranges, sigma, seed_of(experiment.seed, use, kNoise + i));
   return runs;

@@ -9,7 +9,7 @@
 namespace faultline {
 
 /// A run to be watched, with its truth.
-struct MonitoredRun {
+struct ExperimentRun {
   Log log;
   FaultLabel fault;  ///< none, or a free-swinging joint
   double onset_s = std::numeric_limits<double>::infinity();
@@ -27,10 +27,10 @@ struct RunSet {
 };
 
 /// Without noise: the faulty runs, then the fault-free ones.
-std::vector<MonitoredRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use);
+std::vector<ExperimentRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use);
 /// The same runs as measured with noise of `sigma` half ranges; `experiment` and `use` as when they were
 /// made.
-std::vector<MonitoredRun> with_noise(std::vector<MonitoredRun> runs, const Experiment& experiment,
-                                     double sigma, SeedUse use);
+std::vector<ExperimentRun> with_noise(std::vector<ExperimentRun> runs, const Experiment& experiment,
+                                      double sigma, SeedUse use);
 
 }  // namespace faultline

@@ -30,12 +30,12 @@ struct Sweep {
   Agreement agreement;
 };
 
-void add(std::vector<AlarmScore>& scores, const MonitoredRun& run, const std::vector<Alarms>& alarms) {
+void add(std::vector<AlarmScore>& scores, const ExperimentRun& run, const std::vector<Alarms>& alarms) {
   scores.resize(alarms.size());
   for (std::size_t i = 0; i < alarms.size(); ++i) scores[i].add(run, alarms[i]);
 }
 
-void add(Agreement& agreement, const MonitoredRun& run, const SampleOutputs& outputs) {
+void add(Agreement& agreement, const ExperimentRun& run, const SampleOutputs& outputs) {
   for (Eigen::Index i = 0; i < outputs.time.size() && run.faulty(); ++i) {
     if (outputs.time[i] <= run.onset_s) continue;
     if (!outputs.mlp.col(i).allFinite() || !outputs.rbfn.col(i).allFinite()) continue;
@@ -51,13 +51,13 @@ struct Cases {
   CaseBase samples, suspicions;
 };
 
-Sweep sweep(const SampleDetector& detector, const Cases& cases, std::span<const MonitoredRun> runs,
+Sweep sweep(const SampleDetector& detector, const Cases& cases, std::span<const ExperimentRun> runs,
             bool sum_log_odds) {
   const SampleClassifier& classifier = detector.classifier;
   const OutputMeaning meaning{classifier.classes, classifier.prior};
   const std::vector<double> tried = thresholds();
   Sweep out;
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     const SampleOutputs outputs = outputs_of(detector, run.log);
     add(out.agreement, run, outputs);
     const Eigen::MatrixXd networks[] = {outputs.mlp, outputs.rbfn, outputs.average()};

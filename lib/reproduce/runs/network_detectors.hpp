@@ -10,7 +10,7 @@ namespace faultline {
 
 /// The runs of one controller and noise.
 struct ConditionRuns {
-  std::vector<MonitoredRun> training, tuning, test;
+  std::vector<ExperimentRun> training, tuning, test;
 };
 
 /// Networks over the residuals of single samples: MLP, RBFN, their average and the case-based decision, each

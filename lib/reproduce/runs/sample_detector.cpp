@@ -40,10 +40,10 @@ SampleDetector train_paper_detector(const ResidualGenerator& generator, const Ex
   return {generator, train_sample_classifier(runs, generator, options).classifier};
 }
 
-SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const MonitoredRun> runs,
+SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const ExperimentRun> runs,
                                    int patterns_per_class, std::uint64_t seed) {
   std::vector<LabelledResiduals> residuals;
-  for (const MonitoredRun& run : runs)
+  for (const ExperimentRun& run : runs)
     residuals.push_back(residuals_of_log(generator, run.log, run.fault, run.onset_s));
   SampleClassifierOptions options;
   options.patterns_per_class = patterns_per_class;

@@ -22,7 +22,7 @@ struct SampleDetector {
 SampleDetector train_paper_detector(const ResidualGenerator& generator, const Experiment& experiment);
 /// The best recipe: torque-space and ratio features, trained on samples of runs with faults at any time and
 /// with the noise of use.
-SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const MonitoredRun> runs,
+SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const ExperimentRun> runs,
                                    int patterns_per_class, std::uint64_t seed);
 
 /// Both networks' outputs over a log.

@@ -9,8 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kGap =
-    5.5;  // periods from one row to the next: a controller that paused for less goes on as before
+constexpr double kGap = 1.75;  // periods from one row to the next: farther, a row is missing between them
 
 }  // namespace
 

@@ -97,6 +97,8 @@ std::vector<SignalRelation> learn_relations(std::span<LogSource* const> healthy,
       relation = limited_by(std::move(more), relation);
   }
   for (SignalRelation& relation : relations) {
+    for (WindowLimit& window : relation.windows)
+      window.limit = std::max(window.limit, options.least_share * largest_target(relation));
     if (relation.kind != RelationKind::actuator) continue;
     relation.offset_range = options.torque_offset * largest_target(relation);
     relation.gain_range = options.torque_gain;

@@ -12,6 +12,7 @@ namespace faultline {
 struct RelationOptions {
   bool torque_is_commanded = true;  ///< what `tau` is, where commanded and measured torque are not both there
   double period_s = 0.0;            ///< usual one of the logs
+  double least_share = 0.005;       ///< of the largest torque that any mean may stray
   double torque_offset = 0.01;      ///< share of the largest torque by which a healthy drive may be off
   double alarms_per_hour = 0.01;    ///< that each relation may raise by chance
   double torque_gain = 0.02;        ///< share of its torque by which it may be off

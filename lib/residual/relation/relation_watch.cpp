@@ -5,14 +5,17 @@
 #include <cmath>
 #include <ranges>
 
+#include "lib/log/log_channels.hpp"
 namespace faultline {
 namespace {
 
 constexpr double kStillStrays = 0.5;  // of what is allowed: an episode goes on
 constexpr double kCalm_s = 0.1;       // after which it is over
-constexpr double kFarDay = 1.65;      // times the normal range of days: one in a thousand is farther
 constexpr double kOfItsLength =
-    0.5;                           // of the limit over its length: less is a signal that came sooner or later
+    0.5;                         // of the limit over its length: less is a signal that came sooner or later
+constexpr double kJolt_s = 0.3;  // shorter ones that average out are such
+// Of the residual, which a share of the command explains, and what it leaves of what a constant leaves.
+constexpr double kShareExplains = 0.5, kBetterThanOffset = 0.5;
 constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
 
 std::vector<double> lengths_of(const SignalRelation& relation) {
@@ -40,13 +43,29 @@ RelationWatch::RelationWatch(const SignalRelation& relation)
 
 void RelationWatch::take(const Log& segment) {
   if (!has_signals(segment, relation_)) return;
+  look_for_changes(segment);
   for (int k = 0; k < segment.rows(); ++k) {
     if (const auto sample = residual_.take(segment, k)) judge(*sample);
   }
 }
 
+void RelationWatch::look_for_changes(const Log& segment) {
+  const auto changes = [&](Quantity quantity, double& first) {
+    const std::vector<double>& values = signals_of(segment, quantity)[relation_.joint];
+    return std::any_of(values.begin(), values.end(), [&](double value) {
+      if (std::isnan(first)) first = value;
+      return std::isfinite(value) && value != first;
+    });
+  };
+  target_moves_ = target_moves_ || changes(relation_.target, first_target_);
+  input_moves_ = input_moves_ || changes(relation_.inputs.front(), first_input_);
+}
+
 void RelationWatch::finish() {
   if (now_) close(true);
+  if (target_moves_ && input_moves_) return;
+  episodes_.clear();
+  judged_rows_ = 0;
 }
 
 void RelationWatch::judge(const RelationSample& sample) {
@@ -65,9 +84,7 @@ void RelationWatch::judge(const RelationSample& sample) {
 }
 
 double RelationWatch::allowed(int window) const {
-  const double by_days =
-      std::hypot(kFarDay * relation_.offset_range, kFarDay * relation_.gain_range * predicted_.mean(window));
-  return std::hypot(relation_.windows[window].limit, by_days, by_speed_.mean(window));
+  return allowed_mean(relation_, window, predicted_.mean(window), by_speed_.mean(window));
 }
 
 /// What is allowed of a mean over as many rows as the sums have.
@@ -109,6 +126,7 @@ void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
   window_ = strayed.window;
   peak_ = 0.0;
   since_onset_ = {};
+  calm_rows_ = 0;
   for (std::size_t i = onset; i + 1 < recent_.size(); ++i) since_onset_.add(recent_[i]);
   go_on(sample, strayed);
 }
@@ -128,9 +146,23 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
   if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {
     now_->end_s = sample.time;
     strayed_ = since_onset_;
-  } else if (sample.time - now_->end_s > kCalm_s) {
+    calm_rows_ = 0;
+  } else if (says_something() && ++calm_rows_ * relation_.period_s > kCalm_s) {
     close(false);
   }
+}
+
+/// Whether what strayed would show if it went on: not while a window fills after a pause, nor, where a share
+/// of the command is missing, while little is commanded.
+bool RelationWatch::says_something() const {
+  if (means_.full() <= window_) return false;
+  const Sums& s = strayed_;
+  if (!(s.predicted_square > 0.0 && s.square > 0.0 && s.rows > 0)) return true;
+  const double by_share = s.product * s.product / (s.predicted_square * s.square);
+  const double by_offset = s.residual * s.residual / (static_cast<double>(s.rows) * s.square);
+  const bool is_share = by_share > kShareExplains && 1.0 - by_share < kBetterThanOffset * (1.0 - by_offset);
+  const double expected = std::abs(s.product / s.predicted_square) * predicted_.mean(window_);
+  return !is_share || expected > allowed(window_);
 }
 
 /// The mean over a window still strays for a while after what strayed is over: for the longer, the larger it
@@ -142,7 +174,7 @@ double RelationWatch::end_of(double last_s) const {
 }
 
 void RelationWatch::close(bool lasts) {
-  if (!lasts) now_->end_s = end_of(now_->end_s);
+  if (!lasts) now_->end_s = std::max(end_of(now_->end_s), now_->alarm_s);
   RelationEpisode episode = *now_;
   now_.reset();
   means_.restart();
@@ -158,7 +190,8 @@ void RelationWatch::close(bool lasts) {
     episode.share_explains =
         strayed_.product * strayed_.product / (strayed_.predicted_square * strayed_.square);
   }
-  if (std::abs(episode.mean) > kOfItsLength * allowed_over(strayed_)) episodes_.push_back(episode);
+  const bool is_long = episode.end_s - episode.onset_s > kJolt_s;
+  if (is_long || std::abs(episode.mean) > kOfItsLength * allowed_over(strayed_)) episodes_.push_back(episode);
 }
 
 }  // namespace faultline

@@ -54,6 +54,7 @@ class RelationWatch {
     void add(const RelationSample& sample);
   };
 
+  void look_for_changes(const Log& segment);
   void judge(const RelationSample& sample);
   Strayed farthest() const;
   double allowed(int window) const;
@@ -63,6 +64,7 @@ class RelationWatch {
   void go_on(const RelationSample& sample, const Strayed& strayed);
   void close(bool lasts);
   double end_of(double last_s) const;
+  bool says_something() const;
 
   const SignalRelation& relation_;
   RelationResidual residual_;
@@ -72,8 +74,11 @@ class RelationWatch {
   std::optional<RelationEpisode> now_;
   int window_ = 0;  ///< the shortest that showed the episode
   Sums since_onset_, strayed_;
+  int calm_rows_ = 0;  ///< judged, since the last that strayed
   double peak_ = 0.0;  ///< largest mean over that window, either sign
   long long judged_rows_ = 0;
+  bool target_moves_ = false, input_moves_ = false;  ///< a channel that never changes is not connected
+  double first_target_ = std::numeric_limits<double>::quiet_NaN(), first_input_ = first_target_;
 };
 
 }  // namespace faultline

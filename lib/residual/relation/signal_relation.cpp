@@ -2,12 +2,15 @@
 #include "lib/residual/relation/signal_relation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kFarDay = 1.65;  // times the normal range of days: one in a thousand is farther
 
 bool has(const Log& log, Quantity quantity, int joint) {
   return static_cast<int>(signals_of(log, quantity).size()) > joint;
@@ -30,6 +33,11 @@ RelationKind relation_kind_from(const std::string& name, const std::string& wher
     if (name == to_string(kind)) return kind;
   throw Error(ErrorCode::input, where,
               "has the unknown relation \"" + name + "\"; expected actuator or control_law");
+}
+
+double allowed_mean(const SignalRelation& relation, int window, double torque, double by_speed) {
+  const double by_days = std::hypot(kFarDay * relation.offset_range, kFarDay * relation.gain_range * torque);
+  return std::hypot(relation.windows[window].limit, by_days, by_speed);
 }
 
 std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded) {

@@ -54,6 +54,10 @@ struct SignalRelation {
   int weights_needed() const { return static_cast<int>(inputs.size()) * (lags + 1) + 1; }
 };
 
+/// Largest mean over a window that is allowed, N m or N, while the target is `torque` and a drive's speed
+/// says `by_speed` of it: the limit and what days differ by, as independent errors.
+double allowed_mean(const SignalRelation& relation, int window, double torque = 0.0, double by_speed = 0.0);
+
 /// The quantities of the log that hold the commanded and the measured torque; nullopt where it has none.
 /// `torque_is_commanded` says what `tau` is.
 std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded);

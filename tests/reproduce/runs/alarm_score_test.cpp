@@ -8,8 +8,8 @@
 namespace faultline {
 namespace {
 
-MonitoredRun run_of(double length_s, int joint, double onset_s) {
-  MonitoredRun run;
+ExperimentRun run_of(double length_s, int joint, double onset_s) {
+  ExperimentRun run;
   run.log.time = {0.0, length_s};
   if (joint > 0) run.fault = {FaultKind::free_swinging, joint};
   if (joint > 0) run.onset_s = onset_s;

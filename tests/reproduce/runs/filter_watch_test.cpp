@@ -17,7 +17,7 @@ TEST(FilterWatch, finds_and_names_each_free_joint_and_keeps_quiet_before) {
   const RunSet set{.faulty = 3, .fault_free_h = 0.0};
   const auto runs = with_noise(monitored_runs(experiment, set, SeedUse::run_tuning), experiment, kSigma,
                                SeedUse::run_tuning);
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     const auto alarms = watch_free_joints(model, run.log, {{14.0, 1e9}, 0.6});
     ASSERT_FALSE(alarms[0].empty()) << run.fault.joint;
     EXPECT_GE(alarms[0][0].time_s, run.onset_s);

@@ -14,7 +14,7 @@ TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
   const auto runs = monitored_runs(held_experiment(), kSet, SeedUse::run_test);
   double fault_free_s = 0.0;
   int faulty = 0;
-  for (const MonitoredRun& run : runs) {
+  for (const ExperimentRun& run : runs) {
     if (!run.faulty()) {
       fault_free_s += run.log.rows() * kSamplePeriod;
       continue;
