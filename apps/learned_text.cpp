@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/text.hpp"
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/fault/label_text.hpp"
 #include "lib/identify/identification_json.hpp"
@@ -83,18 +84,33 @@ std::string threshold_text(const EvidenceOptions& evidence, const std::vector<Hy
   return text + (most.empty() ? ".\n" : ": what the healthy logs look like by themselves.\n");
 }
 
-/// What of the torques second residuals know, and from where on they speak.
+std::string relation_name(const SignalRelation& relation) {
+  switch (relation.kind) {
+    case RelationKind::actuator:
+      return "commanded torque, for the measured one,";
+    case RelationKind::control_law:
+      return "control law, for the commanded torque,";
+    case RelationKind::tracking:
+      return relation.target == Quantity::q ? "reference, for the position," : "reference, for the velocity,";
+  }
+  return "";
+}
+
+const char* unit_of(const SignalRelation& relation, AxisKind axis) {
+  if (relation.kind != RelationKind::tracking) return torque_unit(axis);
+  return relation.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
+}
+
+/// What of the signals second residuals know, and from where on they speak.
 std::string relations_text(const Model& model) {
   std::string text;
   for (const SignalRelation& relation : model.relations) {
     const int middle = static_cast<int>(relation.windows.size()) / 2;
     text += fmt::format(
         "Joint {}: the {} explains {:.2f} % of logs left out; seen from {:.3g} {} over {:g} s on.\n",
-        relation.joint + 1,
-        relation.kind == RelationKind::actuator ? "commanded torque, for the measured one,"
-                                                : "control law, for the commanded torque,",
-        100.0 * relation.r2, allowed_mean(relation, middle),
-        torque_unit(model.robot.chain.geometry[relation.joint].kind), relation.windows[middle].window_s);
+        relation.joint + 1, relation_name(relation), 100.0 * relation.r2, allowed_mean(relation, middle),
+        unit_of(relation, model.robot.chain.geometry[relation.joint].kind),
+        relation.windows[middle].window_s);
   }
   return text;
 }
@@ -110,32 +126,37 @@ std::string parameter_text(const Identification& identification) {
   return text;
 }
 
+std::string mechanics_text(const Learned& learned) {
+  if (!learned.model.has_mechanics())
+    return "\nThe logs have no torque: only whether each joint follows its reference is learned and judged.\n";
+  return fmt::format("\nIdentified, with 95 % intervals ({}):\n{}", to_string(learned.identification.status),
+                     parameter_text(learned.identification)) +
+         fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
+                     validation_text(learned.model.validation)) +
+         "\nThe smallest fault that would be found, nine times of ten, in all simulated runs:\n" +
+         reach_table(learned.model) + threshold_text(learned.model.evidence, learned.model.bank);
+}
+
 }  // namespace
 
 std::string learned_text(const Learned& learned, const std::string& model_path,
                          const std::string& case_base_path) {
-  std::string text = fmt::format("Learned \"{}\" from {} logs at {:.4g} Hz.\n", learned.model.name,
-                                 learned.model.sources.size(), 1.0 / learned.model.sample_period_s);
-  text += fmt::format("\nIdentified, with 95 % intervals ({}):\n{}", to_string(learned.identification.status),
-                      parameter_text(learned.identification));
-  text += fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
-                      validation_text(learned.model.validation));
-  text += "\nThe smallest fault that would be found, nine times of ten, in all simulated runs:\n" +
-          reach_table(learned.model);
-  text += threshold_text(learned.model.evidence, learned.model.bank);
-  text += relations_text(learned.model);
-  text += fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
-                      learned.cases.cases().size());
-  return text;
+  return fmt::format("Learned \"{}\" from {} at {:.4g} Hz.\n", learned.model.name,
+                     counted(std::ssize(learned.model.sources), "log"), 1.0 / learned.model.sample_period_s) +
+         mechanics_text(learned) + relations_text(learned.model) +
+         fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
+                     learned.cases.cases().size());
 }
 
 std::string learned_json(const Learned& learned) {
   const nlohmann::ordered_json model = nlohmann::ordered_json::parse(model_to_json(learned.model));
   nlohmann::ordered_json json{{"schema", "faultline/learning/1"}, {"name", learned.model.name}};
-  json["identification"] = to_json(learned.identification);
-  json["identification"].erase("state");
-  json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
-                 {"persistence_mse", learned.residual.persistence_mse}};
+  if (learned.model.has_mechanics()) {
+    json["identification"] = to_json(learned.identification);
+    json["identification"].erase("state");
+    json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
+                   {"persistence_mse", learned.residual.persistence_mse}};
+  }
   for (const char* key : {"sample_period_s", "sources", "validation", "evidence", "relations"})
     if (model.contains(key)) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();

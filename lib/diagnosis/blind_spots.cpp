@@ -36,7 +36,7 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
                                         const std::vector<double>& judged_s) {
   std::vector<std::string> spots;
   for (std::size_t i = 0; i < std::min(relations.size(), judged_s.size()); ++i) {
-    if (judged_s[i] > 0.0) continue;
+    if (judged_s[i] > 0.0 || relations[i].kind == RelationKind::tracking) continue;
     const bool drive = relations[i].kind == RelationKind::actuator;
     spots.push_back(fmt::format(
         "The healthy logs show how joint {}'s {}, but this log lacks the signals ({}): {} cannot be seen.",

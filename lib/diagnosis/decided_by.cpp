@@ -17,6 +17,8 @@ const char* to_string(DecidedBy decided_by) {
       return "actuator";
     case DecidedBy::control_law:
       return "control_law";
+    case DecidedBy::tracking:
+      return "tracking";
     case DecidedBy::abstained:
       return "abstained";
   }

@@ -11,6 +11,7 @@ enum class DecidedBy {
   criterion,    ///< the fault criterion over single samples
   actuator,     ///< the second residual of measured against commanded torque
   control_law,  ///< that of commanded torque against what the controller reads
+  tracking,     ///< that of the motion against its reference
   abstained,    ///< nobody: too thin or too even to name a fault
 };
 const char* to_string(DecidedBy decided_by);

@@ -77,12 +77,13 @@ struct LogFacts {
   std::string format;
   std::int64_t rows_read = 0;
   std::int64_t rows_used = 0;
-  std::int64_t judgeable_rows = 0;  ///< of those used: with position and torque of every joint
+  std::int64_t judgeable_rows = 0;  ///< of those used: with position and torque of every joint, or tracked
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double end_s = std::numeric_limits<double>::quiet_NaN();
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
   bool has_velocity = false;
+  bool is_tracked = false;  ///< without torque: held against references only
   Issues issues;
 };
 

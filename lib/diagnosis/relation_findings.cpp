@@ -63,9 +63,7 @@ std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const std:
   items.push_back(
       {"decision", std::nan(""), "", what_strayed(episode, value_text(episode.mean) + " " + unit)});
   items.push_back({"torque_difference", episode.mean, unit, "mean difference from onset to end"});
-  items.push_back({"times_limit", episode.times_limit, "", "largest mean over what healthy logs reach"});
-  items.push_back(
-      {"log_likelihood_ratio", episode.nats, "nats", "log likelihood ratio against no difference"});
+  for (EvidenceItem& item : limit_evidence(episode)) items.push_back(std::move(item));
   if (is_lost_torque(episode))
     items.push_back(
         {"torque_share", 100.0 * episode.share, "%", "share of the commanded torque that is missing"});
@@ -138,6 +136,17 @@ void take_over(FaultFinding& finding, const FaultFinding& motion, const Relation
 
 }  // namespace
 
+std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode) {
+  return {
+      {"times_limit", episode.times_limit, "", "largest mean over what healthy logs reach"},
+      {"log_likelihood_ratio", episode.nats, "nats", "log likelihood ratio against no difference"},
+  };
+}
+
+double confidence_of(const RelationEpisode& episode) {
+  return episode.times_limit > kWellBeyond ? kSure : kLess;
+}
+
 FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain) {
   FaultFinding finding;
   const bool lost = is_lost_torque(episode);
@@ -145,7 +154,7 @@ FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& cha
   finding.onset_s = episode.onset_s;
   finding.alarm_s = episode.alarm_s;
   finding.end_s = episode.end_s;
-  finding.confidence = episode.times_limit > kWellBeyond ? kSure : kLess;
+  finding.confidence = confidence_of(episode);
   finding.decided_by = episode.kind == RelationKind::actuator ? DecidedBy::actuator : DecidedBy::control_law;
   finding.evidence = evidence_of(episode, torque_unit(chain.geometry[episode.joint].kind));
   finding.next_check = lost ? next_check_for(finding.label) : next_check_of(episode);

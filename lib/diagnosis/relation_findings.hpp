@@ -9,6 +9,11 @@
 
 namespace faultline {
 
+/// How far beyond its limit an episode was.
+std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode);
+/// 0 to 1.
+double confidence_of(const RelationEpisode& episode);
+
 /// What a second residual found: a loss of torque where a share of the command is missing, else an unknown
 /// fault of that joint's drive or control.
 FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain);

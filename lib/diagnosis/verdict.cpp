@@ -28,8 +28,9 @@ std::string why_inconclusive(const LogFacts& log, double model_period_s) {
     return fmt::format("the log has {} usable rows; at least {} are needed to judge", log.rows_used,
                        kFewestRows);
   if (static_cast<double>(log.judgeable_rows) < kFewestJudgeable * static_cast<double>(log.rows_used))
-    return fmt::format("only {} of {} rows have position and torque of every joint", log.judgeable_rows,
-                       log.rows_used);
+    return fmt::format("only {} of {} rows {}", log.judgeable_rows, log.rows_used,
+                       log.is_tracked ? "could be held against a reference that moves as in the healthy logs"
+                                      : "have position and torque of every joint");
   return "";
 }
 
@@ -55,8 +56,9 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
     return;
   }
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
-  diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found"
-                                       : "the identified robot explains the whole log";
+  const char* healthy = diagnosis.log.is_tracked ? "every joint that is judged follows its reference"
+                                                 : "the identified robot explains the whole log";
+  diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
   if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
     diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;
 }

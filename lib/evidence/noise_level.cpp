@@ -12,13 +12,17 @@ namespace {
 
 constexpr int kBlockRows = 64;  // long enough for a mean square, short enough to lie between two moves
 constexpr double kCalmestShare = 0.25;
+constexpr double kMostSame = 0.2;         // of its rows
 constexpr double kThird = 3.0;            // binomial weight
 constexpr double kDifferenceGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance
 
-/// Mean square of the third differences of a block; NaN where they say nothing.
+/// Mean square of the third differences of a block; NaN where they say nothing: also where many readings are
+/// the same, as those of a coarse sensor at rest.
 double block_jitter(const std::vector<double>& x, int begin) {
   double sum = 0.0;
-  int count = 0;
+  int count = 0, same = 0;
+  for (int k = begin + 1; k < begin + kBlockRows; ++k) same += x[k] == x[k - 1];
+  if (same > kMostSame * kBlockRows) return std::numeric_limits<double>::quiet_NaN();
   for (int k = begin + 3; k < begin + kBlockRows; ++k) {
     const double d = x[k] - x[k - 3] - kThird * (x[k - 1] - x[k - 2]);
     if (!std::isfinite(d)) continue;

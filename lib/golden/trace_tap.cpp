@@ -57,6 +57,7 @@ void TraceTap::rewind() {
 }
 
 void TraceTap::take(const Log& segment) {
+  if (generator_.joints() == 0 || segment.tau.empty()) return;
   const Transitions all = collect_transitions(segment, generator_.shape, state_);
   const std::int64_t before = std::exchange(seen_, seen_ + all.count());
   while ((seen_ + stride_ - 1) / stride_ > max_points_) thin();

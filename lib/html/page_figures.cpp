@@ -61,8 +61,9 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
     add_curve(figure, window, "measured", id + n, measured.values, 0);
     return figure;
   };
-  return {pair("q", "position", position_unit(axis), joint.q, joint.q_predicted, "predicted"),
-          pair("dq", "velocity", velocity_unit(axis), joint.dq, joint.dq_predicted, "predicted"),
+  const char* predicted = curves.by_reference ? "reference" : "predicted";
+  return {pair("q", "position", position_unit(axis), joint.q, joint.q_predicted, predicted),
+          pair("dq", "velocity", velocity_unit(axis), joint.dq, joint.dq_predicted, predicted),
           pair("tau", turns ? "torque" : "force", torque_unit(axis), joint.tau, joint.tau_required,
                "needed by the healthy robot")};
 }

@@ -20,6 +20,7 @@ namespace {
 
 constexpr const char* kSchemaName = "faultline/model/";
 constexpr int kSchemaVersion = 1;
+constexpr const char* kLearnedFromTracking = "tracking";  // logs without torque: no mechanics
 
 nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
   nlohmann::json list = nlohmann::json::array();
@@ -80,46 +81,57 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
     model.identification = summary_from_json(nlohmann::ordered_json(json["identification"]), where);
   model.sample_period_s = json.at("sample_period_s");
   model.has_velocity = json.at("has_velocity");
+  if (json.contains("relations"))
+    model.relations = relations_from_json(json["relations"], model.robot.joints(), where);
+  for (const auto& source : json.at("sources"))
+    model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
+  if (json.contains("learned_from") && json["learned_from"] == kLearnedFromTracking) {
+    if (model.relations.empty())
+      throw Error(ErrorCode::input, where,
+                  "is a damaged model (it judges nothing: no relations); learn it again");
+    return model;
+  }
   model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
   model.evidence = evidence_options_from_json(json.at("evidence"), where);
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
-  if (json.contains("relations"))
-    model.relations = relations_from_json(json["relations"], model.robot.joints(), where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
-  for (const auto& source : json.at("sources"))
-    model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
   if (json.contains("twin")) model.twin = twin_from_json(nlohmann::ordered_json(json["twin"]), where);
   return model;
 }
 
-}  // namespace
-
-std::string model_to_json(const Model& model) {
+void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
   nlohmann::json motion, evidence, residual, judges;
   to_json(motion, model.motion);
   to_json(evidence, model.evidence);
   to_json(residual, model.residual);
   to_json(judges, model.episode_classifier);
+  if (model.twin) json["twin"] = twin_to_json(*model.twin);
+  json["validation"] = validation_to_json(model.validation);
+  json["evidence"] = evidence;
+  json["motion"] = motion;
+  json["residual"] = residual;
+  json["judges"] = judges;
+  json["samples"] = samples_to_json(model.samples);
+}
+
+}  // namespace
+
+std::string model_to_json(const Model& model) {
   nlohmann::ordered_json json;
   json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
   json["name"] = model.name;
+  if (!model.has_mechanics()) json["learned_from"] = kLearnedFromTracking;
   json["robot"] = robot_file_text(model.robot);
   if (model.identification.status != IdentificationStatus::not_run)
     json["identification"] = summary_to_json(model.identification);
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
   json["sources"] = sources_to_json(model.sources);
-  if (model.twin) json["twin"] = twin_to_json(*model.twin);
-  json["validation"] = validation_to_json(model.validation);
-  json["evidence"] = evidence;
-  json["motion"] = motion;
-  json["residual"] = residual;
+  if (model.has_mechanics()) add_mechanics(model, json);
   if (!model.relations.empty()) json["relations"] = relations_to_json(model.relations);
-  json["judges"] = judges;
-  json["samples"] = samples_to_json(model.samples);
   return json.dump(1) + "\n";
 }
 

@@ -81,7 +81,8 @@ struct Model {
   EvidenceOptions evidence;
   std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
   ResidualGenerator residual;
-  std::vector<SignalRelation> relations;  ///< second residuals; none where the logs lack the signals
+  std::vector<SignalRelation>
+      relations;  ///< second residuals, tracking; none where the logs lack the signals
   EpisodeClassifier episode_classifier;
   SampleMode samples;
   Validation validation;
@@ -89,6 +90,9 @@ struct Model {
   std::optional<TwinOptions>
       twin;            ///< what it was trained on; none in models of programs that did not keep it
   std::string sha256;  ///< of the file it was read from
+
+  /// False where it was learned from logs without torque: then only `relations` judge.
+  bool has_mechanics() const { return residual.joints() > 0; }
 };
 
 /// The model as one JSON file, schema "faultline/model/1".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/log_tally.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -10,17 +11,32 @@
 namespace faultline {
 namespace {
 
+bool can_track(const Log& segment, const Model& model) {
+  return std::any_of(model.relations.begin(), model.relations.end(), [&](const SignalRelation& relation) {
+    return relation.kind == RelationKind::tracking && has_signals(segment, relation);
+  });
+}
+
+std::string why_not_judged(const Model& model) {
+  const std::string references =
+      "has no references (q_ref1.. or dq_ref1..) of joints that the model knows to follow them";
+  if (!model.has_mechanics())
+    return references + ", and the model \"" + model.name +
+           "\" was learned from logs without torque; map the columns in [log.columns] of the robot file";
+  return "has no torque (tau1..tau" + std::to_string(model.robot.joints()) +
+         "), without which this model can judge no fault, and " + references +
+         "; map the columns in [log.columns] of the robot file";
+}
+
 void check_channels(const Log& segment, const LogSource& log, const Model& model) {
   const int joints = model.robot.joints();
   if (segment.joints() != joints)
     throw Error(ErrorCode::input, log.identity().path,
                 "is a log of another robot: it has " + std::to_string(segment.joints()) +
                     " joints, the model \"" + model.name + "\" has " + std::to_string(joints));
-  if (static_cast<int>(segment.tau.size()) != joints)
-    throw Error(
-        ErrorCode::input, log.identity().path,
-        "has no torque (tau1..tau" + std::to_string(joints) +
-            "), without which no fault can be judged; map the columns in [log.columns] of the robot file");
+  const bool has_torque = static_cast<int>(segment.tau.size()) == joints && model.has_mechanics();
+  if (!has_torque && !can_track(segment, model))
+    throw Error(ErrorCode::input, log.identity().path, why_not_judged(model));
 }
 
 /// The path as given when it is relative, else its file name: no name of a machine's folders in a report.
@@ -48,7 +64,8 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   for (int k = 0; k < segment.rows(); ++k) {
     bool complete = true;
     for (int j = 0; j < segment.joints(); ++j)
-      complete = complete && std::isfinite(segment.q[j][k]) && std::isfinite(segment.tau[j][k]);
+      complete = complete && std::isfinite(segment.q[j][k]) &&
+                 (segment.tau.empty() || std::isfinite(segment.tau[j][k]));
     judgeable_rows += complete;
   }
 }

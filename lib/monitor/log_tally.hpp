@@ -20,8 +20,8 @@ struct LogTally {
   bool has_velocity = false;
   QualityState quality;  ///< gaps, missing values, implausible units and the like
 
-  /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or no
-  /// torque.
+  /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither
+  /// torque nor, with a model that can do with them, references.
   void take(const Log& segment, const LogSource& log, const Model& model);
 };
 

@@ -10,15 +10,45 @@
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
+namespace {
+
+/// Whether there is no torque that the model could judge. Rewinds the log before and after.
+bool lacks_torque(LogSource& log, const Model& model) {
+  if (!model.has_mechanics()) return true;
+  log.rewind();
+  Log first;
+  const bool lacks = log.next(first) && first.tau.empty();
+  log.rewind();
+  return lacks;
+}
+
+MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
+  RelationMonitor relations(model.relations, true);
+  LogTally tally;
+  for (Log segment; log.next(segment);) {
+    tally.take(segment, log, model);
+    relations.take(segment);
+  }
+  relations.finish();
+  MonitoredLog out;
+  out.log = log_facts(log, tally, model);
+  out.relation_episodes = relations.episodes();
+  out.relations_judged_s = relations.judged_s();
+  out.by_tracking = true;
+  return out;
+}
+
+}  // namespace
 
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
+  if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
   LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
   day.noise.repeats_say_nothing = model.has_velocity && !day.noise.has_velocity;
   EvidenceMonitor evidence(model, by_samples ? model.motion : day.model, day.noise);
   SampleMonitor samples(model.samples, options);
   const std::vector<SignalRelation> none;
-  RelationMonitor relations(by_samples ? none : model.relations);
+  RelationMonitor relations(by_samples ? none : model.relations, false);
   WatchedSource watched(log, relations);
   DelayedTorqueSource in_time(watched, day.torque_delay_s);
   LogSource& acting = day.torque_delay_s.empty() ? static_cast<LogSource&>(watched) : in_time;
@@ -39,9 +69,11 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   relations.finish();
   LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
   facts.issues.merge(day.notes);
-  return {std::move(facts),       whole.joints(),           evidence.episodes(),
-          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
-          evidence.slow_faults(), relations.episodes(),     relations.judged_s()};
+  return {std::move(facts),         whole.joints(),
+          evidence.episodes(),      samples.alarms(),
+          evidence.largest_ratio(), evidence.slow_estimates(),
+          evidence.slow_faults(),   relations.episodes(),
+          relations.judged_s(),     false};
 }
 
 }  // namespace faultline

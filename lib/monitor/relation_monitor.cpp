@@ -5,12 +5,16 @@
 
 namespace faultline {
 
-RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations) {
-  for (const SignalRelation& relation : relations) watches_.emplace_back(relation);
+RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking) {
+  for (const SignalRelation& relation : relations) {
+    watches_.emplace_back(relation);
+    is_watched_.push_back((relation.kind == RelationKind::tracking) == by_tracking);
+  }
 }
 
 void RelationMonitor::take(const Log& segment) {
-  for (RelationWatch& watch : watches_) watch.take(segment);
+  for (std::size_t i = 0; i < watches_.size(); ++i)
+    if (is_watched_[i]) watches_[i].take(segment);
 }
 
 void RelationMonitor::finish() {

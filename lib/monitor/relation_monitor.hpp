@@ -9,11 +9,12 @@
 
 namespace faultline {
 
-/// Leads the segments of a log through the second residuals of a model.
+/// Leads the segments of a log through the second residuals of a model: those with torque or, where a log has
+/// none, tracking.
 class RelationMonitor {
  public:
   /// `relations` outlive this.
-  explicit RelationMonitor(const std::vector<SignalRelation>& relations);
+  RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking);
 
   void take(const Log& segment);
   /// After the last segment.
@@ -21,11 +22,12 @@ class RelationMonitor {
 
   /// By onset.
   std::vector<RelationEpisode> episodes() const;
-  /// By relation: for how long the log could be judged, s.
+  /// By relation: for how long the log could be judged, s; 0 for those of the other sort.
   std::vector<double> judged_s() const;
 
  private:
   std::deque<RelationWatch> watches_;
+  std::vector<char> is_watched_;
 };
 
 /// A log whose segments pass a monitor on their way.

@@ -9,6 +9,7 @@
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
 #include "lib/diagnosis/relation_findings.hpp"
+#include "lib/diagnosis/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
 #include "lib/monitor/monitor.hpp"
 
@@ -28,31 +29,43 @@ void add_slow_faults(const std::vector<SlowFault>& slow, const Model& model,
   }
 }
 
-}  // namespace
-
-Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
-                   const DiagnoseOptions& options) {
-  const MonitoredLog run = monitor(log, model, options);
+std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
+  if (run.by_tracking) return tracking_findings(run.relation_episodes, model.robot.chain);
   std::vector<FaultFinding> faults;
   for (const MonitoredEpisode& episode : run.episodes)
     faults.push_back(decide_episode(episode, model, cases));
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
   add_slow_faults(run.slow_faults, model, faults);
-  faults = with_relations(std::move(faults), run.relation_episodes, model.motion.chain);
+  return with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
+}
 
+std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
+  if (run.by_tracking) return tracking_spots(model, run.relations_judged_s);
+  std::vector<std::string> spots = blind_spots(model.robot.log.torque, run.log.has_velocity);
+  for (auto& more : {relation_spots(model.relations, run.relations_judged_s), weak_spots(model.validation),
+                     reach_sentences(model.validation.reach, model.robot.chain)})
+    spots.insert(spots.end(), more.begin(), more.end());
+  return spots;
+}
+
+}  // namespace
+
+Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
+                   const DiagnoseOptions& options) {
+  const MonitoredLog run = monitor(log, model, options);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
+  if (run.by_tracking) {
+    diagnosis.log.is_tracked = true;
+    diagnosis.log.judgeable_rows =
+        std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
+  }
   diagnosis.model = {model.name, model.sha256, cases.sha256()};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
-  diagnosis.cannot_see = blind_spots(model.robot.log.torque, run.log.has_velocity);
-  for (std::string& spot : relation_spots(model.relations, run.relations_judged_s))
-    diagnosis.cannot_see.push_back(std::move(spot));
-  for (std::string& spot : weak_spots(model.validation)) diagnosis.cannot_see.push_back(std::move(spot));
-  for (std::string& sentence : reach_sentences(model.validation.reach, model.motion.chain))
-    diagnosis.cannot_see.push_back(std::move(sentence));
-  settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
+  diagnosis.cannot_see = unseen_by(run, model);
+  settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
   return diagnosis;
 }
 

@@ -13,6 +13,7 @@
 #include "lib/pipeline/identified_model.hpp"
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/reach.hpp"
+#include "lib/pipeline/tracking_model.hpp"
 #include "lib/pipeline/training_episodes.hpp"
 #include "lib/pipeline/twin_study.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
@@ -138,6 +139,18 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.validation.reach = reach_of(runs);
 }
 
+Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled,
+                             const Robot& robot, const Progress& progress) {
+  if (!labelled.empty())
+    throw Error(ErrorCode::input, labelled.front().log->identity().path,
+                "is labelled with a fault, but the healthy logs have no torque: then only healthy motion is "
+                "learned; leave labelled logs out");
+  tell(progress, "learning how joints follow their references", 0.0);
+  Learned out;
+  out.model = tracking_model(healthy, robot);
+  return out;
+}
+
 }  // namespace
 
 void LearnOptions::check() const {
@@ -158,6 +171,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
               const LearnOptions& options, const Progress& progress) {
   options.check();
   RememberedLogs logs(healthy);
+  if (lack_torque(logs.sources())) return learn_tracking_alone(logs.sources(), labelled, robot, progress);
   Learned out;
   Model& model = out.model;
   out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));

@@ -47,8 +47,9 @@ struct Learned {
 
 /// Learns one robot from its healthy logs: identify it, learn its fault-free motion, match the filters'
 /// noise, simulate faults on the identified robot, train the networks and fill the case base with them (and
-/// with the labelled logs, if any), and measure all that on further simulated runs. Throws Error(input) when
-/// the logs do not suffice.
+/// with the labelled logs, if any), and measure all that on further simulated runs. Where no healthy log has
+/// a torque, the model knows only how the joints follow their references (tracking_model()). Throws
+/// Error(input) when the logs do not suffice.
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options = {}, const Progress& progress = {});
 

@@ -15,7 +15,8 @@ struct Envelope {
 };
 
 struct JointCurves {
-  Envelope q, q_predicted;      ///< rad or m; predicted one step ahead by the residual generator
+  Envelope q,
+      q_predicted;  ///< rad or m; predicted one step ahead by the residual generator, or its reference
   Envelope dq, dq_predicted;    ///< rad/s or m/s
   Envelope tau, tau_required;   ///< N m or N; required of the healthy robot by the motion that was measured
   std::vector<float> residual;  ///< one a bin: largest magnitude of the normalised velocity residual
@@ -47,7 +48,8 @@ struct RunCurves {
   std::vector<CurveWindow> details;      ///< around the first faults, by onset
   std::vector<double> healthy_residual;  ///< largest normalised velocity residual when healthy, a joint each
   std::vector<char> turns;               ///< 1 for a revolute joint
-  double alarm_ratio = 0.0;              ///< log likelihood ratio that raises the alarm
+  bool by_reference = false;  ///< what is called predicted is the reference: the log was only tracked
+  double alarm_ratio = 0.0;   ///< log likelihood ratio that raises the alarm
 
   bool empty() const { return whole.bins == 0; }
 };

@@ -55,13 +55,15 @@ std::vector<WindowCurves> detail_windows(const Model& model, const Diagnosis& di
   return details;
 }
 
-RunCurves without_curves(const Model& model) {
+RunCurves without_curves(const Model& model, const LogFacts& log) {
   RunCurves curves;
   const HealthyResiduals& healthy = model.residual.healthy;
   for (int j = 0; j < model.robot.joints(); ++j) {
-    curves.healthy_residual.push_back(healthy.velocity_max[j] / healthy.velocity_rms[j]);
+    if (model.has_mechanics())
+      curves.healthy_residual.push_back(healthy.velocity_max[j] / healthy.velocity_rms[j]);
     curves.turns.push_back(model.robot.chain.geometry[j].kind == AxisKind::revolute);
   }
+  curves.by_reference = log.is_tracked;
   curves.alarm_ratio = model.evidence.threshold;
   return curves;
 }
@@ -70,7 +72,7 @@ RunCurves without_curves(const Model& model) {
 
 RunCurves run_curves(LogSource& log, const Model& model, const Diagnosis& diagnosis,
                      const RunCurvesOptions& options) {
-  RunCurves curves = without_curves(model);
+  RunCurves curves = without_curves(model, diagnosis.log);
   const LogFacts& facts = diagnosis.log;
   if (!(facts.end_s > facts.start_s)) return curves;
   CurveWindow run;

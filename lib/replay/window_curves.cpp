@@ -63,6 +63,7 @@ void WindowCurves::take(const Log& segment, const Residuals& residuals) {
   if (segment.rows() == 0 || segment.time.front() > window_.end_s || segment.time.back() < window_.start_s)
     return;
   take_rows(segment);
+  if (residuals.joints() == 0) take_references(segment);
   take_predictions(segment, residuals);
   if (!networks_.empty()) take_outputs(residuals);
 }
@@ -73,8 +74,19 @@ void WindowCurves::take_rows(const Log& segment) {
     if (bin < 0) continue;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       joints_[j].q.add(bin, segment.q[j][k]);
-      joints_[j].tau.add(bin, segment.tau[j][k]);
+      if (!segment.tau.empty()) joints_[j].tau.add(bin, segment.tau[j][k]);
       if (!segment.dq.empty()) joints_[j].dq.add(bin, segment.dq[j][k]);
+    }
+  }
+}
+
+void WindowCurves::take_references(const Log& segment) {
+  for (int k = 0; k < segment.rows(); ++k) {
+    const int bin = bin_of(segment.time[k]);
+    if (bin < 0) continue;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (j < segment.q_ref.size()) joints_[j].q_predicted.add(bin, segment.q_ref[j][k]);
+      if (j < segment.dq_ref.size()) joints_[j].dq_predicted.add(bin, segment.dq_ref[j][k]);
     }
   }
 }

@@ -24,6 +24,8 @@ const char* decided_words(const FaultFinding& fault) {
       return "measured against commanded torque decided";
     case DecidedBy::control_law:
       return "commanded torque against the control law decided";
+    case DecidedBy::tracking:
+      return "the motion against its reference decided";
     case DecidedBy::abstained:
       return "not named: the evidence is too thin";
   }

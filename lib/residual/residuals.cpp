@@ -43,6 +43,7 @@ Residuals residuals_of(const ResidualGenerator& generator, const Transitions& tr
 }
 
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
+  if (generator.joints() == 0 || segment.tau.empty()) return {};
   TransitionShape shape = generator.shape;
   shape.derive_velocity = shape.derive_velocity || segment.dq.empty();
   return residuals_of(generator, collect_transitions(segment, shape, state));

@@ -33,7 +33,8 @@ using ResidualState = TransitionState;
 /// Residuals of all predictions that end in `segment`. Segments of one log are passed in order with the same
 /// state; where their borders fall changes no byte. Rows with missing numbers, and pairs across a gap, give
 /// NaN. A log without velocities
-/// has them from its positions. Throws Error(input) when the log is not of this robot.
+/// has them from its positions; one without torque has no residuals. Throws Error(input) when the log is not
+/// of this robot.
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
 Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions);
 

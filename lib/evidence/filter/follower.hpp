@@ -97,6 +97,7 @@ class Follower {
   double log_likelihood_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();
+  void count_codes(const Log& segment, int row);
   void set_measurement_noise(const GaussianState& state, const JointArray& speed_before,
                              FollowedSample& out) const;
 
@@ -113,6 +114,8 @@ class Follower {
   JointFlags
       speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities
   JointArray last_q_{}, last_dq_{}, last_torque_{};
+  JointArray other_q_{};       ///< the latest reading that differs from the last one
+  JointArray same_codes_{};    ///< rows in which the position read one of these two
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };
 

@@ -13,16 +13,23 @@ class LagLine {
  public:
   explicit LagLine(const SignalRelation& relation);
 
-  /// Takes row `row`; false while what came before it is too short, or something is missing.
+  /// Takes row `row`; false while what came before it is too short, or something is missing. Of a motion,
+  /// which is smooth, some rows that were lost are told from their neighbours.
   bool take(const Log& log, int row);
   /// After take() said true: as many as SignalRelation::weights_needed().
   const std::vector<double>& terms() const { return terms_; }
 
  private:
+  void push(std::size_t input, double value);
+  double followed(double input, const Log& log, int row, double dt);
+
   std::vector<Quantity> inputs_;
-  int joint_, lags_;
-  double period_s_;
-  std::vector<double> before_;  ///< by input, the latest row first
+  Quantity target_;
+  bool bridges_;
+  int joint_, lags_, stride_;
+  double period_s_, rate_limit_;
+  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input, as fast as it can be
+  std::vector<double> before_;                                  ///< by input, the latest row first
   std::vector<double> terms_;
   int rows_ = 0;  ///< in step, the row itself among them
   double last_s_ = -std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/log/log_channels.hpp"
+#include "lib/residual/relation/learn_tracking.hpp"
 #include "lib/residual/relation/relation_fit.hpp"
 
 namespace faultline {
@@ -14,8 +15,7 @@ constexpr double kActuatorMemory_s = 0.03;  // of a current loop and its filter
 constexpr double kLawMemory_s = 0.01;       // of a controller's filters
 constexpr int kFewestLags = 2, kMostLags = 16;
 
-constexpr std::size_t kMiddleWindow = 1;  // whose straying says how good a relation is
-constexpr double kHelps = 0.75;           // times the straying without
+constexpr double kHelps = 0.75;  // times the straying without
 constexpr double kOfPlain = 1.0 / 3.0;
 constexpr double kKeepsGain = 0.8;  // times the gain of the command without
 
@@ -47,6 +47,8 @@ std::vector<SignalRelation> candidates(const Log& log, const RelationOptions& op
                      .lags = lags_of(kLawMemory_s, options.period_s)});
   }
   for (SignalRelation& relation : out) relation.period_s = options.period_s;
+  for (SignalRelation& relation : tracking_candidates(log, options.period_s))
+    out.push_back(std::move(relation));
   return out;
 }
 
@@ -60,10 +62,8 @@ SignalRelation with_speed(SignalRelation drive) {
 /// Whether the speed tells what the command does not. It must not stand for the command: then a drive that
 /// gives another torque, and another speed, would look right.
 bool speed_helps(const SignalRelation& with_speed, const SignalRelation& plain) {
-  const auto middle = [](const SignalRelation& relation) {
-    return relation.windows[std::min<std::size_t>(kMiddleWindow, relation.windows.size() - 1)].std;
-  };
-  return middle(with_speed) < kHelps * middle(plain) && with_speed.weights[0] > kKeepsGain * plain.weights[0];
+  return middle_straying(with_speed) < kHelps * middle_straying(plain) &&
+         with_speed.weights[0] > kKeepsGain * plain.weights[0];
 }
 
 /// The speed's part is as it was in few logs: limits stay a share of those without it.
@@ -88,7 +88,9 @@ std::vector<SignalRelation> learn_relations(std::span<LogSource* const> healthy,
   if (relations.empty()) return {};
   const std::vector<Fold> folds = folds_of(healthy);
   std::erase_if(relations, [&](SignalRelation& relation) {
-    return !fit(healthy, folds, options.alarms_per_hour, relation);
+    return relation.kind == RelationKind::tracking
+               ? !fit_tracking(healthy, folds, options.alarms_per_hour, relation)
+               : !fit(healthy, folds, options.alarms_per_hour, relation);
   });
   for (SignalRelation& relation : relations) {
     SignalRelation more = with_speed(relation);
@@ -98,9 +100,9 @@ std::vector<SignalRelation> learn_relations(std::span<LogSource* const> healthy,
   }
   for (SignalRelation& relation : relations) {
     for (WindowLimit& window : relation.windows)
-      window.limit = std::max(window.limit, options.least_share * largest_target(relation));
+      window.limit = std::max(window.limit, options.least_share * target_scale(relation));
     if (relation.kind != RelationKind::actuator) continue;
-    relation.offset_range = options.torque_offset * largest_target(relation);
+    relation.offset_range = options.torque_offset * target_scale(relation);
     relation.gain_range = options.torque_gain;
   }
   return relations;

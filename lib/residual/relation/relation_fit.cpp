@@ -21,9 +21,11 @@ constexpr double kBeyondSeen = 0.2;  // of an input's range
 // Of rows left out, for a law: what an integrator adds differs from day to day with friction and load.
 constexpr double kLeastR2 = 0.999;
 
+constexpr std::size_t kMiddleWindow = 1;
+
 constexpr double kSecondsPerHour = 3600.0;
 constexpr int kFewestWindows = 10;      // that healthy logs fill one behind the other
-constexpr double kLeastStd = 1e-5;      // of the largest torque: of logs without noise
+constexpr double kLeastStd = 1e-5;      // of the target: of logs without noise
 constexpr double kOfLargestSeen = 1.5;  // and what healthy logs reached, with a margin
 
 /// Sums of least squares over some rows.
@@ -144,7 +146,7 @@ double stds_of(double alarms_per_hour, double window_s) {
 }
 
 /// Limits of the windows that healthy logs fill; the windows share the alarms.
-std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<int>& rows, double largest,
+std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<int>& rows, double scale,
                                    double alarms_per_hour) {
   std::vector<WindowLimit> windows;
   for (std::size_t w = 0; w < straying.square.size(); ++w) {
@@ -153,7 +155,7 @@ std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<i
     // The mean over a longer window strays by no less than that of white noise does.
     const double white =
         w > 0 ? windows.back().std * std::sqrt(static_cast<double>(rows[w - 1]) / rows[w]) : 0.0;
-    const double std = std::max({seen, white, kLeastStd * largest});
+    const double std = std::max({seen, white, kLeastStd * scale});
     const double stds = stds_of(alarms_per_hour / static_cast<double>(rows.size()), kRelationWindows_s[w]);
     windows.push_back(
         {kRelationWindows_s[w], std, std::max(stds * std, kOfLargestSeen * straying.largest[w])});
@@ -172,7 +174,12 @@ void widen_terms(SignalRelation& relation) {
 
 }  // namespace
 
-double largest_target(const SignalRelation& relation) {
+double middle_straying(const SignalRelation& relation) {
+  return relation.windows[std::min<std::size_t>(kMiddleWindow, relation.windows.size() - 1)].std;
+}
+
+double target_scale(const SignalRelation& relation) {
+  if (relation.kind == RelationKind::tracking) return relation.high - relation.low;
   return std::max(std::abs(relation.low), std::abs(relation.high));
 }
 
@@ -212,10 +219,9 @@ bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, doubl
   relation.weights = weights_of(all);
   widen_terms(relation);
   relation.r2 = 1.0 - straying.residual_square / variance;
-  const double largest = largest_target(relation);
-  relation.windows =
-      limits_of(straying, window_rows(kRelationWindows_s, relation.period_s), largest, alarms_per_hour);
-  const bool follows = relation.kind == RelationKind::actuator || relation.r2 >= kLeastR2;
+  relation.windows = limits_of(straying, window_rows(kRelationWindows_s, relation.period_s),
+                               target_scale(relation), alarms_per_hour);
+  const bool follows = relation.kind != RelationKind::control_law || relation.r2 >= kLeastR2;
   return follows && !relation.windows.empty();
 }
 

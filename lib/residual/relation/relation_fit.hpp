@@ -25,7 +25,11 @@ std::vector<Fold> folds_of(std::span<LogSource* const> logs);
 bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
          SignalRelation& relation);
 
-/// The largest target of the healthy logs, N m or N.
-double largest_target(const SignalRelation& relation);
+/// How far a fitted relation strays over a middle window: says how good it is.
+double middle_straying(const SignalRelation& relation);
+
+/// The largest torque of the healthy logs; of a position or velocity, what it ranges over. In the target's
+/// unit.
+double target_scale(const SignalRelation& relation);
 
 }  // namespace faultline

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kMostLags = 100;
+constexpr int kMostLags = 100, kMostStride = 10'000;
 constexpr std::size_t kMostWindows = 100;
 
 /// "tau_meas" of "tau_meas1".
@@ -34,7 +34,8 @@ bool all_finite(const std::vector<double>& values) {
 
 bool fits(const SignalRelation& relation, int joints) {
   const bool shape = relation.joint >= 0 && relation.joint < joints && !relation.inputs.empty() &&
-                     relation.lags >= 0 && relation.lags <= kMostLags &&
+                     relation.lags >= 0 && relation.lags <= kMostLags && relation.stride >= 1 &&
+                     relation.stride <= kMostStride && relation.rate_limit >= 0.0 &&
                      static_cast<int>(relation.weights.size()) == relation.weights_needed() &&
                      relation.term_low.size() + 1 == relation.weights.size() &&
                      relation.term_high.size() == relation.term_low.size();
@@ -60,6 +61,8 @@ nlohmann::json to_json(const SignalRelation& relation) {
           {"target", name_of(relation.target)},
           {"inputs", inputs},
           {"lags", relation.lags},
+          {"stride", relation.stride},
+          {"rate_limit", relation.rate_limit},
           {"period_s", relation.period_s},
           {"weights", relation.weights},
           {"low", relation.low},
@@ -79,6 +82,8 @@ SignalRelation relation_from_json(const nlohmann::json& json, const std::string&
   relation.target = quantity_from(json.at("target"), where);
   for (const auto& input : json.at("inputs")) relation.inputs.push_back(quantity_from(input, where));
   relation.lags = json.at("lags");
+  relation.stride = json.value("stride", 1);
+  relation.rate_limit = json.value("rate_limit", 0.0);
   relation.period_s = json.at("period_s");
   relation.weights = json.at("weights").get<std::vector<double>>();
   relation.low = json.at("low");

@@ -13,7 +13,9 @@ constexpr double kSettle_s = 0.15;  // after a command that no healthy log held,
 }  // namespace
 
 bool RelationResidual::terms_are_known() const {
-  for (std::size_t i = 0; i < relation_.term_low.size(); ++i) {
+  // Where a joint is does not matter to how it follows its reference.
+  const bool anywhere = relation_.kind == RelationKind::tracking && relation_.target == Quantity::q;
+  for (std::size_t i = anywhere ? 1 : 0; i < relation_.term_low.size(); ++i) {
     const double term = line_.terms()[i];
     if (term < relation_.term_low[i] || term > relation_.term_high[i]) return false;
   }
@@ -36,7 +38,8 @@ std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
   const double by_speed = drive ? predicted - by_command - relation_.weights.back() : 0.0;
   const bool above = target >= relation_.high && predicted >= relation_.high;
   const bool below = target <= relation_.low && predicted <= relation_.low;
-  return RelationSample{log.time[row], predicted, by_speed, above || below ? 0.0 : target - predicted};
+  const bool in_limit = relation_.kind != RelationKind::tracking && (above || below);
+  return RelationSample{log.time[row], predicted, by_speed, in_limit ? 0.0 : target - predicted};
 }
 
 }  // namespace faultline

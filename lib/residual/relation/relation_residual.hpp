@@ -13,7 +13,7 @@ struct RelationSample {
   double time = 0.0;  ///< s
   double predicted = 0.0;
   double by_speed = 0.0;  ///< of a drive: what of that its speed says, which no day repeats exactly
-  double residual = 0.0;  ///< target less predicted, N m or N
+  double residual = 0.0;  ///< target less predicted, in the target's unit
 };
 
 /// The residual of a relation along a log, row by row; its state crosses segment borders.
@@ -24,8 +24,8 @@ class RelationResidual {
 
   /// nullopt where the row cannot be judged: something is missing, or moves as nothing that was learned,
   /// and for a while after that.
-  /// Where target and prediction are both beyond what healthy logs reached, as of a drive in its limit, the
-  /// residual is 0. `log` has the signals (has_signals()).
+  /// Where a torque and its prediction are both beyond what healthy logs reached, as of a drive in its limit,
+  /// the residual is 0. `log` has the signals (has_signals()).
   std::optional<RelationSample> take(const Log& log, int row);
 
  private:

@@ -16,6 +16,7 @@ constexpr double kOfItsLength =
 constexpr double kJolt_s = 0.3;  // shorter ones that average out are such
 // Of the residual, which a share of the command explains, and what it leaves of what a constant leaves.
 constexpr double kShareExplains = 0.5, kBetterThanOffset = 0.5;
+constexpr double kAtFirst_s = 0.3;
 constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
 
 std::vector<double> lengths_of(const SignalRelation& relation) {
@@ -31,6 +32,10 @@ void RelationWatch::Sums::add(const RelationSample& sample) {
   square += sample.residual * sample.residual;
   product += sample.residual * sample.predicted;
   predicted_square += sample.predicted * sample.predicted;
+  low = std::min(low, sample.predicted + sample.residual);
+  high = std::max(high, sample.predicted + sample.residual);
+  predicted_low = std::min(predicted_low, sample.predicted);
+  predicted_high = std::max(predicted_high, sample.predicted);
   ++rows;
 }
 
@@ -120,7 +125,7 @@ std::size_t RelationWatch::onset_in(int window) const {
 
 void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
   const std::size_t onset = onset_in(strayed.window);
-  now_ = RelationEpisode{.kind = relation_.kind, .joint = relation_.joint};
+  now_ = RelationEpisode{.kind = relation_.kind, .joint = relation_.joint, .target = relation_.target};
   now_->onset_s = recent_[onset].time;
   now_->alarm_s = sample.time;
   window_ = strayed.window;
@@ -128,11 +133,13 @@ void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
   since_onset_ = {};
   calm_rows_ = 0;
   for (std::size_t i = onset; i + 1 < recent_.size(); ++i) since_onset_.add(recent_[i]);
+  at_first_ = since_onset_;
   go_on(sample, strayed);
 }
 
 void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) {
   since_onset_.add(sample);
+  if (sample.time - now_->onset_s < kAtFirst_s) at_first_ = since_onset_;
   if (strayed.times > 1.0 && strayed.window < window_) {
     window_ = strayed.window;
     peak_ = 0.0;
@@ -185,11 +192,12 @@ void RelationWatch::close(bool lasts) {
   const double rows = std::max((episode.end_s - episode.onset_s) / relation_.period_s + 1.0, 1.0);
   episode.mean = strayed_.residual / rows;
   if (strayed_.square > 0.0) episode.offset_explains = episode.mean * episode.mean * rows / strayed_.square;
-  if (strayed_.predicted_square > 0.0 && strayed_.square > 0.0) {
-    episode.share = -strayed_.product / strayed_.predicted_square;
-    episode.share_explains =
-        strayed_.product * strayed_.product / (strayed_.predicted_square * strayed_.square);
-  }
+  episode.share = strayed_.share();
+  episode.share_explains = strayed_.share_explains();
+  episode.first_share = at_first_.share();
+  episode.first_share_explains = at_first_.share_explains();
+  episode.first_span = at_first_.high - at_first_.low;
+  episode.first_predicted_span = at_first_.predicted_high - at_first_.predicted_low;
   const bool is_long = episode.end_s - episode.onset_s > kJolt_s;
   if (is_long || std::abs(episode.mean) > kOfItsLength * allowed_over(strayed_)) episodes_.push_back(episode);
 }

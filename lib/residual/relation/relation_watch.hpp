@@ -14,17 +14,20 @@ namespace faultline {
 /// A stretch of a log in which a signal does not follow what it follows in healthy logs.
 struct RelationEpisode {
   RelationKind kind = RelationKind::actuator;
-  int joint = 0;                                              ///< from 0
+  int joint = 0;  ///< from 0
+  Quantity target = Quantity::tau_meas;
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< begin of what strayed
   double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< first row with a mean beyond its limit
   double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last row that strayed
   bool lasts = false;                                         ///< to the last row
-  double mean = 0.0;                                          ///< of the residual from onset to end, N m or N
+  double mean = 0.0;             ///< of the residual from onset to end, in the target's unit
   double share = 0.0;            ///< of the predicted torque that is missing, by least squares
   double share_explains = 0.0;   ///< of the residual's square that this share explains
   double offset_explains = 0.0;  ///< of the residual's square that a constant explains
   double times_limit = 0.0;      ///< the largest mean over its limit
   double nats = 0.0;             ///< log likelihood ratio of an offset in that window against none
+  /// Over the first .3 s at most: as above, and from the least to the largest value of target and prediction.
+  double first_share = 0.0, first_share_explains = 0.0, first_span = 0.0, first_predicted_span = 0.0;
 };
 
 /// Watches one relation along a log for means over windows beyond their limits.
@@ -49,9 +52,16 @@ class RelationWatch {
   /// Of the rows of an episode.
   struct Sums {
     double residual = 0.0, square = 0.0, product = 0.0, predicted_square = 0.0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double predicted_low = low, predicted_high = high;
     long long rows = 0;
 
     void add(const RelationSample& sample);
+    double share() const { return predicted_square > 0.0 ? -product / predicted_square : 0.0; }
+    /// Of the residual's square.
+    double share_explains() const {
+      return predicted_square > 0.0 && square > 0.0 ? product * product / (predicted_square * square) : 0.0;
+    }
   };
 
   void look_for_changes(const Log& segment);
@@ -73,7 +83,7 @@ class RelationWatch {
   std::vector<RelationEpisode> episodes_;
   std::optional<RelationEpisode> now_;
   int window_ = 0;  ///< the shortest that showed the episode
-  Sums since_onset_, strayed_;
+  Sums since_onset_, strayed_, at_first_;
   int calm_rows_ = 0;  ///< judged, since the last that strayed
   double peak_ = 0.0;  ///< largest mean over that window, either sign
   long long judged_rows_ = 0;

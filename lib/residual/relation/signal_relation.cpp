@@ -25,14 +25,22 @@ std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is
 }  // namespace
 
 const char* to_string(RelationKind kind) {
-  return kind == RelationKind::actuator ? "actuator" : "control_law";
+  switch (kind) {
+    case RelationKind::actuator:
+      return "actuator";
+    case RelationKind::control_law:
+      return "control_law";
+    case RelationKind::tracking:
+      return "tracking";
+  }
+  return "tracking";
 }
 
 RelationKind relation_kind_from(const std::string& name, const std::string& where) {
   for (const RelationKind kind : kRelationKinds)
     if (name == to_string(kind)) return kind;
   throw Error(ErrorCode::input, where,
-              "has the unknown relation \"" + name + "\"; expected actuator or control_law");
+              "has the unknown relation \"" + name + "\"; expected actuator, control_law or tracking");
 }
 
 double allowed_mean(const SignalRelation& relation, int window, double torque, double by_speed) {
@@ -47,6 +55,8 @@ std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commande
 std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded) {
   return torque_of(log, Quantity::tau_meas, !torque_is_commanded);
 }
+
+bool has_torque(const Log& log) { return !log.tau.empty() || !log.tau_ref.empty() || !log.tau_meas.empty(); }
 
 bool has_signals(const Log& log, const SignalRelation& relation) {
   return has(log, relation.target, relation.joint) &&

@@ -10,16 +10,19 @@
 #include "lib/log/log.hpp"
 
 /// Second residuals: signals of a log that follow each other whatever the robot's mechanics do. What the
-/// drive gave follows what it was asked for; what it was asked for follows what the controller reads.
+/// drive gave follows what it was asked for; what it was asked for follows what the controller reads; and the
+/// motion follows its reference.
 namespace faultline {
 
 enum class RelationKind {
   actuator,     ///< measured torque by commanded torque
   control_law,  ///< commanded torque by reference and motion
+  tracking,     ///< position or velocity by its reference
 };
-inline constexpr std::array kRelationKinds{RelationKind::actuator, RelationKind::control_law};
+inline constexpr std::array kRelationKinds{RelationKind::actuator, RelationKind::control_law,
+                                           RelationKind::tracking};
 
-/// "actuator", "control_law".
+/// "actuator", "control_law", "tracking".
 const char* to_string(RelationKind kind);
 /// Throws Error(input) when `name` is none of them; `where` names the file.
 RelationKind relation_kind_from(const std::string& name, const std::string& where);
@@ -28,7 +31,7 @@ RelationKind relation_kind_from(const std::string& name, const std::string& wher
 struct WindowLimit {
   double window_s = 0.0;
   double std = 0.0;  ///< of the mean in healthy logs, none of which was in the fit that it was measured with
-  double limit = 0.0;  ///< beyond it is an alarm, N m or N
+  double limit = 0.0;  ///< beyond it is an alarm, in the target's unit
 };
 
 /// A signal of one joint as a linear function of others in the same row and some rows before, learned from
@@ -39,11 +42,15 @@ struct SignalRelation {
   Quantity target = Quantity::tau_meas;
   std::vector<Quantity> inputs{};  ///< of the same joint
   int lags = 0;                    ///< rows before that count, beside the row itself
-  double period_s = 0.0;           ///< from row to row; after a longer step the lags begin anew
+  int stride = 1;                  ///< rows from one of them to the next
+  /// Change per second that the target cannot exceed, as of a drive that limits its acceleration: the first
+  /// input is followed no faster. 0: no such limit.
+  double rate_limit = 0.0;
+  double period_s = 0.0;  ///< from row to row; after a longer step the lags begin anew
   /// By input: of its value, then of its changes from row to row, the latest first. The last one is a
   /// constant.
   std::vector<double> weights{};
-  double low = 0.0, high = 0.0;  ///< of the target in the healthy logs, N m or N
+  double low = 0.0, high = 0.0;  ///< of the target in the healthy logs, in its unit
   /// Of each term that a weight multiplies but the constant: beyond them nothing was learned.
   std::vector<double> term_low{}, term_high{};
   double r2 = 0.0;                     ///< share of the target's variance that is explained of a log left out
@@ -54,14 +61,17 @@ struct SignalRelation {
   int weights_needed() const { return static_cast<int>(inputs.size()) * (lags + 1) + 1; }
 };
 
-/// Largest mean over a window that is allowed, N m or N, while the target is `torque` and a drive's speed
-/// says `by_speed` of it: the limit and what days differ by, as independent errors.
+/// Largest mean over a window that is allowed, in the target's unit, while the target is `torque` and a
+/// drive's speed says `by_speed` of it: the limit and what days differ by, as independent errors.
 double allowed_mean(const SignalRelation& relation, int window, double torque = 0.0, double by_speed = 0.0);
 
 /// The quantities of the log that hold the commanded and the measured torque; nullopt where it has none.
 /// `torque_is_commanded` says what `tau` is.
 std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded);
 std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded);
+
+/// Whether the log has torques of any meaning.
+bool has_torque(const Log& log);
 
 /// Whether the log has the channels that the relation needs.
 bool has_signals(const Log& log, const SignalRelation& relation);

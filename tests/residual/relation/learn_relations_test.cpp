@@ -72,7 +72,7 @@ TEST(LearnRelations, ACommandThatFollowsNoLawIsNone) {
   Random random(3);
   for (Log& log : logs)
     for (double& tau : log.tau[0]) tau = random.normal();
-  for (const SignalRelation& relation : learned(logs)) EXPECT_EQ(relation.kind, RelationKind::actuator);
+  for (const SignalRelation& relation : learned(logs)) EXPECT_NE(relation.kind, RelationKind::control_law);
 }
 
 TEST(LearnRelations, WithoutReferenceAndSecondTorqueThereIsNone) {
@@ -92,7 +92,7 @@ TEST(LearnRelations, AMeasuredTauFollowsTheCommandedOne) {
 }
 
 TEST(LearnRelations, OneLogIsLeftOutPieceByPiece) {
-  EXPECT_EQ(learned({DrivenJoint{}.log(30.0)}).size(), 2u);
+  EXPECT_EQ(learned({DrivenJoint{}.log(30.0)}).size(), 4u);
 }
 
 TEST(LearnRelations, JsonKeepsEveryBit) {
@@ -100,7 +100,7 @@ TEST(LearnRelations, JsonKeepsEveryBit) {
   const nlohmann::json json = relations_to_json(relations);
   const auto again = relations_from_json(nlohmann::json::parse(json.dump()), 1, "model.json");
   EXPECT_EQ(relations_to_json(again), json);
-  EXPECT_EQ(again.size(), 2u);
+  EXPECT_EQ(again.size(), 4u) << "drive, law, position and velocity";
 }
 
 TEST(LearnRelations, AModelWhoseRelationsDoNotFitTogetherIsRefused) {

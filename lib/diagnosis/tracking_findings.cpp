@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/tracking_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/number_text.hpp"
+#include "lib/diagnosis/relation_findings.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/robot/axis_units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kStill = 0.2;       // of the motion that should be there, or less
+constexpr double kExplains = 0.5;    // of the residual, by a velocity that is missing
+constexpr double kSameTime_s = 0.1;  // position and velocity show one thing so far apart
+
+const char* what_strayed(const RelationEpisode& episode) {
+  return episode.target == Quantity::q ? "position" : "velocity";
+}
+
+std::string unit_of(const RelationEpisode& episode, const Chain<double>& chain) {
+  const AxisKind axis = chain.geometry[episode.joint].kind;
+  return episode.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
+}
+
+/// Hardly anything moved that should have when it began; later the joint may catch up.
+bool stands_still(const RelationEpisode& episode) {
+  if (episode.target == Quantity::dq)
+    return episode.first_share_explains > kExplains && std::abs(episode.first_share - 1.0) < kStill;
+  return episode.first_span < kStill * episode.first_predicted_span;
+}
+
+EvidenceItem difference(const RelationEpisode& episode, const Chain<double>& chain) {
+  return {fmt::format("{}_difference", what_strayed(episode)), episode.mean, unit_of(episode, chain),
+          fmt::format("mean difference of the {} from onset to end", what_strayed(episode))};
+}
+
+std::string next_check_of(int joint) {
+  return fmt::format(
+      "Look at motor, brake, transmission and encoder of joint {}: it stalled, lost steps, was held or slipped. "
+      "Home it before it moves on.",
+      joint);
+}
+
+FaultFinding tracking_finding(const RelationEpisode& episode, const Chain<double>& chain) {
+  const bool still = stands_still(episode);
+  FaultFinding finding;
+  finding.label = {still ? FaultKind::locked : FaultKind::unknown, episode.joint + 1};
+  finding.onset_s = episode.onset_s;
+  finding.alarm_s = episode.alarm_s;
+  finding.end_s = episode.end_s;
+  finding.confidence = confidence_of(episode);
+  finding.decided_by = DecidedBy::tracking;
+  finding.evidence.push_back(
+      {"decision", std::nan(""), "",
+       fmt::format("joint {} {}: the {} is {} {} off on average", episode.joint + 1,
+                   still ? "stands still while its reference moves" : "does not follow its reference",
+                   what_strayed(episode), value_text(episode.mean), unit_of(episode, chain))});
+  finding.evidence.push_back(difference(episode, chain));
+  for (EvidenceItem& item : limit_evidence(episode)) finding.evidence.push_back(std::move(item));
+  finding.next_check = next_check_of(finding.label.joint);
+  return finding;
+}
+
+bool is_same(const FaultFinding& finding, const RelationEpisode& episode) {
+  return finding.label.joint == episode.joint + 1 && finding.onset_s <= episode.end_s + kSameTime_s &&
+         finding.end_s >= episode.onset_s - kSameTime_s;
+}
+
+/// The one that names a kind keeps its words.
+void join(FaultFinding& finding, FaultFinding more, const EvidenceItem& of_more) {
+  const double onset_s = std::min(finding.onset_s, more.onset_s);
+  const double alarm_s = std::min(finding.alarm_s, more.alarm_s);
+  const double end_s = std::max(finding.end_s, more.end_s);
+  EvidenceItem other = of_more;
+  if (finding.label.kind == FaultKind::unknown && more.label.kind != FaultKind::unknown) {
+    other = finding.evidence[1];
+    finding = std::move(more);
+  }
+  finding.onset_s = onset_s, finding.alarm_s = alarm_s, finding.end_s = end_s;
+  finding.evidence.push_back(std::move(other));
+}
+
+bool tracks(const SignalRelation& relation, int joint) {
+  return relation.kind == RelationKind::tracking && relation.joint == joint;
+}
+
+}  // namespace
+
+std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes,
+                                            const Chain<double>& chain) {
+  std::vector<FaultFinding> found;
+  for (const RelationEpisode& episode : episodes) {
+    const auto same =
+        std::find_if(found.begin(), found.end(), [&](const auto& f) { return is_same(f, episode); });
+    if (same == found.end())
+      found.push_back(tracking_finding(episode, chain));
+    else
+      join(*same, tracking_finding(episode, chain), difference(episode, chain));
+  }
+  return found;
+}
+
+std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_s) {
+  double longest_s = 0.0;
+  for (const double judged : judged_s) longest_s = std::max(longest_s, judged);
+  return static_cast<std::int64_t>(longest_s / model.sample_period_s + 0.5);
+}
+
+std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s) {
+  std::vector<std::string> spots{
+      "Without torque only one thing is judged: whether each joint follows its reference as in the healthy "
+      "logs. Lost torque, friction, loads, pushes and sensor faults that the controller makes up for cannot be "
+      "seen."};
+  for (int j = 0; j < model.robot.joints(); ++j) {
+    bool is_known = false, is_judged = false;
+    for (std::size_t i = 0; i < model.relations.size(); ++i) {
+      const SignalRelation& relation = model.relations[i];
+      if (!tracks(relation, j)) continue;
+      is_known = true;
+      if (!(judged_s[i] > 0.0)) continue;
+      is_judged = true;
+      const WindowLimit& window = relation.windows[relation.windows.size() / 2];
+      const AxisKind axis = model.robot.chain.geometry[j].kind;
+      const bool position = relation.target == Quantity::q;
+      spots.push_back(
+          fmt::format("Joint {}: {} errors below {:.2g} {} over {:g} s are not told from healthy.", j + 1,
+                      position ? "position" : "velocity", window.limit,
+                      position ? position_unit(axis) : velocity_unit(axis), window.window_s));
+    }
+    if (!is_known)
+      spots.push_back(fmt::format(
+          "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
+    else if (!is_judged)
+      spots.push_back(fmt::format(
+          "Joint {} is not judged: this log lacks its reference, or it and the joint never move.", j + 1));
+  }
+  return spots;
+}
+
+}  // namespace faultline

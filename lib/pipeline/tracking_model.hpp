@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "lib/log/log_source.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// Whether none of the logs has a torque of any meaning. Rewinds them.
+bool lack_torque(std::span<LogSource* const> logs);
+
+/// A model of how the joints follow their references, from healthy logs that have no torque: it judges
+/// nothing else. Throws Error(input) where the logs have other joints than the robot, or no joint follows a
+/// reference.
+Model tracking_model(std::span<LogSource* const> healthy, const Robot& robot);
+
+}  // namespace faultline

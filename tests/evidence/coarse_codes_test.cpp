@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Encoders of coarse codes on robots that rest, learned from logs in which nothing rests.
+#include <gtest/gtest.h>
+
+#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/survey/survey_log.hpp"
+#include "lib/evidence/watch/episode_detector.hpp"
+#include "tests/support/rrp_runs.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kCode = 2e-4;  // rad
+
+SimulationSpec coded(double duration_s, double rest_s) {
+  SimulationSpec spec = rrp_run(duration_s);
+  spec.sample_period_s = spec.control_period_s = 0.002;
+  spec.noise.q = {1e-6, 1e-6, 1e-6};
+  spec.noise.q_resolution = {kCode, kCode, kCode};
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = rest_s;
+  return spec;
+}
+
+const MotionModel& learned_in_motion() {
+  static const MotionModel model = [] {
+    std::vector<MemorySource> days;
+    for (const std::uint64_t seed : {11, 12})
+      days.emplace_back(simulate(known_rrp(), coded(8.0, 0.0), seed).log);
+    std::vector<LogSource*> logs;
+    for (MemorySource& day : days) logs.push_back(&day);
+    IdentifiedMotion identified;
+    identified.chain = known_rrp().chain;
+    identified.torque_is_held = true;
+    identified.q_std.assign(3, kCode / std::sqrt(12.0));
+    identified.dq_std = {5e-3, 5e-3, 1e-3};
+    return learn_motion_model(logs, identified, {});
+  }();
+  return model;
+}
+
+std::vector<EpisodeEvidence> episodes_of(const Log& log) {
+  const MotionModel& model = learned_in_motion();
+  const auto bank = hypotheses_of(model.joints(), TorqueMeaning::commanded);
+  MemorySource source(log);
+  EpisodeDetector detector(model, bank, {}, survey_noise(source, model));
+  for (Log segment; source.next(segment);) detector.take(segment);
+  detector.finish();
+  return detector.episodes();
+}
+
+TEST(CoarseCodes, ARobotAtRestIsNoFault) {
+  for (const std::uint64_t seed : {21, 22, 23})
+    EXPECT_TRUE(episodes_of(simulate(known_rrp(), coded(12.0, 2.5), seed).log).empty()) << seed;
+}
+
+TEST(CoarseCodes, RestDoesNotMakeALogLookQuieter) {
+  MemorySource source(simulate(known_rrp(), coded(12.0, 2.5), 21).log);
+  const LogNoise noise = survey_noise(source, learned_in_motion());
+  for (int j = 0; j < 3; ++j) EXPECT_GT(noise.q_scale[j], 0.8) << j;
+}
+
+TEST(CoarseCodes, AShiftedReadingOfARobotAtRestIsFoundAtOnce) {
+  SimulationSpec spec = coded(12.0, 2.5);
+  spec.faults = {{FaultKind::sensor_bias, 1, 2.6, 1e9, 0.02, 0.0}};  // it rests from 1.8 s at the latest
+  const auto episodes = episodes_of(simulate(known_rrp(), spec, 21).log);
+  ASSERT_FALSE(episodes.empty());
+  EXPECT_NEAR(episodes.front().alarm_s, 2.6, 0.05);
+}
+
+}  // namespace
+}  // namespace faultline
