@@ -16,13 +16,17 @@ constexpr double kMostSame = 0.2;         // of its rows
 constexpr double kThird = 3.0;            // binomial weight
 constexpr double kDifferenceGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance
 
-/// Mean square of the third differences of a block; NaN where they say nothing: also where many readings are
-/// the same, as those of a coarse sensor at rest.
+/// Many readings are the same, as those of a coarse sensor at rest: they do not tell its noise.
+bool mostly_repeats(const std::vector<double>& x, int begin) {
+  int same = 0;
+  for (int k = begin + 1; k < begin + kBlockRows; ++k) same += x[k] == x[k - 1];
+  return same > kMostSame * kBlockRows;
+}
+
+/// Mean square of the third differences of a block; NaN where they say nothing.
 double block_jitter(const std::vector<double>& x, int begin) {
   double sum = 0.0;
-  int count = 0, same = 0;
-  for (int k = begin + 1; k < begin + kBlockRows; ++k) same += x[k] == x[k - 1];
-  if (same > kMostSame * kBlockRows) return std::numeric_limits<double>::quiet_NaN();
+  int count = 0;
   for (int k = begin + 3; k < begin + kBlockRows; ++k) {
     const double d = x[k] - x[k - 3] - kThird * (x[k - 1] - x[k - 2]);
     if (!std::isfinite(d)) continue;
@@ -32,18 +36,19 @@ double block_jitter(const std::vector<double>& x, int begin) {
   return count > 0 && sum > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-double level_of(const std::vector<double>& x) {
+double level_of(const std::vector<double>& x, bool skip_repeats) {
   std::vector<double> jitters;
   for (int begin = 0; begin + kBlockRows <= static_cast<int>(x.size()); begin += kBlockRows) {
+    if (skip_repeats && mostly_repeats(x, begin)) continue;
     const double jitter = block_jitter(x, begin);
     if (std::isfinite(jitter)) jitters.push_back(jitter);
   }
   return jitters.empty() ? 0.0 : std::sqrt(lower_quantile(jitters, kCalmestShare) / kDifferenceGain);
 }
 
-std::vector<double> levels_of(const JointSignals& signals) {
+std::vector<double> levels_of(const JointSignals& signals, bool skip_repeats) {
   std::vector<double> out;
-  for (const auto& signal : signals) out.push_back(level_of(signal));
+  for (const auto& signal : signals) out.push_back(level_of(signal, skip_repeats));
   return out;
 }
 
@@ -73,7 +78,7 @@ double scale_of(const std::vector<double>& usual, const std::vector<double>& lev
 
 }  // namespace
 
-NoiseLevel noise_level(const Log& log) { return {levels_of(log.q), levels_of(log.dq)}; }
+NoiseLevel noise_level(const Log& log) { return {levels_of(log.q, true), levels_of(log.dq, false)}; }
 
 NoiseLevel usual_level(const std::vector<NoiseLevel>& levels) {
   std::vector<const std::vector<double>*> q, dq;

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "lib/evidence/filter/fault_dynamics.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
 #include "lib/evidence/filter/small_inverse.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr int kPositions = 32;
+constexpr double kGolden = 0.6180339887498949;
+constexpr double kMostTakenOff = 0.9;  // of the mass that the tip feels like
 
 /// One more kilogram on the tip: at the last link's origin for a prismatic last axis, at its end otherwise.
 Chain<double> with_unit_payload(const Chain<double>& chain) {
@@ -23,13 +32,48 @@ Chain<double> with_unit_payload(const Chain<double>& chain) {
   return loaded;
 }
 
+/// Joint positions spread over the healthy range: multiples of irrational shares (Weyl's sequence).
+JointVector<double> spread_position(const MotionModel& model, int i) {
+  JointVector<double> q(model.joints());
+  double irrational = 0.0;
+  for (int j = 0; j < model.joints(); ++j) {
+    irrational = std::fmod(irrational + kGolden, 1.0);
+    const double share = std::fmod((i + 0.5) * irrational, 1.0);
+    q[j] = model.q_low[j] + share * (model.q_high[j] - model.q_low[j]);
+  }
+  return q;
+}
+
+/// A mass at the tip adds m D(q) to M(q): M + m D stays positive definite down to -1 over the largest
+/// eigenvalue of M^-1 D, the mass that the tip feels like in its easiest direction.
+double least_payload_of(const RobotLoad& load) {
+  const JointVector<double> still = JointVector<double>::Zero(load.model.joints());
+  double largest = 0.0;
+  for (int i = 0; i < kPositions; ++i) {
+    const JointVector<double> q = spread_position(load.model, i);
+    JointMatrix<double> inertia, loaded;
+    JointVector<double> bias;
+    load.healthy.inertia_and_bias(q, still, inertia, bias);
+    load.unit_payload.inertia_and_bias(q, still, loaded, bias);
+    const Eigen::LLT<Eigen::MatrixXd> factor(inertia);
+    if (factor.info() != Eigen::Success) continue;
+    const Eigen::MatrixXd more = loaded - inertia;
+    const Eigen::MatrixXd half = factor.matrixL().solve(more);
+    const Eigen::MatrixXd scaled = factor.matrixL().solve(half.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
+    largest = std::max(largest, eigen.eigenvalues().maxCoeff());
+  }
+  return largest > 0.0 ? -kMostTakenOff / largest : 0.0;
+}
+
 }  // namespace
 
 RobotLoad::RobotLoad(const MotionModel& motion_model)
     : model(motion_model),
       healthy(motion_model.chain),
       unit_payload(with_unit_payload(motion_model.chain)),
-      payload_bodies(healthy.planar() ? healthy.bodies_more_in(unit_payload) : FastDynamics::Bodies{}) {}
+      payload_bodies(healthy.planar() ? healthy.bodies_more_in(unit_payload) : FastDynamics::Bodies{}),
+      least_payload(least_payload_of(*this)) {}
 
 FaultDynamics::FaultDynamics(const MotionModel& model) : load_(model) {}
 

@@ -11,6 +11,8 @@ class FaultDynamics {
   explicit FaultDynamics(const MotionModel& model);
 
   int joints() const { return load_.model.joints(); }
+  /// kg at the tip, less than 0: less counts as this.
+  double least_payload() const { return load_.least_payload; }
   /// For many evaluations at the same sizes and slow states, which `fault` keeps alive.
   SizedDynamics at(const SizedFault& fault) const { return {load_, fault}; }
   /// Accelerations under a drive torque (N m or N).

@@ -8,6 +8,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kFreshCodes = 8.0;       // rows: a joint that moves slowly shows one code for as long
 constexpr double kMostSameCodes = 256.0;  // rows
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMassDoubt = 0.1;  // share by which the mass of a work piece is not known
@@ -18,8 +19,7 @@ constexpr double kStandstill = 0.1;               // of the usual velocity: slow
 constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
 constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
-constexpr double kFarBeyond = 20.0;    // times the usual speed or the largest torque: a filter gone astray
-constexpr double kMostTakenOff = 1.8;  // times half of what is carried: less would leave hardly any mass
+constexpr double kFarBeyond = 20.0;  // times the usual speed or the largest torque: a filter gone astray
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 double velocity_read(const Log& segment, int row, int joint) {
@@ -76,8 +76,9 @@ void Follower::set_measurement_noise(const GaussianState& state, const JointArra
     const double speed = std::clamp(state.mean[n + j], -fastest, fastest);
     const double acceleration =
         std::clamp((state.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
-    out.q_std[j] = std::hypot(noise_.q_scale[j] * model_.q_std[j] * std::sqrt(1.0 + same_codes_[j]),
-                              model_.clock_std * speed);
+    const double as_one = 1.0 + std::max(same_codes_[j] - kFreshCodes, 0.0);
+    out.q_std[j] =
+        std::hypot(noise_.q_scale[j] * model_.q_std[j] * std::sqrt(as_one), model_.clock_std * speed);
     out.dq_std[j] = std::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
   }
 }
@@ -205,7 +206,7 @@ void Follower::keep_some_mass() {
   for (std::size_t s = 0; s < model_.slow.size(); ++s)
     if (model_.slow[s].kind == SlowKind::tip_mass) {
       double& mass = state_.mean[2 * model_.joints() + static_cast<int>(s)];
-      mass = std::max(mass, -kMostTakenOff * model_.priors.payload);
+      mass = std::max(mass, dynamics_.least_payload());
     }
 }
 
@@ -222,8 +223,8 @@ void Follower::guess_unknown_speed(const FollowedSample& out) {
   }
 }
 
-/// A sensor of coarse codes errs alike for as long as a joint at rest shows the same one or two of them: all
-/// these rows together say as much as one.
+/// A sensor of coarse codes errs alike for as long as a joint at rest shows the same one or two of them: after
+/// the first few, all these rows together say as much as one.
 void Follower::count_codes(const Log& segment, int row) {
   for (int j = 0; j < model_.joints(); ++j) {
     const double q = segment.q[j][row];

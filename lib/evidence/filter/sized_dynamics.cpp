@@ -64,6 +64,7 @@ SizedDynamics::SizedDynamics(const RobotLoad& load, const SizedFault& fault)
     tip_mass_ += sizes_[0];
     tip_is_free_ = true;
   }
+  tip_mass_ = std::max(tip_mass_, load.least_payload);
   if (load.healthy.planar()) load.healthy.add_bodies(load.payload_bodies, tip_mass_, bodies_);
 }
 

@@ -44,6 +44,7 @@ struct RobotLoad {
   FastDynamics healthy;
   FastDynamics unit_payload;            ///< the chain with 1 kg more at its tip
   FastDynamics::Bodies payload_bodies;  ///< what that kilogram adds, where the dynamics are planar
+  double least_payload = 0.0;  ///< kg, less than 0: with less at the tip hardly any inertia is left somewhere
 
   explicit RobotLoad(const MotionModel& motion_model);
 };
