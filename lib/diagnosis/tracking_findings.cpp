@@ -35,8 +35,8 @@ bool stands_still(const RelationEpisode& episode) {
 }
 
 EvidenceItem difference(const RelationEpisode& episode, const Chain<double>& chain) {
-  return {fmt::format("{}_difference", what_strayed(episode)), episode.mean, unit_of(episode, chain),
-          fmt::format("mean difference of the {} from onset to end", what_strayed(episode))};
+  return {fmt::format("{}_difference", what_strayed(episode)), episode.strongest, unit_of(episode, chain),
+          fmt::format("difference of the {} where it is clearest", what_strayed(episode))};
 }
 
 std::string next_check_of(int joint) {
@@ -57,9 +57,9 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain<double
   finding.decided_by = DecidedBy::tracking;
   finding.evidence.push_back(
       {"decision", std::nan(""), "",
-       fmt::format("joint {} {}: the {} is {} {} off on average", episode.joint + 1,
+       fmt::format("joint {} {}: the {} is up to {} {} off", episode.joint + 1,
                    still ? "stands still while its reference moves" : "does not follow its reference",
-                   what_strayed(episode), value_text(episode.mean), unit_of(episode, chain))});
+                   what_strayed(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
   finding.evidence.push_back(difference(episode, chain));
   for (EvidenceItem& item : limit_evidence(episode)) finding.evidence.push_back(std::move(item));
   finding.next_check = next_check_of(finding.label.joint);

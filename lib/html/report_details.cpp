@@ -28,7 +28,7 @@ ReportDetails report_details(LogSource& log, const Model& model, const Diagnosis
   details.model = {robot_facts(model)};
   if (model.identification.status != IdentificationStatus::not_run)
     details.model.push_back(parameter_table(model.identification));
-  details.model.push_back(validation_table(model.validation));
+  if (!model.validation.rows.empty()) details.model.push_back(validation_table(model.validation));
   details.provenance = {option_table(model, options), source_table(model)};
   return details;
 }

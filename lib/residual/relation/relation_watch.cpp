@@ -148,6 +148,7 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
   if (strayed.times > now_->times_limit) {
     const double z = means_.mean(strayed.window) / relation_.windows[strayed.window].std;
     now_->times_limit = strayed.times;
+    now_->strongest = means_.mean(strayed.window);
     now_->nats = 0.5 * z * z;
   }
   if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {

@@ -25,6 +25,7 @@ struct RelationEpisode {
   double share_explains = 0.0;   ///< of the residual's square that this share explains
   double offset_explains = 0.0;  ///< of the residual's square that a constant explains
   double times_limit = 0.0;      ///< the largest mean over its limit
+  double strongest = 0.0;        ///< that mean, in the target's unit
   double nats = 0.0;             ///< log likelihood ratio of an offset in that window against none
   /// Over the first .3 s at most: as above, and from the least to the largest value of target and prediction.
   double first_share = 0.0, first_share_explains = 0.0, first_span = 0.0, first_predicted_span = 0.0;
