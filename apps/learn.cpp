@@ -120,6 +120,10 @@ void add_learn(CLI::App& app, Program& program) {
       ->add_option("--runs-per-label", arguments->options.runs_per_label,
                    "Simulated runs for each fault and joint that the networks learn from")
       ->capture_default_str();
+  command
+      ->add_option("--alarms-per-hour", arguments->options.alarms_per_hour,
+                   "False alarms that chance may raise in an hour of healthy log")
+      ->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "Of every random choice")->capture_default_str();
   add_threads_option(*command, arguments->options.threads);
   command->add_flag_callback(

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/learn.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <filesystem>
 
@@ -21,6 +24,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kFewestAlarms = 1e-6, kMostAlarms = 100.0;  // an hour
 constexpr int kSampleRunsPerLabel = 6;  // of the paper's classifiers, two thirds for training
 constexpr int kHealthySampleRuns = 24;
 constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
@@ -43,6 +47,14 @@ std::vector<ModelSource> sources_of(const Identification& identification,
     sources.push_back({std::filesystem::path(log.log->identity().path).filename().string(),
                        log.log->identity().sha256, log.log->identity().rows_read, to_string(log.label.kind)});
   return sources;
+}
+
+/// A ratio exceeds t by chance with a probability of at most exp(-t) (Wald, 1945): so many nats more make
+/// false alarms so much rarer.
+EvidenceOptions thresholds_for(double alarms_per_hour) {
+  EvidenceOptions options;
+  options.threshold += std::log(kUsualAlarmsPerHour / alarms_per_hour);
+  return options;
 }
 
 void tell(const Progress& progress, const char* what, double share) {
@@ -140,14 +152,14 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
 }
 
 Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled,
-                             const Robot& robot, const Progress& progress) {
+                             const Robot& robot, double alarms_per_hour, const Progress& progress) {
   if (!labelled.empty())
     throw Error(ErrorCode::input, labelled.front().log->identity().path,
                 "is labelled with a fault, but the healthy logs have no torque: then only healthy motion is "
                 "learned; leave labelled logs out");
   tell(progress, "learning how joints follow their references", 0.0);
   Learned out;
-  out.model = tracking_model(healthy, robot);
+  out.model = tracking_model(healthy, robot, alarms_per_hour);
   return out;
 }
 
@@ -161,6 +173,9 @@ void LearnOptions::check() const {
       throw Error(ErrorCode::usage, std::string("LearnOptions.") + name,
                   "is " + std::to_string(value) + ", must be at least " + std::to_string(bound));
   };
+  if (!(alarms_per_hour >= kFewestAlarms && alarms_per_hour <= kMostAlarms))
+    throw Error(ErrorCode::usage, "LearnOptions.alarms_per_hour",
+                fmt::format("is {}, must be between {} and {}", alarms_per_hour, kFewestAlarms, kMostAlarms));
   at_least("runs_per_label", runs_per_label, 4);
   at_least("validation_per_label", validation_per_label, 0);
   at_least("healthy_runs", healthy_runs, 0);
@@ -171,7 +186,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
               const LearnOptions& options, const Progress& progress) {
   options.check();
   RememberedLogs logs(healthy);
-  if (lack_torque(logs.sources())) return learn_tracking_alone(logs.sources(), labelled, robot, progress);
+  if (lack_torque(logs.sources()))
+    return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
   Learned out;
   Model& model = out.model;
   out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
@@ -189,13 +205,15 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                     {.normal = model.robot.normal, .threads = options.threads});
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   tell(progress, "checking the alarm threshold", kResidualsLearned);
-  model.evidence = calibrate_thresholds(acting, model.motion, model.bank, {}, options.threads);
+  model.evidence = calibrate_thresholds(acting, model.motion, model.bank,
+                                        thresholds_for(options.alarms_per_hour), options.threads);
   learn_from_twin(out, labelled, reading, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,
                                .least_share = model.robot.normal.model_error,
                                .torque_offset = model.robot.normal.torque_offset,
+                               .alarms_per_hour = options.alarms_per_hour,
                                .torque_gain = model.robot.normal.torque_constant});
   model.sources = sources_of(out.identification, labelled);
   model.twin = options.twin;

@@ -43,7 +43,7 @@ bool lack_torque(std::span<LogSource* const> logs) {
   });
 }
 
-Model tracking_model(std::span<LogSource* const> healthy, const Robot& robot) {
+Model tracking_model(std::span<LogSource* const> healthy, const Robot& robot, double alarms_per_hour) {
   Model model;
   model.name = robot.name;
   model.robot = robot;
@@ -55,8 +55,9 @@ Model tracking_model(std::span<LogSource* const> healthy, const Robot& robot) {
                              identity.rows_read, "none"});
   }
   model.sample_period_s = upper_median(periods);
-  model.relations =
-      learn_relations(healthy, {.period_s = model.sample_period_s, .least_share = robot.normal.model_error});
+  model.relations = learn_relations(healthy, {.period_s = model.sample_period_s,
+                                              .least_share = robot.normal.model_error,
+                                              .alarms_per_hour = alarms_per_hour});
   if (model.relations.empty())
     throw Error(
         ErrorCode::input, healthy.front()->identity().path,

@@ -73,6 +73,13 @@ TEST_F(TrackingCommands, CasesAndGoldenLogsTakeIt) {
   EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
 }
 
+TEST_F(TrackingCommands, ABudgetOfFalseAlarmsIsAPositiveNumber) {
+  const ProgramRun run = run_program(
+      {"learn", healthy_[0], "--robot", "R", "--alarms-per-hour", "0", "-o", folder_.file("other.model")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(has(run.err, "alarms_per_hour")) << run.err;
+}
+
 TEST_F(TrackingCommands, LabelledLogsAreRefusedWithTheReason) {
   const std::string labels = folder_.write("labels.csv", "file,fault,joint,onset_s\nstall.csv,locked,1,9\n");
   const ProgramRun run = run_program(

@@ -58,6 +58,18 @@ void add_work_piece(GaussianState& state, const MotionModel& model, double kg) {
   }
 }
 
+void RepeatedCodes::take(int j, double reading) {
+  if (!std::isfinite(reading)) return;
+  const bool is_same = reading == last_[j] || reading == other_[j];
+  rows_[j] = is_same ? std::min(rows_[j] + 1.0, kMostSameCodes) : 0.0;
+  if (reading != last_[j]) other_[j] = last_[j];
+  last_[j] = reading;
+}
+
+double RepeatedCodes::noise_factor(int j) const {
+  return std::sqrt(1.0 + std::max(rows_[j] - kFreshCodes, 0.0));
+}
+
 void Follower::change_work_piece(double kg) { add_work_piece(state_, model_, kg); }
 
 Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before) {
@@ -76,9 +88,8 @@ void Follower::set_measurement_noise(const GaussianState& state, const JointArra
     const double speed = std::clamp(state.mean[n + j], -fastest, fastest);
     const double acceleration =
         std::clamp((state.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
-    const double as_one = 1.0 + std::max(same_codes_[j] - kFreshCodes, 0.0);
     out.q_std[j] =
-        std::hypot(noise_.q_scale[j] * model_.q_std[j] * std::sqrt(as_one), model_.clock_std * speed);
+        std::hypot(q_codes_.noise_factor(j) * noise_.q_scale[j] * model_.q_std[j], model_.clock_std * speed);
     out.dq_std[j] = std::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
   }
 }
@@ -108,8 +119,7 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       last_q_(before.last_q_),
       last_dq_(before.last_dq_),
       last_torque_(before.last_torque_),
-      other_q_(before.other_q_),
-      same_codes_(before.same_codes_),
+      q_codes_(before.q_codes_),
       low_(before.low_),
       high_(before.high_) {}
 
@@ -223,18 +233,6 @@ void Follower::guess_unknown_speed(const FollowedSample& out) {
   }
 }
 
-/// A sensor of coarse codes errs alike for as long as a joint at rest shows the same one or two of them: after
-/// the first few, all these rows together say as much as one.
-void Follower::count_codes(const Log& segment, int row) {
-  for (int j = 0; j < model_.joints(); ++j) {
-    const double q = segment.q[j][row];
-    if (!std::isfinite(q)) continue;
-    const bool is_same = q == last_q_[j] || q == other_q_[j];
-    same_codes_[j] = is_same ? std::min(same_codes_[j] + 1.0, kMostSameCodes) : 0.0;
-    if (q != last_q_[j]) other_q_[j] = last_q_[j];
-  }
-}
-
 void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   const int n = model_.joints();
   read_row(segment, row, out);
@@ -251,7 +249,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
       out.pressed[j] = faults_.held[j] || is_pressed(out, j);
       out.in_range = out.in_range && !(out.q[j] < low_[j]) && !(out.q[j] > high_[j]);
     }
-    count_codes(segment, row);
+    for (int j = 0; j < n; ++j) q_codes_.take(j, segment.q[j][row]);
     guess_unknown_speed(out);
     const JointArray speed_before = motion_of(state_.mean, n).dq;
     predict(state_, model_, dynamics_, step_to(out, last_torque_, last_torque_missing_), nullptr, 0.0);

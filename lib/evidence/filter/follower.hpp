@@ -65,6 +65,19 @@ struct KnownFaults {
   JointFlags blind{};          ///< and they are not even read
 };
 
+/// A sensor of coarse codes errs alike for as long as it shows the same one or two of them, as at rest: after
+/// the first few, all these rows together say as much as one.
+class RepeatedCodes {
+ public:
+  /// The next reading of joint j; NaN for none.
+  void take(int j, double reading);
+  /// Times the standard deviation of one reading.
+  double noise_factor(int j) const;
+
+ private:
+  JointArray last_{}, other_{}, rows_{};
+};
+
 /// Follows a log with the healthy filter, row by row; its state crosses segment borders.
 class Follower {
  public:
@@ -97,7 +110,6 @@ class Follower {
   double log_likelihood_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();
-  void count_codes(const Log& segment, int row);
   void set_measurement_noise(const GaussianState& state, const JointArray& speed_before,
                              FollowedSample& out) const;
 
@@ -114,8 +126,7 @@ class Follower {
   JointFlags
       speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities
   JointArray last_q_{}, last_dq_{}, last_torque_{};
-  JointArray other_q_{};       ///< the latest reading that differs from the last one
-  JointArray same_codes_{};    ///< rows in which the position read one of these two
+  RepeatedCodes q_codes_;
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };
 
