@@ -18,6 +18,7 @@ constexpr double kRangeMargin = 0.03;             // of the range: stops stand o
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
 constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
+constexpr double kSurelyBraked = 5.0;             // standard deviations of dq
 constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
 constexpr double kFarBeyond = 20.0;  // times the usual speed or the largest torque: a filter gone astray
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
@@ -149,6 +150,10 @@ void Follower::learn_range(const FollowedSample& sample) {
 bool Follower::is_pressed(const FollowedSample& sample, int j) const {
   const double q = sample.q[j];
   if (!std::isfinite(q) || (q >= low_[j] && q <= high_[j])) return false;
+  const double side = q > high_[j] ? 1.0 : -1.0;
+  const double braked = side * (last_dq_[j] - sample.dq[j]);  // NaN where nothing was measured
+  const double by_drive = model_.torque_scale[j] / model_.inertia_scale[j] * sample.dt;
+  if (braked > by_drive + kSurelyBraked * model_.dq_std[j]) return true;
   const double moved = std::isfinite(sample.dq[j]) ? sample.dq[j] * sample.dt : q - last_q_[j];
   const double still = kStandstill * model_.velocity_scale[j] * sample.dt;
   return q > high_[j] ? moved < still : moved > -still;

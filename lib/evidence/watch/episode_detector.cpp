@@ -156,16 +156,22 @@ class EpisodeDetector::Impl {
                        [](const Level& above) { return above.watch->robot().explains; });
   }
 
+  bool is_pressed(const FollowedSample& sample) const {
+    return std::any_of(sample.pressed.begin(), sample.pressed.begin() + joints_,
+                       [](bool pressed) { return pressed; });
+  }
+
   /// What this row says of level `i` against the topmost; what a joint does that a fault took out of sight is
-  /// told by the level alone.
+  /// told by the level alone. While an end stop may hold a joint, nothing is.
   void weigh(std::size_t i) {
     Level& level = stack_[i];
     const FollowedSample& sample = level.watch->sample();
     level.odd += kRecent * (surprise(sample, joints_) - level.odd);
     if (!all_in_sight_above(i)) {
-      if (level.watch->suspicious() || level.since_s < 0.0) level.since_s = sample.time;
+      if (level.watch->suspicious() || level.since_s < 0.0 || is_pressed(sample)) level.since_s = sample.time;
       return;
     }
+    if (is_pressed(sample)) return;
     level.better += advantage(sample, top().watch->sample(), joints_);
     if (level.better <= 0.0 || level.odd > kOdd) level.better = 0.0, level.since_s = sample.time;
   }
