@@ -13,6 +13,7 @@ namespace faultline {
 namespace {
 
 constexpr int kPositions = 32;
+constexpr double kWide = 3.0;  // rad or m
 constexpr double kGolden = 0.6180339887498949;
 constexpr double kMostTakenOff = 0.9;  // of the mass that the tip feels like
 
@@ -32,14 +33,17 @@ Chain<double> with_unit_payload(const Chain<double>& chain) {
   return loaded;
 }
 
-/// Joint positions spread over the healthy range: multiples of irrational shares (Weyl's sequence).
+/// Joint positions spread over the healthy range, and widely where it is not known: multiples of
+/// irrational shares (Weyl's sequence).
 JointVector<double> spread_position(const MotionModel& model, int i) {
   JointVector<double> q(model.joints());
   double irrational = 0.0;
   for (int j = 0; j < model.joints(); ++j) {
     irrational = std::fmod(irrational + kGolden, 1.0);
     const double share = std::fmod((i + 0.5) * irrational, 1.0);
-    q[j] = model.q_low[j] + share * (model.q_high[j] - model.q_low[j]);
+    const bool known = j < static_cast<int>(model.q_low.size());
+    const double low = known ? model.q_low[j] : -kWide, high = known ? model.q_high[j] : kWide;
+    q[j] = low + share * (high - low);
   }
   return q;
 }
