@@ -111,6 +111,20 @@ std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_
   return static_cast<std::int64_t>(longest_s / model.sample_period_s + 0.5);
 }
 
+std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s) {
+  std::vector<int> joints;
+  for (int j = 0; j < model.robot.joints(); ++j) {
+    bool is_known = false, is_judged = false;
+    for (std::size_t i = 0; i < model.relations.size(); ++i) {
+      if (!tracks(model.relations[i], j)) continue;
+      is_known = true;
+      is_judged = is_judged || judged_s[i] > 0.0;
+    }
+    if (is_known && !is_judged) joints.push_back(j + 1);
+  }
+  return joints;
+}
+
 std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s) {
   std::vector<std::string> spots{
       "Without torque only one thing is judged: whether each joint follows its reference as in the healthy "
@@ -137,7 +151,9 @@ std::vector<std::string> tracking_spots(const Model& model, const std::vector<do
           "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
     else if (!is_judged)
       spots.push_back(fmt::format(
-          "Joint {} is not judged: this log lacks its reference, or it and the joint never move.", j + 1));
+          "Joint {} is not judged: its reference is missing or never changes in this log, or is nowhere like "
+          "those of the healthy logs, or too few complete rows follow each other.",
+          j + 1));
   }
   return spots;
 }

@@ -21,6 +21,9 @@ std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& 
 /// relation.
 std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_s);
 
+/// Joints (from 1) that the model knows to follow a reference, and that this log did not show following one.
+std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s);
+
 /// What such a log cannot show, and from where on a joint is seen to leave its reference, a sentence each.
 std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/diagnose.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -48,6 +50,14 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
   return spots;
 }
 
+/// A joint that was not judged may be anything.
+void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
+  if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
+  diagnosis.verdict = Verdict::inconclusive;
+  diagnosis.verdict_reason = fmt::format(
+      "joint {} could not be held against a reference in this log; the others follow theirs", joints.front());
+}
+
 }  // namespace
 
 Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
@@ -66,6 +76,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
+  if (run.by_tracking)
+    doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
   return diagnosis;
 }
 

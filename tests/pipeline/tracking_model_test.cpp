@@ -79,10 +79,36 @@ TEST(TrackingModel, ALogWithoutItsReferencesIsRefusedWithTheReason) {
   }
 }
 
-TEST(TrackingModel, AReferenceThatNeverMovesLeavesTheLogInconclusive) {
+TEST(TrackingModel, AReferenceThatNeverChangesWhileTheJointMovesLeavesTheLogInconclusive) {
   Log log = SteppedJoint{.seed = 4}.log(20.0);
-  for (JointSignals* signals : {&log.q, &log.q_ref, &log.dq, &log.dq_ref})
-    std::fill((*signals)[0].begin(), (*signals)[0].end(), 0.25);
+  for (JointSignals* signals : {&log.q_ref, &log.dq_ref})
+    std::fill((*signals)[0].begin(), (*signals)[0].end(), 0.0);
+  const Diagnosis diagnosis = diagnosed(log);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_TRUE(diagnosis.faults.empty());
+}
+
+TEST(TrackingModel, AJointThatStandsForTheWholeLogWhileItsReferenceMovesIsLocked) {
+  Log log = SteppedJoint{.seed = 4}.log(20.0);
+  std::fill(log.q[0].begin(), log.q[0].end(), 0.25);
+  std::fill(log.dq[0].begin(), log.dq[0].end(), 0.0);
+  const Diagnosis diagnosis = diagnosed(log);
+  EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
+  ASSERT_FALSE(diagnosis.faults.empty());
+  EXPECT_EQ(diagnosis.faults[0].label, (FaultLabel{FaultKind::locked, 1}));
+  EXPECT_LT(diagnosis.faults[0].alarm_s, 2.0);
+}
+
+TEST(TrackingModel, AParkedJointIsHealthyAndAnEmptyReferenceIsNot) {
+  Log log = SteppedJoint{.seed = 4}.log(20.0);
+  std::fill(log.q[0].begin(), log.q[0].end(), 0.25),
+      std::fill(log.q_ref[0].begin(), log.q_ref[0].end(), 0.25);
+  std::fill(log.dq[0].begin(), log.dq[0].end(), 0.0),
+      std::fill(log.dq_ref[0].begin(), log.dq_ref[0].end(), 0.0);
+  EXPECT_EQ(diagnosed(log).verdict, Verdict::healthy);
+  const double none = std::nan("");
+  std::fill(log.q_ref[0].begin(), log.q_ref[0].end(), none);
+  std::fill(log.dq_ref[0].begin(), log.dq_ref[0].end(), none);
   EXPECT_EQ(diagnosed(log).verdict, Verdict::inconclusive);
 }
 

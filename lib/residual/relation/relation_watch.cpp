@@ -68,9 +68,16 @@ void RelationWatch::look_for_changes(const Log& segment) {
 
 void RelationWatch::finish() {
   if (now_) close(true);
-  if (target_moves_ && input_moves_) return;
+  if (is_connected()) return;
   episodes_.clear();
   judged_rows_ = 0;
+}
+
+/// A channel that never changes is none, but for a joint that stands: against a reference that moves, or
+/// where its reference is.
+bool RelationWatch::is_connected() const {
+  if (relation_.kind != RelationKind::tracking) return target_moves_ && input_moves_;
+  return input_moves_ || (!target_moves_ && episodes_.empty());
 }
 
 void RelationWatch::judge(const RelationSample& sample) {

@@ -66,6 +66,7 @@ class RelationWatch {
   };
 
   void look_for_changes(const Log& segment);
+  bool is_connected() const;
   void judge(const RelationSample& sample);
   Strayed farthest() const;
   double allowed(int window) const;
