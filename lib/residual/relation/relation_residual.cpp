@@ -34,8 +34,11 @@ std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
     predicted += relation_.weights[i] * line_.terms()[i];
     if (i < of_command) by_command = predicted;
   }
-  const bool drive = relation_.kind == RelationKind::actuator;
-  const double by_speed = drive ? predicted - by_command - relation_.weights.back() : 0.0;
+  const bool drive = relation_.kind == RelationKind::actuator,
+             motion = relation_.kind == RelationKind::tracking;
+  double by_speed = drive ? predicted - by_command - relation_.weights.back() : 0.0;
+  if (motion && std::isfinite(last_predicted_)) by_speed = predicted - last_predicted_;
+  last_predicted_ = predicted;
   const bool above = target >= relation_.high && predicted >= relation_.high;
   const bool below = target <= relation_.low && predicted <= relation_.low;
   const bool in_limit = relation_.kind != RelationKind::tracking && (above || below);

@@ -12,7 +12,9 @@ namespace faultline {
 struct RelationSample {
   double time = 0.0;  ///< s
   double predicted = 0.0;
-  double by_speed = 0.0;  ///< of a drive: what of that its speed says, which no day repeats exactly
+  /// What no day repeats exactly: of a drive, what of the prediction its speed says; of a motion, what a
+  /// reference that is logged a row sooner or later changes.
+  double by_speed = 0.0;
   double residual = 0.0;  ///< target less predicted, in the target's unit
 };
 
@@ -33,6 +35,7 @@ class RelationResidual {
 
   const SignalRelation& relation_;
   LagLine line_;
+  double last_predicted_ = std::numeric_limits<double>::quiet_NaN();
   double unknown_s_ = -std::numeric_limits<double>::infinity();  ///< last row beyond what was learned
 };
 
