@@ -18,13 +18,16 @@ constexpr double kStill = 0.2;       // of the motion that should be there, or l
 constexpr double kExplains = 0.5;    // of the residual, by a velocity that is missing
 constexpr double kSameTime_s = 0.1;  // position and velocity show one thing so far apart
 
-const char* what_strayed(const RelationEpisode& episode) {
-  return episode.target == Quantity::q ? "position" : "velocity";
+/// Of an episode or a relation.
+template <typename Tracked>
+const char* what_strayed(const Tracked& tracked) {
+  return tracked.target == Quantity::q ? "position" : "velocity";
 }
 
-std::string unit_of(const RelationEpisode& episode, const Chain<double>& chain) {
-  const AxisKind axis = chain.geometry[episode.joint].kind;
-  return episode.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
+template <typename Tracked>
+const char* unit_of(const Tracked& tracked, const Chain<double>& chain) {
+  const AxisKind axis = chain.geometry[tracked.joint].kind;
+  return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
 /// Hardly anything moved that should have when it began; later the joint may catch up.
@@ -85,8 +88,21 @@ void join(FaultFinding& finding, FaultFinding more, const EvidenceItem& of_more)
   finding.evidence.push_back(std::move(other));
 }
 
-bool tracks(const SignalRelation& relation, int joint) {
-  return relation.kind == RelationKind::tracking && relation.joint == joint;
+/// What the model and a log tell of how one joint follows its reference.
+struct JointTracking {
+  bool is_known = false;
+  std::vector<const SignalRelation*> judged{};
+};
+
+JointTracking tracking_of(int joint, const Model& model, const std::vector<double>& judged_s) {
+  JointTracking out;
+  for (std::size_t i = 0; i < model.relations.size(); ++i) {
+    const SignalRelation& relation = model.relations[i];
+    if (relation.kind != RelationKind::tracking || relation.joint != joint) continue;
+    out.is_known = true;
+    if (judged_s[i] > 0.0) out.judged.push_back(&relation);
+  }
+  return out;
 }
 
 }  // namespace
@@ -114,13 +130,8 @@ std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_
 std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s) {
   std::vector<int> joints;
   for (int j = 0; j < model.robot.joints(); ++j) {
-    bool is_known = false, is_judged = false;
-    for (std::size_t i = 0; i < model.relations.size(); ++i) {
-      if (!tracks(model.relations[i], j)) continue;
-      is_known = true;
-      is_judged = is_judged || judged_s[i] > 0.0;
-    }
-    if (is_known && !is_judged) joints.push_back(j + 1);
+    const JointTracking joint = tracking_of(j, model, judged_s);
+    if (joint.is_known && joint.judged.empty()) joints.push_back(j + 1);
   }
   return joints;
 }
@@ -131,25 +142,17 @@ std::vector<std::string> tracking_spots(const Model& model, const std::vector<do
       "logs. Lost torque, friction, loads, pushes and sensor faults that the controller makes up for cannot be "
       "seen."};
   for (int j = 0; j < model.robot.joints(); ++j) {
-    bool is_known = false, is_judged = false;
-    for (std::size_t i = 0; i < model.relations.size(); ++i) {
-      const SignalRelation& relation = model.relations[i];
-      if (!tracks(relation, j)) continue;
-      is_known = true;
-      if (!(judged_s[i] > 0.0)) continue;
-      is_judged = true;
-      const WindowLimit& window = relation.windows[relation.windows.size() / 2];
-      const AxisKind axis = model.robot.chain.geometry[j].kind;
-      const bool position = relation.target == Quantity::q;
-      spots.push_back(
-          fmt::format("Joint {}: {} errors below {:.2g} {} over {:g} s are not told from healthy.", j + 1,
-                      position ? "position" : "velocity", window.limit,
-                      position ? position_unit(axis) : velocity_unit(axis), window.window_s));
+    const JointTracking joint = tracking_of(j, model, judged_s);
+    for (const SignalRelation* relation : joint.judged) {
+      const WindowLimit& window = relation->windows[relation->windows.size() / 2];
+      spots.push_back(fmt::format(
+          "Joint {}: {} errors below {:.2g} {} over {:g} s are not told from healthy.", j + 1,
+          what_strayed(*relation), window.limit, unit_of(*relation, model.robot.chain), window.window_s));
     }
-    if (!is_known)
+    if (!joint.is_known)
       spots.push_back(fmt::format(
           "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
-    else if (!is_judged)
+    else if (joint.judged.empty())
       spots.push_back(fmt::format(
           "Joint {} is not judged: its reference is missing or never changes in this log, or is nowhere like "
           "those of the healthy logs, or too few complete rows follow each other.",

@@ -32,9 +32,9 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   relations.finish();
   MonitoredLog out;
   out.log = log_facts(log, tally, model);
+  out.log.is_tracked = true;
   out.relation_episodes = relations.episodes();
   out.relations_judged_s = relations.judged_s();
-  out.by_tracking = true;
   return out;
 }
 
@@ -69,11 +69,9 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   relations.finish();
   LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
   facts.issues.merge(day.notes);
-  return {std::move(facts),         whole.joints(),
-          evidence.episodes(),      samples.alarms(),
-          evidence.largest_ratio(), evidence.slow_estimates(),
-          evidence.slow_faults(),   relations.episodes(),
-          relations.judged_s(),     false};
+  return {std::move(facts),       whole.joints(),           evidence.episodes(),
+          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
+          evidence.slow_faults(), relations.episodes(),     relations.judged_s()};
 }
 
 }  // namespace faultline

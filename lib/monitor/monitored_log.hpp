@@ -22,7 +22,6 @@ struct MonitoredLog {
   std::vector<SlowFault> slow_faults;              ///< likewise
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
-  bool by_tracking = false;  ///< there is no torque to judge: only how the motion follows its reference
 };
 
 }  // namespace faultline

@@ -32,7 +32,7 @@ void add_slow_faults(const std::vector<SlowFault>& slow, const Model& model,
 }
 
 std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
-  if (run.by_tracking) return tracking_findings(run.relation_episodes, model.robot.chain);
+  if (run.log.is_tracked) return tracking_findings(run.relation_episodes, model.robot.chain);
   std::vector<FaultFinding> faults;
   for (const MonitoredEpisode& episode : run.episodes)
     faults.push_back(decide_episode(episode, model, cases));
@@ -42,7 +42,7 @@ std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, 
 }
 
 std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
-  if (run.by_tracking) return tracking_spots(model, run.relations_judged_s);
+  if (run.log.is_tracked) return tracking_spots(model, run.relations_judged_s);
   std::vector<std::string> spots = blind_spots(model.robot.log.torque, run.log.has_velocity);
   for (auto& more : {relation_spots(model.relations, run.relations_judged_s), weak_spots(model.validation),
                      reach_sentences(model.validation.reach, model.robot.chain)})
@@ -65,18 +65,16 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   const MonitoredLog run = monitor(log, model, options);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
-  if (run.by_tracking) {
-    diagnosis.log.is_tracked = true;
+  if (run.log.is_tracked)
     diagnosis.log.judgeable_rows =
         std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
-  }
   diagnosis.model = {model.name, model.sha256, cases.sha256()};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
-  if (run.by_tracking)
+  if (run.log.is_tracked)
     doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
   return diagnosis;
 }
