@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/identify/fit_alike.hpp"
@@ -14,7 +18,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kContradicts = 5.0;  // standard errors
+constexpr double kContradicts = 5.0;   // standard errors
+constexpr int kMostRounds = 3;         // of fitting at the lengths that the fit before found
+constexpr double kOtherLength = 1e-3;  // of a length: less changes no torque that could be told
 
 /// Whether the same base parameters mean other torques at other lengths.
 bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
@@ -32,8 +38,16 @@ void add_contradiction(double ratio, Identification& id) {
                   ratio)));
 }
 
-/// Masses and lengths; when all lengths are settled, the chain is rebuilt on them.
-void settle_physical(std::span<const BaseEstimate> estimates, Identification& id) {
+bool differ(const std::vector<double>& lengths, const std::vector<double>& used) {
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (std::abs(lengths[i] - used[i]) > kOtherLength * std::abs(lengths[i])) return true;
+  return false;
+}
+
+/// Masses and lengths; when all lengths are settled, the chain is rebuilt on them. Returns the lengths where
+/// the base parameters mean other torques on them, so that only another fit can take them.
+std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate> estimates,
+                                                   Identification& id) {
   const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
   id.physical_parameters = physical.parameters;
   if (physical.contradiction > kContradicts) add_contradiction(physical.contradiction, id);
@@ -41,14 +55,16 @@ void settle_physical(std::span<const BaseEstimate> estimates, Identification& id
     id.status = IdentificationStatus::poorly_excited;
     id.reason += fmt::format("; these motions hardly tell {}", fmt::join(physical.hardly_told, ", "));
   }
-  if (!physical.lengths) return;
+  if (!physical.lengths) return std::nullopt;
   Robot sized = id.robot;
   sized.chain.length = *physical.lengths;
   ParameterSpace space = parameter_space(sized);
   space.extra = id.space.extra;
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
-  if (space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space)) id.space = space;
+  const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);
+  if (same_base) id.space = space;
+  return same_base || !differ(*physical.lengths, id.robot.chain.length) ? std::nullopt : physical.lengths;
 }
 
 void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {
@@ -71,6 +87,34 @@ Issue payload_issue(const Identification& loaded, double payload) {
   return make_issue("payload_logs", Severity::note,
                     fmt::format("the logs with {:g} kg at the tip are {}: {}", payload,
                                 to_string(loaded.status), loaded.reason));
+}
+
+/// An identification, and the lengths to fit again at, if any.
+struct Round {
+  Identification id;
+  std::optional<std::vector<double>> lengths;
+};
+
+Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, const Robot& robot,
+                 const IdentifyOptions& options, const Progress& progress) {
+  AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);
+  Identification& id = unloaded.id;
+  std::vector<BaseEstimate> estimates = {{id.estimate, id.covariance, unloaded.usable, {}}};
+  const Identification first = id;
+  id.logs.resize(logs);
+  take_logs(first, groups[0], id);
+  number_logs(groups[0], id);
+  for (std::size_t g = 1; g < groups.size(); ++g) {
+    const AlikeFit loaded = fit_alike(groups[g].logs, robot, options, progress);
+    estimates.push_back({loaded.id.estimate, loaded.id.covariance, loaded.usable, groups[g].payload});
+    take_logs(loaded.id, groups[g], id);
+    id.issues.merge(loaded.id.issues);
+    if (loaded.id.status != IdentificationStatus::converged)
+      id.issues.add(payload_issue(loaded.id, groups[g].payload.value));
+  }
+  std::optional<std::vector<double>> lengths = settle_physical(estimates, id);
+  id.robot = robot_with(id.robot, id.space, id.estimate);
+  return {std::move(id), std::move(lengths)};
 }
 
 }  // namespace
@@ -96,24 +140,13 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
   quiet_solver();
   std::vector<PayloadGroup> groups = group_by_payload(logs, robot);
   if (groups.empty()) groups.emplace_back();
-  AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);
-  Identification& id = unloaded.id;
-  std::vector<BaseEstimate> estimates = {{id.estimate, id.covariance, unloaded.usable, {}}};
-  const Identification first = id;
-  id.logs.resize(logs.size());
-  take_logs(first, groups[0], id);
-  number_logs(groups[0], id);
-  for (std::size_t g = 1; g < groups.size(); ++g) {
-    const AlikeFit loaded = fit_alike(groups[g].logs, robot, options, progress);
-    estimates.push_back({loaded.id.estimate, loaded.id.covariance, loaded.usable, groups[g].payload});
-    take_logs(loaded.id, groups[g], id);
-    id.issues.merge(loaded.id.issues);
-    if (loaded.id.status != IdentificationStatus::converged)
-      id.issues.add(payload_issue(loaded.id, groups[g].payload.value));
+  Round round = fit_groups(groups, logs.size(), robot, options, progress);
+  Robot sized = robot;
+  for (int k = 1; k < kMostRounds && round.lengths; ++k) {
+    sized.chain.length = *round.lengths;
+    round = fit_groups(groups, logs.size(), sized, options, progress);
   }
-  settle_physical(estimates, id);
-  id.robot = robot_with(id.robot, id.space, id.estimate);
-  return std::move(id);
+  return std::move(round.id);
 }
 
 }  // namespace faultline

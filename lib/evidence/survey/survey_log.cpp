@@ -22,10 +22,11 @@ constexpr int kSettlingRows = 10;       // which the filter needs to forget its 
 constexpr double kWellExplained = 1.2;  // mean chi-square of a number: nothing is tried below
 constexpr double kMoves = 0.1;          // of the usual speed: slower rows say nothing of torques
 constexpr int kPeriodRows = 32;
-constexpr double kLostRow = 0.75;     // periods more than those rows take
-constexpr double kLeastGain = 10.0;   // nats, in one of the first two stretches that move
-constexpr double kMostOfFirst = 2.0;  // times the first gain: more may be a fault that came later
-constexpr double kPeaks = 2.0;        // times the level that suits the whole, for where it peaks
+constexpr double kLostRow = 0.75;      // periods more than those rows take
+constexpr double kLeastGain = 10.0;    // nats, in one of the first two stretches that move
+constexpr double kFromTheStart = 0.1;  // of what the second gains, which the first gains too
+constexpr double kMostOfFirst = 2.0;   // times the first gain: more may be a fault that came later
+constexpr double kPeaks = 2.0;         // times the level that suits the whole, for where it peaks
 constexpr std::array kShares = {0.003, 0.006, 0.012, 0.025, 0.05, 0.1};  // of the largest torque
 constexpr std::array kMemories_s = {0.004, 0.03};
 
@@ -133,11 +134,13 @@ class Survey {
                        [&](int s) { return best_.chi_square[s] > kWellExplained; });
   }
 
-  /// What a day gains, as far as the first stretches speak for it; 0 where they do not.
+  /// What a day gains, as far as the first stretches speak for it; 0 where they do not, or where only the
+  /// second does: a fault may have begun there.
   double gain_of(const Explained& with) const {
+    const auto gain = [&](int s) { return with.log_likelihood[s] - best_.log_likelihood[s]; };
     double first = 0.0;
-    for (const int s : moving_) first = std::max(first, with.log_likelihood[s] - best_.log_likelihood[s]);
-    if (first < kLeastGain) return 0.0;
+    for (const int s : moving_) first = std::max(first, gain(s));
+    if (first < kLeastGain || gain(moving_.front()) < kFromTheStart * first) return 0.0;
     double sum = 0.0;
     for (int s = 0; s < kStretches; ++s)
       sum += std::min(with.log_likelihood[s] - best_.log_likelihood[s], kMostOfFirst * first);
