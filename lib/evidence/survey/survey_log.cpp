@@ -27,6 +27,8 @@ constexpr double kLeastGain = 10.0;    // nats, in one of the first two stretche
 constexpr double kFromTheStart = 0.1;  // of what the second gains, which the first gains too
 constexpr double kMostOfFirst = 2.0;   // times the first gain: more may be a fault that came later
 constexpr double kPeaks = 2.0;         // times the level that suits the whole, for where it peaks
+constexpr double kHidden = 1.5;        // times its noise: what jitters there is motion, not noise
+constexpr std::array kNoiseLevels = {1.4142, 2.0};                       // times the usual
 constexpr std::array kShares = {0.003, 0.006, 0.012, 0.025, 0.05, 0.1};  // of the largest torque
 constexpr std::array kMemories_s = {0.004, 0.03};
 
@@ -122,6 +124,7 @@ class Survey {
     best_ = explained(rows_, day_.model, day_.noise);
     if (is_badly_explained() && !rows_.tau.empty()) {
       try_stamps_and_timing();
+      try_noisy_readings();
       try_rough_torque();
     }
     return std::move(day_);
@@ -176,6 +179,39 @@ class Survey {
     note("torque_timing",
          fmt::format("the torque is logged a row {} than in the learned logs; it is taken where it acts",
                      best_shift > 0 ? "later" : "earlier"));
+  }
+
+  /// Rows too far apart to tell a log's noise from its motion: the filter tells it.
+  LogNoise noisier(double level) const {
+    const MotionModel& model = day_.model;
+    const auto raise = [&](double& scale, const std::vector<double>& usual, const std::vector<double>& std,
+                           std::size_t j) {
+      if (j < usual.size() && j < std.size() && usual[j] > kHidden * std[j])
+        scale = std::max(scale, std::min(level, model.noise_range[1]));
+    };
+    LogNoise noise = day_.noise;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(model.joints()); ++j) {
+      raise(noise.q_scale[j], model.usual_noise.q, model.q_std, j);
+      raise(noise.dq_scale[j], model.usual_noise.dq, model.dq_std, j);
+    }
+    return noise;
+  }
+
+  void try_noisy_readings() {
+    LogNoise best = day_.noise;
+    Explained best_explained = best_;
+    double best_gain = 0.0;
+    for (const double level : kNoiseLevels) {
+      const LogNoise noise = noisier(level);
+      if (noise.q_scale == day_.noise.q_scale && noise.dq_scale == day_.noise.dq_scale) continue;
+      const Explained with = explained(rows_, day_.model, noise);
+      if (const double gain = gain_of(with); gain > best_gain)
+        best_gain = gain, best = noise, best_explained = with;
+    }
+    if (best_gain <= 0.0) return;
+    day_.noise = best;
+    best_ = best_explained;
+    note("noisy_readings", "the readings jitter more than in the learned logs; small faults are seen later");
   }
 
   /// The day with a coloured torque of `joint` (-1: of all) that is at least that rough.

@@ -24,6 +24,7 @@ Watch::Watch(const Watch& before, FaultyRobot robot, const GaussianState& state,
       trigger_(robot_.model),
       bank_(robot_.model, follower_.dynamics(), before.bank_.hypotheses(), robot_.closed),
       history_(kHistory) {
+  may_learn_range_ = false;
   follower_.restore(state);
   FollowedSample& first = history_.push();
   first = before.history_.back();
@@ -79,7 +80,7 @@ void Watch::watch() {
   if (now.row < rearm_row_ && statistic_ < kNewSuspicion * looked_into_ && repeats != kSuspiciousRepeats)
     return;
   largest_trigger_ = std::max(largest_trigger_, statistic_);
-  if (statistic_ < kCalm * options_.trigger) follower_.learn_range(now);
+  if (statistic_ < kCalm * options_.trigger && may_learn_range_) follower_.learn_range(now);
   if (!suspicious()) return;
   looked_into_ = statistic_;
   test_.emplace(bank_, history_, options_, restart_, repeats);

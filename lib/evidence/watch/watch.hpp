@@ -81,6 +81,7 @@ class Watch {
   History history_;
   std::optional<HypothesisTest> test_;
   double statistic_ = 0.0;
+  bool may_learn_range_ = true;  ///< where a fault leads a joint, such as onto its stop, is no healthy place
   std::optional<GaussianState> kept_;  ///< while standing by
   std::int64_t restart_ = 0;           ///< number of the sample at which the filter last started anew
   double looked_into_ = 0.0;
