@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/evidence_monitor.hpp"
 
+#include <algorithm>
+
 namespace faultline {
 namespace {
 
@@ -40,6 +42,12 @@ void EvidenceMonitor::summarise_new() {
   const std::vector<EpisodeEvidence>& detected = detector_.episodes();
   for (std::size_t i = residuals_.size(); i < detected.size(); ++i)
     residuals_.push_back(recent_.between(detected[i].onset_s, detected[i].isolated_s));
+}
+
+bool EvidenceMonitor::has_alarmed_since(double time_s) const {
+  const std::vector<EpisodeEvidence>& episodes = detector_.episodes();
+  return std::any_of(episodes.begin(), episodes.end(),
+                     [&](const EpisodeEvidence& episode) { return episode.alarm_s >= time_s; });
 }
 
 std::vector<MonitoredEpisode> EvidenceMonitor::episodes() const {

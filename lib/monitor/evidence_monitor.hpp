@@ -33,6 +33,8 @@ class EvidenceMonitor {
   void finish();
 
   std::vector<MonitoredEpisode> episodes() const;
+  /// Whether an episode with an alarm at `time_s` or later was named.
+  bool has_alarmed_since(double time_s) const;
   /// What the log tells of the robot's slow states; empty without rows.
   std::vector<SlowEstimate> slow_estimates() const { return detector_.slow_estimates(); }
   const std::vector<SlowFault>& slow_faults() const { return detector_.slow_faults(); }

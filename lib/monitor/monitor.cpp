@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/monitor.hpp"
 
+#include <limits>
+
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/monitor/evidence_monitor.hpp"
@@ -38,9 +40,8 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   return out;
 }
 
-}  // namespace
-
-MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
+MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options,
+                     double enough_from_s) {
   if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
   LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
@@ -63,6 +64,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
       samples.take(residuals);
     else
       evidence.take(segment, std::move(residuals));
+    if (evidence.has_alarmed_since(enough_from_s)) break;
   }
   evidence.finish();
   samples.finish();
@@ -72,6 +74,16 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   return {std::move(facts),       whole.joints(),           evidence.episodes(),
           samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
           evidence.slow_faults(), relations.episodes(),     relations.judged_s()};
+}
+
+}  // namespace
+
+MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
+  return monitor(log, model, options, std::numeric_limits<double>::infinity());
+}
+
+MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s) {
+  return monitor(log, model, {}, enough_from_s);
 }
 
 }  // namespace faultline

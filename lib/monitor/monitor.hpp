@@ -14,4 +14,8 @@ namespace faultline {
 /// the model's robot, or no torque.
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options = {});
 
+/// The same, but the log is read only until an episode was named whose alarm is at `enough_from_s` or later,
+/// to the end of that segment.
+MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s);
+
 }  // namespace faultline

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
 constexpr double kSecondsPerHour = 3600.0;
+constexpr int kRowsAtATime = 64;
 constexpr double kMostRaised = 2.0;  // times the threshold before
 
 bool alarmed_early(const MonitoredRun& run) {
@@ -43,6 +44,12 @@ void count(const MonitoredRun& run, double alarm_s, const FaultFinding& finding,
   delays.push_back(alarm_s - run.onset_s);
 }
 
+/// Of a faulty run only the episode of its fault is asked for, and what came before.
+MonitoredLog monitored(LogSource& log, const TwinRun& run, const Model& model) {
+  return run.label.kind == FaultKind::none ? monitor(log, model)
+                                           : monitor_until_found(log, model, run.onset_s);
+}
+
 double size_of(const TwinRun& run) {
   const FaultDescription& fault = describe(run.label.kind);
   if (fault.size_count == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -60,8 +67,8 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
   parallel_for(static_cast<int>(labels.size()), threads, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
-    MemorySource source(std::move(run.log), "simulated");
-    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitor(source, model), size_of(run)};
+    MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
+    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitored(source, run, model), size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));
