@@ -46,10 +46,14 @@ std::string validation_text(const Validation& validation) {
     text += fmt::format("{} {:>10} {:>8}\n", counts_text(to_string(row.kind), row),
                         delay_text(row.median_delay_s), delay_text(row.p90_delay_s));
   text += counts_text("all", sum_of(validation.rows)) + "\n";
-  return text +
-         fmt::format(
-             "False alarms: {} in {:.2f} h of simulated healthy running; alarms before the onset: {}.\n",
-             validation.false_alarms, validation.healthy_hours, validation.early_alarms);
+  text +=
+      fmt::format("False alarms: {} in {:.2f} h of simulated healthy running; alarms before the onset: {}.\n",
+                  validation.false_alarms, validation.healthy_hours, validation.early_alarms);
+  if (std::isfinite(validation.confidence_error))
+    text += fmt::format(
+        "Confidences are calibrated: {:.2f} from how often they are right in the mean ({:.2f} before).\n",
+        validation.confidence_error, validation.raw_confidence_error);
+  return text;
 }
 
 /// The smallest fault of each kind and joint that would be found.

@@ -22,17 +22,19 @@ struct ConditionItem {
 
   /// Whether the log tells it better than the normal range does.
   bool is_told() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
-  /// Whether the whole interval lies outside the normal range.
-  bool is_beyond() const { return ci95[0] > normal_range || ci95[1] < -normal_range; }
+  /// Whether the whole interval lies outside the normal range, or so many times it.
+  bool is_beyond(double ranges = 1.0) const {
+    return ci95[0] > ranges * normal_range || ci95[1] < -ranges * normal_range;
+  }
 };
 
 /// The slow states that stay, in the order in which they are; what passes within a second is no condition.
 std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimates,
                                         const Chain<double>& chain);
 
-/// What is beyond its normal range, such as "friction of joint 1 (+52 %, normal within 30 %)"; empty if
-/// nothing is.
-std::string beyond_normal(const std::vector<ConditionItem>& condition);
+/// What is beyond its normal range, or so many times it, such as "friction of joint 1 (+52 %, normal within
+/// 30 %)"; empty if nothing is.
+std::string beyond_normal(const std::vector<ConditionItem>& condition, double ranges = 1.0);
 
 /// "+5.13 %", in three significant digits.
 std::string condition_value_text(double value, const std::string& unit);

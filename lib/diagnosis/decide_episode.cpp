@@ -6,13 +6,24 @@
 #include "lib/diagnosis/finding.hpp"
 
 namespace faultline {
+namespace {
+
+/// An unknown fault is nothing that the runs held it against had.
+double calibrated(const Decision& decision, const ConfidenceCalibration& calibration) {
+  if (decision.label.kind == FaultKind::unknown) return decision.confidence;
+  return calibration.of(confidence_source(decision.decided_by), decision.confidence);
+}
+
+}  // namespace
 
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
   DescribedEpisode described = describe_episode(observed, model);
   DecisionBasis basis{
       std::move(described.evidence), std::move(described.episode), {}, observed.evidence.usual};
   basis.votes = votes_on(basis.episode, cases);
-  return finding_of({observed, basis, decide(basis)}, model);
+  Decision decision = decide(basis);
+  decision.confidence = calibrated(decision, model.confidence);
+  return finding_of({observed, basis, decision}, model);
 }
 
 }  // namespace faultline

@@ -25,4 +25,9 @@ const char* to_string(DecidedBy decided_by) {
   return "abstained";
 }
 
+ConfidenceSource confidence_source(DecidedBy decided_by) {
+  if (decided_by == DecidedBy::agreement) return ConfidenceSource::networks;
+  return decided_by == DecidedBy::cases ? ConfidenceSource::votes : ConfidenceSource::likelihood;
+}
+
 }  // namespace faultline

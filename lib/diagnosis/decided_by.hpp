@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lib/classify/confidence_calibration.hpp"
+
 namespace faultline {
 
 /// Who settled what a fault is.
@@ -15,5 +17,8 @@ enum class DecidedBy {
   abstained,    ///< nobody: too thin or too even to name a fault
 };
 const char* to_string(DecidedBy decided_by);
+
+/// What the confidence of a decision on an episode was worked out from.
+ConfidenceSource confidence_source(DecidedBy decided_by);
 
 }  // namespace faultline

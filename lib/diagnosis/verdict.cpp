@@ -12,9 +12,25 @@ namespace {
 constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
 constexpr double kLeastPower =
     0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
+constexpr double kFarBeyond = 2.0;  // normal ranges: what is there is no healthy robot any more
 constexpr double kPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
+
+/// Why a log in which no fault was found is not called healthy; empty when it can be.
+std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
+  if (power < kLeastPower)
+    return fmt::format(
+        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
+        "logs that resemble each other more",
+        kPercent * power);
+  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
+  if (far.empty()) return "";
+  return fmt::format(
+      "no moment was found at which a fault begins, but the robot is not as it was when healthy logs were "
+      "recorded: {}; where that is so on purpose, learn a model from logs of today",
+      far);
+}
 
 /// Why the log cannot be judged with this model; empty when it can.
 std::string why_inconclusive(const LogFacts& log, double model_period_s) {
@@ -47,12 +63,9 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.faults = merge_continued(std::move(faults));
   number_by_onset(diagnosis.faults);
   const std::size_t count = diagnosis.faults.size();
-  if (count == 0 && power < kLeastPower) {
+  if (const std::string doubt = count == 0 ? why_not_healthy(diagnosis, power) : ""; !doubt.empty()) {
     diagnosis.verdict = Verdict::inconclusive;
-    diagnosis.verdict_reason = fmt::format(
-        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
-        "logs that resemble each other more",
-        kPercent * power);
+    diagnosis.verdict_reason = doubt;
     return;
   }
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;

@@ -165,6 +165,24 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .twin_length_s = {.low = 0.02, .high = 0.8, .spread = Spread::log_uniform},  // from a bump to a push
     },
     {
+        .kind = FaultKind::torque_sensor_error,
+        .name = "torque_sensor_error",
+        .heading = "torque or current sensor offset",
+        .of_a_joint = "has a torque or current sensor that is off",
+        .next_check =
+            "Read torque or motor current of {} with the drive off: it should be 0. Look at the zero of the "
+            "current sensor, the calibration of the torque sensor and loose shields; see also whether "
+            "something leans on the arm or pulls at it.",
+        .size_words = "the torque reads {first:+.3g} {torque} too much",
+        .acts_on = FaultActsOn::motion,  // a drive that misreads its current gives another torque
+        .size = {{{
+            .measure = SizeMeasure::torque,
+            .prior_std = 0.6,
+            .twin = {.low = 0.1, .high = 0.6, .spread = Spread::log_uniform, .either_sign = true},
+        }}},
+        .size_count = 1,
+    },
+    {
         .kind = FaultKind::unknown,
         .name = "unknown",
         .heading = "unknown fault",

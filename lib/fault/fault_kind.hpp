@@ -8,16 +8,17 @@ namespace faultline {
 /// A kind of fault. What is to be known of it stands in fault_catalogue.cpp, in the same order.
 enum class FaultKind {
   none,
-  free_swinging,      ///< no torque reaches the joint
-  locked,             ///< the joint does not move
-  torque_loss,        ///< a share of the torque is lost
-  sensor_bias,        ///< the position reads too much by a constant
-  stuck_encoder,      ///< position and velocity repeat the last code
-  sensor_drift,       ///< the position error grows with time
-  friction_increase,  ///< more viscous and Coulomb friction
-  payload_change,     ///< mass added at, or taken from, the tip
-  collision,          ///< a short external force
-  unknown,            ///< a fault like none of these; the last one
+  free_swinging,        ///< no torque reaches the joint
+  locked,               ///< the joint does not move
+  torque_loss,          ///< a share of the torque is lost
+  sensor_bias,          ///< the position reads too much by a constant
+  stuck_encoder,        ///< position and velocity repeat the last code
+  sensor_drift,         ///< the position error grows with time
+  friction_increase,    ///< more viscous and Coulomb friction
+  payload_change,       ///< mass added at, or taken from, the tip
+  collision,            ///< a short external force
+  torque_sensor_error,  ///< torque or motor current are measured with an offset
+  unknown,              ///< a fault like none of these; the last one
 };
 
 inline constexpr int kFaultKinds = static_cast<int>(FaultKind::unknown) + 1;

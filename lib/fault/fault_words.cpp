@@ -14,7 +14,7 @@ struct Alike {
   const char* why;
 };
 
-constexpr std::array<Alike, 9> kAlike = {{
+constexpr std::array<Alike, 11> kAlike = {{
     {FaultKind::free_swinging, FaultKind::torque_loss, true,
      "losing all of the torque and swinging freely are the same motion; only the share lost tells them "
      "apart"},
@@ -33,6 +33,10 @@ constexpr std::array<Alike, 9> kAlike = {{
      "one jump at the start and nothing after it can be an offset of the reading or a short push"},
     {FaultKind::friction_increase, FaultKind::payload_change, false,
      "more friction and more load both ask for more torque while speeding up"},
+    {FaultKind::torque_sensor_error, FaultKind::collision, true,
+     "a torque that reads too much and something that pushes look alike while it pushes"},
+    {FaultKind::torque_sensor_error, FaultKind::payload_change, false,
+     "a lifting joint whose torque reads too much moves as one with more load does at rest"},
     {FaultKind::free_swinging, FaultKind::locked, true,
      "a joint that swings freely onto an end stop, or rests there, does not move either"},
 }};

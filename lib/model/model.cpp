@@ -19,7 +19,7 @@ namespace faultline {
 namespace {
 
 constexpr const char* kSchemaName = "faultline/model/";
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr const char* kLearnedFromTracking = "tracking";  // logs without torque: no mechanics
 
 nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
@@ -73,6 +73,15 @@ nlohmann::json parse(const std::string& text, const std::string& where) {
   return json;
 }
 
+nlohmann::json calibration_to_json(const ConfidenceCalibration& calibration) {
+  return {{"slope", calibration.slope}, {"shift", calibration.shift}, {"most", calibration.most}};
+}
+
+ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
+  return {json.at("slope").get<double>(), json.at("shift").get<std::array<double, kConfidenceSources>>(),
+          json.at("most").get<double>()};
+}
+
 Model read_members(const nlohmann::json& json, const std::string& where) {
   Model model;
   model.name = json.at("name").get<std::string>();
@@ -96,6 +105,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
+  model.confidence = calibration_from_json(json.at("confidence"));
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
   if (json.contains("twin")) model.twin = twin_from_json(nlohmann::ordered_json(json["twin"]), where);
@@ -114,6 +124,7 @@ void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
   json["motion"] = motion;
   json["residual"] = residual;
   json["judges"] = judges;
+  json["confidence"] = calibration_to_json(model.confidence);
   json["samples"] = samples_to_json(model.samples);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/classify/confidence_calibration.hpp"
 #include "lib/classify/episode_classifier.hpp"
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/classify/sample_classifier.hpp"
@@ -51,6 +52,10 @@ struct Validation {
   int early_alarms = 0;      ///< alarms before the onset, in the runs of `rows`
   double healthy_hours = 0.0;
   int false_alarms = 0;  ///< in them
+  /// Expected calibration error of the confidences in `rows`: as networks, votes and likelihood gave them,
+  /// and calibrated by other runs. NaN where nothing was found.
+  double raw_confidence_error = std::numeric_limits<double>::quiet_NaN();
+  double confidence_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A log that a model was learned from.
@@ -84,6 +89,7 @@ struct Model {
   std::vector<SignalRelation>
       relations;  ///< second residuals, tracking; none where the logs lack the signals
   EpisodeClassifier episode_classifier;
+  ConfidenceCalibration confidence;  ///< of what names a fault, by simulated runs that it was not trained on
   SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;
@@ -95,7 +101,7 @@ struct Model {
   bool has_mechanics() const { return residual.joints() > 0; }
 };
 
-/// The model as one JSON file, schema "faultline/model/1".
+/// The model as one JSON file, schema "faultline/model/2".
 std::string model_to_json(const Model& model);
 /// Throws Error(input) for text that is no model, is cut, is of a newer schema or does not fit together.
 Model model_from_json(const std::string& text, const std::string& where);

@@ -32,7 +32,9 @@ nlohmann::json validation_to_json(const Validation& validation) {
           {"reach", reach},
           {"early_alarms", validation.early_alarms},
           {"healthy_hours", validation.healthy_hours},
-          {"false_alarms", validation.false_alarms}};
+          {"false_alarms", validation.false_alarms},
+          {"raw_confidence_error", number_or_null(validation.raw_confidence_error)},
+          {"confidence_error", number_or_null(validation.confidence_error)}};
 }
 
 Validation validation_from_json(const nlohmann::json& json) {
@@ -53,6 +55,8 @@ Validation validation_from_json(const nlohmann::json& json) {
   validation.early_alarms = json.at("early_alarms");
   validation.healthy_hours = json.at("healthy_hours");
   validation.false_alarms = json.at("false_alarms");
+  validation.raw_confidence_error = number_or_nan(json.at("raw_confidence_error"));
+  validation.confidence_error = number_or_nan(json.at("confidence_error"));
   return validation;
 }
 

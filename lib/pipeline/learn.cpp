@@ -145,7 +145,9 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
                                     seed + kSampleSeeds, options.threads);
   std::vector<MonitoredRun> checks =
       runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0));
-  model.validation = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  Validated validated = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  model.validation = std::move(validated.validation);
+  model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());
   std::move(checks.begin(), checks.end(), std::back_inserter(runs));
   model.validation.reach = reach_of(runs);

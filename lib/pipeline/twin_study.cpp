@@ -99,9 +99,10 @@ double calm_threshold(double threshold, std::span<const MonitoredRun> healthy) {
   return std::max(threshold, std::min(kCalmMargin * largest, kMostRaised * threshold));
 }
 
-Validation validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
-                    const Model& model, const CaseBase& cases) {
-  Validation validation;
+Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
+                   const Model& model, const CaseBase& cases) {
+  Validated out;
+  Validation& validation = out.validation;
   std::map<FaultKind, ValidationRow> rows;
   std::map<FaultKind, std::vector<double>> delays;
   for (const MonitoredRun& run : faulty) {
@@ -113,6 +114,9 @@ Validation validate(std::span<const MonitoredRun> faulty, std::span<const Monito
     if (!episode) continue;
     const FaultFinding finding = decide_episode(*episode, model, cases);
     count(run, episode->evidence.alarm_s, finding, row, delays[run.label.kind]);
+    if (finding.label.kind != FaultKind::unknown)
+      out.judged.push_back(
+          {confidence_source(finding.decided_by), finding.confidence, finding.label == run.label});
   }
   for (auto& [kind, row] : rows) {
     row.median_delay_s = lower_quantile(delays[kind], 0.5);
@@ -123,7 +127,9 @@ Validation validate(std::span<const MonitoredRun> faulty, std::span<const Monito
     validation.healthy_hours += run.length_s / kSecondsPerHour;
     validation.false_alarms += static_cast<int>(run.log.episodes.size());
   }
-  return validation;
+  validation.raw_confidence_error = calibration_error(out.judged);
+  validation.confidence_error = held_out_calibration_error(out.judged);
+  return out;
 }
 
 }  // namespace faultline

@@ -42,8 +42,13 @@ const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
 /// enough.
 double calm_threshold(double threshold, std::span<const MonitoredRun> healthy);
 
+struct Validated {
+  Validation validation;
+  std::vector<JudgedConfidence> judged;  ///< the names that were given in the runs with a fault
+};
+
 /// What the pipeline makes of runs that it was not trained on.
-Validation validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
-                    const Model& model, const CaseBase& cases);
+Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
+                   const Model& model, const CaseBase& cases);
 
 }  // namespace faultline

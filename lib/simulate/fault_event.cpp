@@ -69,6 +69,8 @@ MachineFault machine_fault(const FaultEvent& fault) {
       return {.tip_mass = fault.size};
     case FaultKind::collision:
       return {.external_torque = fault.size};
+    case FaultKind::torque_sensor_error:
+      return {.external_torque = -fault.size};
   }
   return {};
 }

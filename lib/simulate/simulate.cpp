@@ -13,17 +13,35 @@
 namespace faultline {
 namespace {
 
-enum Stream : std::uint64_t { motion_stream = 1, noise_stream = 2 };
+enum Stream : std::uint64_t { motion_stream = 1, noise_stream = 2, drive_stream = 4 };
 
 constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s: the simulation diverged
 
-void check_list(const Robot& robot, const std::vector<double>& list, const char* key) {
+void check_count(const Robot& robot, const std::vector<double>& list, const char* key) {
   if (!list.empty() && static_cast<int>(list.size()) != robot.joints())
     throw Error(ErrorCode::usage, key,
                 fmt::format("expected {} numbers, found {}", robot.joints(), list.size()));
+}
+
+void check_list(const Robot& robot, const std::vector<double>& list, const char* key) {
+  check_count(robot, list, key);
   for (const double value : list)
     if (!(value > 0.0))
       throw Error(ErrorCode::usage, key, fmt::format("expected positive numbers, found {}", value));
+}
+
+void check_drives(const Robot& robot, const DriveSpec& drives) {
+  check_count(robot, drives.gain, "drives.gain");
+  check_count(robot, drives.offset, "drives.offset");
+  check_count(robot, drives.roughness, "drives.roughness");
+  check_list(robot, drives.roughness_memory_s, "drives.roughness_memory_s");
+  for (const double gain : drives.gain)
+    if (!(gain > -1.0))
+      throw Error(ErrorCode::usage, "drives.gain", fmt::format("expected shares above -1, found {}", gain));
+  for (const double roughness : drives.roughness)
+    if (!(roughness >= 0.0))
+      throw Error(ErrorCode::usage, "drives.roughness",
+                  fmt::format("expected numbers that are not negative, found {}", roughness));
 }
 
 /// Control periods in a sample period.
@@ -42,6 +60,7 @@ int check(const Robot& robot, const SimulationSpec& spec) {
         fmt::format("expected a whole number of control periods in the sample period of {} s, found {} s",
                     spec.sample_period_s, spec.control_period_s));
   check_list(robot, spec.torque_limit, "limits.torque");
+  check_drives(robot, spec.drives);
   check_list(robot, spec.overspeed, "limits.overspeed");
   for (const FaultEvent& fault : spec.faults) check_fault(robot, fault);
   return static_cast<int>(std::lround(ratio));
@@ -157,6 +176,7 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
   const Motion motion = reference_motion(robot, spec, seed);
   const Controller controller(robot, spec.controller, spec.control_period_s);
   Sensors sensors(robot.joints(), spec.noise, faults, Random::stream(seed, noise_stream));
+  Drives drives(robot.joints(), spec.drives, Random::stream(seed, drive_stream));
   Plant plant(robot, spec.stops, faults, spec.max_step_s);
 
   Reference reference;
@@ -179,6 +199,7 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
       for (std::size_t i = 0; i < spec.torque_limit.size(); ++i)
         tau[i] = std::clamp(tau[i], -spec.torque_limit[i], spec.torque_limit[i]);
       if (k == 0) record(run.log, row, {t, sensors, tau, reference});
+      drives.act(spec.control_period_s, tau);
       plant.advance(t, clock.at(tick + 1), tau);
       run.end = state_of(plant, spec.overspeed);
     }

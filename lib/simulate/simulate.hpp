@@ -6,6 +6,7 @@
 
 #include "lib/log/log.hpp"
 #include "lib/simulate/controller.hpp"
+#include "lib/simulate/drives.hpp"
 #include "lib/simulate/fault_event.hpp"
 #include "lib/simulate/motion.hpp"
 #include "lib/simulate/plant.hpp"
@@ -31,6 +32,7 @@ struct SimulationSpec {
   MotionSpec motion{};
   ControllerSpec controller{};
   NoiseSpec noise{};
+  DriveSpec drives{};
   std::vector<double> torque_limit{};  ///< N m or N, one each a joint; empty: none
   JointStops stops{};
   std::vector<double> overspeed{};  ///< true speed at which the drives trip and the log ends; empty: never

@@ -126,6 +126,11 @@ void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t s
   read_list(noise, "q", joints, spec.noise.q);
   read_list(noise, "dq", joints, spec.noise.dq);
   read_list(noise, "q_resolution", joints, spec.noise.q_resolution);
+  const TomlTable drives = table.table("drives");
+  read_list(drives, "gain", joints, spec.drives.gain);
+  read_list(drives, "offset", joints, spec.drives.offset);
+  read_list(drives, "roughness", joints, spec.drives.roughness);
+  read_list(drives, "roughness_memory_s", joints, spec.drives.roughness_memory_s);
   const TomlTable limits = table.table("limits");
   read_list(limits, "torque", joints, spec.torque_limit);
   read_list(limits, "stop_low", joints, spec.stops.low);

@@ -44,6 +44,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
   spec.motion = draw_motion(twin, random);
   spec.controller = draw_controller(twin, attempt == 0, random);
   spec.noise = draw_noise(twin, random);
+  spec.drives = draw_drives(twin, random);
   for (const double speed : twin.motion->velocity_scale)
     spec.overspeed.push_back(twin.options.trip_speed * speed);
   spec.stops = draw_stops(twin, random);

@@ -113,6 +113,24 @@ NoiseSpec draw_noise(const Twin& twin, Random& random) {
   return noise;
 }
 
+DriveSpec draw_drives(const Twin& twin, Random& random) {
+  const auto joints = static_cast<std::size_t>(twin.motion->joints());
+  DriveSpec drives;
+  drives.gain = drives.offset = drives.roughness = std::vector<double>(joints, 0.0);
+  drives.roughness_memory_s = std::vector<double>(joints, twin.sample_period_s);
+  const auto draw = [&](double std) {
+    return std::clamp(std * random.normal(), -kMostStds * std, kMostStds * std);
+  };
+  for (const SlowState& slow : twin.motion->slow) {
+    if (slow.kind == SlowKind::torque_gain) drives.gain[slow.joint] = draw(slow.day_std);
+    if (slow.kind == SlowKind::torque_offset) drives.offset[slow.joint] = draw(slow.day_std);
+    if (slow.kind != SlowKind::coloured_torque) continue;
+    drives.roughness[slow.joint] = slow.day_std;
+    drives.roughness_memory_s[slow.joint] = slow.memory_s;
+  }
+  return drives;
+}
+
 void draw_day(const Twin& twin, Robot& robot, Random& random) {
   for (const SlowState& slow : twin.motion->slow) {
     if (slow.kind != SlowKind::friction) continue;

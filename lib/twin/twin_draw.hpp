@@ -15,6 +15,8 @@ double usual_move_s(const Twin& twin);
 MotionSpec draw_motion(const Twin& twin, Random& random);
 /// PD holds fewer robots than computed torque: a second attempt does without it.
 ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random);
+/// What the drives give beside what is logged, as far as it is normal: offset, torque constant, roughness.
+DriveSpec draw_drives(const Twin& twin, Random& random);
 /// Measurement noise of a day, within the normal range.
 NoiseSpec draw_noise(const Twin& twin, Random& random);
 /// What friction the robot has on a day, within the normal range.

@@ -62,7 +62,7 @@ TEST_F(BadModel, NewerSchema) {
 }
 
 TEST_F(BadModel, NothingButTheSchema) {
-  expect_refused("{\"schema\": \"faultline/model/1\"}", {"robot.model", "damaged", "learn it again"});
+  expect_refused("{\"schema\": \"faultline/model/2\"}", {"robot.model", "damaged", "learn it again"});
 }
 
 TEST_F(BadModel, NotText) {

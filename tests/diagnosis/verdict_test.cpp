@@ -48,6 +48,20 @@ TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
   EXPECT_TRUE(diagnosis.faults.empty());
 }
 
+TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  ConditionItem friction;
+  friction.what = "friction of joint 3";
+  friction.value = 113.0;
+  friction.ci95 = {99.0, 128.0};
+  friction.normal_range = 30.0;
+  friction.unit = "%";
+  diagnosis.condition = {friction};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("friction of joint 3 (+113 %"), std::string::npos);
+}
+
 TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
   Diagnosis diagnosis = of_log(1000, 1000);
   ConditionItem friction;

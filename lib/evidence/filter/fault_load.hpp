@@ -37,6 +37,10 @@ inline void load_joint(FaultKind kind, std::span<const double> sizes, double dq,
       load.coulomb += sizes[1];
       load.size_torque = {-dq, -sign};
       return;
+    case FaultKind::torque_sensor_error:
+      load.drive -= sizes[0];
+      load.size_torque[0] = -1.0;
+      return;
     case FaultKind::collision:
     case FaultKind::unknown:
       load.drive += sizes[0];
@@ -76,6 +80,7 @@ inline SensorError sensor_error(const Hypothesis& hypothesis, int size_index, do
     case FaultKind::friction_increase:
     case FaultKind::payload_change:
     case FaultKind::collision:
+    case FaultKind::torque_sensor_error:
     case FaultKind::unknown:
       return {};
   }

@@ -12,19 +12,18 @@
 #include "lib/core/statistics.hpp"
 #include "lib/evidence/filter/follower.hpp"
 #include "lib/evidence/slow_states.hpp"
+#include "lib/evidence/survey/stretches.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kSurveyedRows = 4000;     // enough calm blocks at any rate
-constexpr int kStretches = 8;           // that the rows are cut into
 constexpr int kSettlingRows = 10;       // which the filter needs to forget its guess
 constexpr double kWellExplained = 1.2;  // mean chi-square of a number: nothing is tried below
-constexpr double kMoves = 0.1;          // of the usual speed: slower rows say nothing of torques
 constexpr int kPeriodRows = 32;
 constexpr double kLostRow = 0.75;      // periods more than those rows take
 constexpr double kLeastGain = 10.0;    // nats, in one of the first two stretches that move
-constexpr double kFromTheStart = 0.1;  // of what the second gains, which the first gains too
+constexpr double kFromTheStart = 0.1;  // of what the second gains by the way it goes, the first gains too
 constexpr double kMostOfFirst = 2.0;   // times the first gain: more may be a fault that came later
 constexpr double kPeaks = 2.0;         // times the level that suits the whole, for where it peaks
 constexpr double kHidden = 1.5;        // times its noise: what jitters there is motion, not noise
@@ -64,7 +63,7 @@ Explained explained(const Log& rows, const MotionModel& model, const LogNoise& n
   for (int k = 0; k < rows.rows(); ++k) {
     follower.follow(rows, k, sample);
     if (k < kSettlingRows) continue;
-    const std::size_t stretch = static_cast<std::size_t>(k) * kStretches / rows.rows();
+    const std::size_t stretch = stretch_of(k, rows.rows());
     out.log_likelihood[stretch] += sample.total_log_likelihood;
     for (int j = 0; j < model.joints(); ++j) {
       out.chi_square[stretch] += sample.chi_square[j];
@@ -74,22 +73,6 @@ Explained explained(const Log& rows, const MotionModel& model, const LogNoise& n
   for (int s = 0; s < kStretches; ++s)
     if (numbers[s] > 0) out.chi_square[s] /= static_cast<double>(numbers[s]);
   return out;
-}
-
-/// The first two stretches in which the robot moves.
-std::vector<int> first_moving(const Log& rows, const MotionModel& model) {
-  std::vector<int> moving;
-  for (int s = 0; s < kStretches && moving.size() < 2; ++s) {
-    const int begin = s * rows.rows() / kStretches, end = (s + 1) * rows.rows() / kStretches;
-    bool moves = false;
-    for (int j = 0; j < model.joints() && end - begin > 1; ++j) {
-      const auto [low, high] = std::minmax_element(rows.q[j].begin() + begin, rows.q[j].begin() + end);
-      moves =
-          moves || *high - *low > kMoves * model.velocity_scale[j] * (rows.time[end - 1] - rows.time[begin]);
-    }
-    if (moves) moving.push_back(s);
-  }
-  return moving;
 }
 
 /// Median of the steps over some rows, which wobble less than single ones.
@@ -121,6 +104,7 @@ class Survey {
   LogDay run() {
     if (rows_.rows() < 2 * kStretches) return std::move(day_);
     moving_ = first_moving(rows_, day_.model);
+    way_ = way_of(rows_, day_.model);
     best_ = explained(rows_, day_.model, day_.noise);
     if (is_badly_explained() && !rows_.tau.empty()) {
       try_stamps_and_timing();
@@ -143,7 +127,9 @@ class Survey {
     const auto gain = [&](int s) { return with.log_likelihood[s] - best_.log_likelihood[s]; };
     double first = 0.0;
     for (const int s : moving_) first = std::max(first, gain(s));
-    if (first < kLeastGain || gain(moving_.front()) < kFromTheStart * first) return 0.0;
+    if (first < kLeastGain) return 0.0;
+    const int begins = moving_.front(), goes_on = moving_.back();
+    if (gain(begins) * way_[goes_on] < kFromTheStart * gain(goes_on) * way_[begins]) return 0.0;
     double sum = 0.0;
     for (int s = 0; s < kStretches; ++s)
       sum += std::min(with.log_likelihood[s] - best_.log_likelihood[s], kMostOfFirst * first);
@@ -268,6 +254,7 @@ class Survey {
   Log rows_;
   LogDay day_;
   std::vector<int> moving_;
+  std::array<double, kStretches> way_{};
   Explained best_;
 };
 

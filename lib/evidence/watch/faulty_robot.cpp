@@ -91,6 +91,9 @@ GaussianState take_fault(FaultyRobot& robot, const Hypothesis& hypothesis, const
     case FaultKind::payload_change:
       add_to_slow_state(robot.model, state, SlowKind::tip_mass, 0, size(0), variance(0));
       break;
+    case FaultKind::torque_sensor_error:
+      add_to_slow_state(robot.model, state, SlowKind::torque_offset, j, -size(0), variance(0));
+      break;
     case FaultKind::friction_increase:
       robot.model.chain.friction[j].viscous += size(0);
       robot.model.chain.friction[j].coulomb += size(1);

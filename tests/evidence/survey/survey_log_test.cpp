@@ -74,5 +74,29 @@ TEST(SurveyLog, AFaultAmongTheFirstRowsIsNotExcused) {
   }
 }
 
+TEST(SurveyLog, WhatOnlyTheSecondStretchAsksForMayBeAFault) {
+  SimulationSpec spec = rrp_run_with(FaultKind::friction_increase, 3, 0.9, 40.0);
+  spec.duration_s = 5.0;
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.01;
+  const LogDay day = day_of(simulate(known_rrp(), spec, 73).log);
+  EXPECT_EQ(day.notes.find("torque_rough"), nullptr);
+}
+
+TEST(SurveyLog, NoiseOfCoarseRowsIsToldByTheFilter) {
+  MotionModel coarse = rrp_motion_model();  // its third differences hold more motion than noise
+  coarse.usual_noise = {{1e-3, 1e-3, 1e-3}, {0.1, 0.1, 0.1}};
+  Log log = healthy();
+  Random random(6);
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < log.rows(); ++k) {
+      log.q[j][k] += 1.7 * coarse.q_std[j] * random.normal();
+      log.dq[j][k] += 1.7 * coarse.dq_std[j] * random.normal();
+    }
+  MemorySource source(log);
+  const LogDay day = survey_log(source, coarse);
+  EXPECT_NE(day.notes.find("noisy_readings"), nullptr);
+  EXPECT_GT(day.noise.q_scale[0], 1.3);
+}
+
 }  // namespace
 }  // namespace faultline

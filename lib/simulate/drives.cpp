@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/drives.hpp"
+
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+constexpr double kUsualMemory_s = 0.03;
+constexpr double kFinestStep = 0.25;  // of the correlation time, over which it hardly changes
+
+std::vector<double> or_all(const std::vector<double>& given, int joints, double usual) {
+  return given.empty() ? std::vector<double>(joints, usual) : given;
+}
+
+}  // namespace
+
+Drives::Drives(int joints, const DriveSpec& spec, Random random)
+    : gain_(or_all(spec.gain, joints, 0.0)),
+      offset_(or_all(spec.offset, joints, 0.0)),
+      roughness_(or_all(spec.roughness, joints, 0.0)),
+      memory_s_(or_all(spec.roughness_memory_s, joints, kUsualMemory_s)),
+      rough_(joints, 0.0),
+      random_(random) {
+  for (int j = 0; j < joints; ++j)
+    if (roughness_[j] > 0.0) rough_[j] = roughness_[j] * random_.normal();
+}
+
+void Drives::act(double length_s, JointVector<double>& commanded) {
+  for (int j = 0; j < commanded.size(); ++j)
+    commanded[j] = (1.0 + gain_[j]) * commanded[j] + offset_[j] + mean_roughness(j, length_s);
+}
+
+double Drives::mean_roughness(int joint, double length_s) {
+  if (!(roughness_[joint] > 0.0)) return 0.0;
+  const int steps = static_cast<int>(std::ceil(length_s / (kFinestStep * memory_s_[joint])));
+  const double keeps = std::exp(-length_s / (steps * memory_s_[joint]));
+  const double stirs = roughness_[joint] * std::sqrt(1.0 - keeps * keeps);
+  double sum = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    sum += rough_[joint];
+    rough_[joint] = keeps * rough_[joint] + stirs * random_.normal();
+  }
+  return sum / steps;
+}
+
+}  // namespace faultline
