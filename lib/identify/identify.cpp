@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kContradicts = 5.0;   // standard errors
 constexpr int kMostRounds = 3;         // of fitting at the lengths that the fit before found
+constexpr double kOtherGuess = 0.05;   // of a length that is a guess
 constexpr double kOtherLength = 1e-3;  // of a length: less changes no torque that could be told
 
 /// Whether the same base parameters mean other torques at other lengths.
@@ -38,14 +39,24 @@ void add_contradiction(double ratio, Identification& id) {
                   ratio)));
 }
 
-bool differ(const std::vector<double>& lengths, const std::vector<double>& used) {
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    if (std::abs(lengths[i] - used[i]) > kOtherLength * std::abs(lengths[i])) return true;
+bool differ(const PhysicalFit& physical, const std::vector<double>& used) {
+  const double alike = physical.guessed_lengths.empty() ? kOtherLength : kOtherGuess;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (std::abs(physical.lengths[i] - used[i]) > alike * std::abs(physical.lengths[i])) return true;
   return false;
 }
 
-/// Masses and lengths; when all lengths are settled, the chain is rebuilt on them. Returns the lengths where
-/// the base parameters mean other torques on them, so that only another fit can take them.
+void add_guess(const PhysicalFit& physical, Identification& id) {
+  id.issues.add(make_issue(
+      "lengths_guessed", Severity::note,
+      fmt::format(
+          "the logs do not tell {}; what positive masses make likely is taken for where the tip and a tool "
+          "on it are: state it under [known] where that matters",
+          fmt::join(physical.guessed_lengths, ", "))));
+}
+
+/// Masses and lengths; the chain is rebuilt on the lengths. Returns them where the base parameters mean other
+/// torques on them, so that only another fit can take them.
 std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate> estimates,
                                                    Identification& id) {
   const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
@@ -55,16 +66,17 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
     id.status = IdentificationStatus::poorly_excited;
     id.reason += fmt::format("; these motions hardly tell {}", fmt::join(physical.hardly_told, ", "));
   }
-  if (!physical.lengths) return std::nullopt;
+  if (!physical.guessed_lengths.empty()) add_guess(physical, id);
   Robot sized = id.robot;
-  sized.chain.length = *physical.lengths;
+  sized.chain.length = physical.lengths;
   ParameterSpace space = parameter_space(sized);
   space.extra = id.space.extra;
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
   const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);
   if (same_base) id.space = space;
-  return same_base || !differ(*physical.lengths, id.robot.chain.length) ? std::nullopt : physical.lengths;
+  if (same_base || !differ(physical, id.robot.chain.length)) return std::nullopt;
+  return physical.lengths;
 }
 
 void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kRank = 1e-7;   ///< of the largest singular value of the relative Jacobian
 constexpr double kMoves = 1e-4;  ///< part of a parameter in a direction that changes no torque
+constexpr double kShortest_m = 0.02, kLongest_m = 10.0;
 constexpr int kStarts = 12;
 constexpr int kIterations = 200;
 
@@ -179,6 +180,13 @@ ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnkno
   return e;
 }
 
+/// Nothing is made of a guess that is no length of a robot.
+void guess_length(const PhysicalUnknown& u, double length, PhysicalFit& fit) {
+  if (!(length > kShortest_m && length < kLongest_m)) return;
+  fit.lengths[u.index] = length;
+  fit.guessed_lengths.push_back(fmt::format("{} (some {:.2g} m)", u.name, length));
+}
+
 }  // namespace
 
 PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
@@ -187,20 +195,18 @@ PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
   const Solution solution = solve_and_judge(equations);
   PhysicalFit fit;
   fit.contradiction = solution.contradiction;
-  std::vector<double> lengths = robot.chain.length;
-  bool all_lengths = true;
+  fit.lengths = robot.chain.length;
   Eigen::Index next = 0;
   for (const PhysicalUnknown& u : equations.unknowns()) {
     const Eigen::Index k = u.exact ? -1 : next++;
     if (u.kind == 'p') continue;
     ParameterEstimate e = u.exact ? given(u) : solved(equations, u, solution, k);
     e.unit = u.kind == 'l' ? "m" : "kg";
-    if (u.kind == 'l') lengths[u.index] = e.value;
-    if (u.kind == 'l' && !e.identifiable) all_lengths = false;
+    if (u.kind == 'l' && e.identifiable) fit.lengths[u.index] = e.value;
+    if (u.kind == 'l' && !e.identifiable) guess_length(u, std::exp(solution.log_value[k]), fit);
     if (k >= 0 && !e.identifiable && solution.freedom[k] < kMoves) fit.hardly_told.push_back(u.name);
     fit.parameters.push_back(std::move(e));
   }
-  if (all_lengths) fit.lengths = lengths;
   return fit;
 }
 

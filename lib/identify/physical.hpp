@@ -16,8 +16,10 @@ struct PhysicalFit {
   /// than masses and lengths; about 1 where the links are what they are taken for. Intervals are wider by it.
   double contradiction = 1.0;
   std::vector<std::string> hardly_told;  ///< those whose interval would reach zero
-  /// Lengths of all links when every one is known or identified.
-  std::optional<std::vector<double>> lengths;
+  /// Of all links. Where one is neither known nor identified, what positive masses make likely: of a SCARA
+  /// whose l1 is known, b / c bounds l2 to +-20 %.
+  std::vector<double> lengths;
+  std::vector<std::string> guessed_lengths;  ///< those, such as "l2 (some 0.25 m)"
 };
 
 /// Base parameters as logs with the same payload give them.
