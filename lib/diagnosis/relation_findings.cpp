@@ -25,6 +25,8 @@ constexpr double kSameTime_s = 0.1;          // the motion may show it so much s
 constexpr double kAftermath_s = 0.3;         // and so long after it has ended
 constexpr double kVague_s = 1.0;             // by which the motion may tell an onset too early
 constexpr double kLeftLaw_s = 1.0;           // a law that is left for longer after a fault follows from it
+constexpr double kConstant = 0.7;            // of the residual, which a constant explains: a sensor's offset
+constexpr double kStays_s = 1.0;             // for which a sensor that is off stays so at least
 constexpr double kJolt_s = 0.1;              // another drive may stray for so long meanwhile
 
 bool is_lost_torque(const RelationEpisode& episode) {
@@ -112,10 +114,23 @@ bool gave_less(const RelationEpisode& episode) {
          episode.share_explains > kShareMayExplain;
 }
 
-/// The motion's word on the same thing becomes evidence; where both say lost torque, its name stays.
+/// Whether it is what a torque sensor makes whose zero has moved.
+bool is_lasting_offset(const RelationEpisode& episode) {
+  return episode.kind == RelationKind::actuator && episode.offset_explains > kConstant &&
+         episode.end_s - episode.onset_s >= kStays_s;
+}
+
+/// What the motion says that the drive's second residual seconds.
+bool seconds(const RelationEpisode& episode, const FaultLabel& motion) {
+  if (motion.joint != episode.joint + 1) return false;
+  return (loses_torque(motion.kind) && gave_less(episode)) ||
+         (motion.kind == FaultKind::torque_sensor_error && is_lasting_offset(episode));
+}
+
+/// The motion's word on the same thing becomes evidence; where both say lost torque, or a sensor that is off,
+/// its name stays.
 void take_over(FaultFinding& finding, const FaultFinding& motion, const RelationEpisode& episode) {
-  if (loses_torque(motion.label.kind) && motion.label.joint == finding.label.joint && gave_less(episode) &&
-      motion.decided_by != DecidedBy::criterion) {
+  if (seconds(episode, motion.label) && motion.decided_by != DecidedBy::criterion) {
     finding.label = motion.label;
     finding.next_check = motion.next_check;
   }
@@ -174,6 +189,10 @@ std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
     const auto within = std::stable_partition(
         motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });
     for (auto m = within; m != motion.end(); ++m) take_over(finding, *m, episode);
+    if (within == motion.end() && is_lasting_offset(episode))
+      finding.could_also_be.push_back(
+          {{FaultKind::torque_sensor_error, episode.joint + 1},
+           "the difference of both torques stays, and the motion shows nothing of it"});
     motion.erase(within, motion.end());
     found.push_back(std::move(finding));
   }

@@ -57,6 +57,22 @@ TEST(RelationFindings, ALossOfTorqueThatTheDriveSecondsKeepsItsName) {
   EXPECT_EQ(added[0].label.kind, FaultKind::unknown) << "the drive gave more, not less";
 }
 
+TEST(RelationFindings, AnOffsetThatStaysMayBeThatOfTheSensor) {
+  RelationEpisode offset = episode(RelationKind::actuator, 1, 3.0, 9.0);
+  offset.offset_explains = 0.9;
+  const FaultLabel sensor{FaultKind::torque_sensor_error, 1};
+  const auto alone = with_relations({}, {offset}, chain());
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(alone[0].label, (FaultLabel{FaultKind::unknown, 1}));
+  ASSERT_EQ(alone[0].could_also_be.size(), 1u);
+  EXPECT_EQ(alone[0].could_also_be[0].label, sensor);
+  const auto both = with_relations({by_motion(sensor.kind, 1, 3.05)}, {offset}, chain());
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_EQ(both[0].label, sensor);
+  offset.end_s = 3.2;
+  EXPECT_TRUE(with_relations({}, {offset}, chain())[0].could_also_be.empty());
+}
+
 TEST(RelationFindings, AShareOfTheCommandThatIsMissingIsALossOfTorque) {
   RelationEpisode lost = episode(RelationKind::actuator, 1, 3.0, 9.0);
   lost.share = 0.4;

@@ -34,6 +34,22 @@ TEST(PhysicalParameters, WithoutAFactTheMissingOneIsNamed) {
   }
 }
 
+TEST(PhysicalParameters, ALengthThatIsNotToldIsGuessedFromPositiveMasses) {
+  Robot nominal = preset_robot("RRP"), truth = nominal;
+  nominal.known["l1"] = {0.35, 0.0};
+  set_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  const ParameterSpace space = parameter_space(nominal);
+  const Eigen::VectorXd p = parameters_of(space, truth.chain, 0.0);
+  std::vector<bool> usable(space.rigid(), true);
+  usable[3] = false;  // nobody knows m3
+  const BaseEstimate estimate{p, Eigen::MatrixXd::Identity(p.size(), p.size()) * 1e-10, usable, {}};
+  const PhysicalFit fit = physical_parameters(nominal, space, {&estimate, 1});
+  ASSERT_EQ(fit.guessed_lengths.size(), 1u);
+  EXPECT_EQ(fit.guessed_lengths[0].substr(0, 3), "l2 ");
+  EXPECT_NEAR(fit.lengths[1] / 0.3, 1.0, 0.25);
+  EXPECT_EQ(fit.lengths[0], 0.35);
+}
+
 TEST(PhysicalParameters, OneLengthClosesAllMassesAndLengths) {
   Robot robot = preset_robot("RRP");
   robot.known["l1"] = {0.35, 0.0};

@@ -53,6 +53,10 @@ std::optional<HypothesisTest::Conclusion> Watch::look() {
     watch();
     return std::nullopt;
   }
+  if (is_outgrown()) {
+    test_now();
+    return std::nullopt;
+  }
   test_->advance();
   return test_->ready() ? conclude() : std::nullopt;
 }
@@ -82,8 +86,12 @@ void Watch::watch() {
   largest_trigger_ = std::max(largest_trigger_, statistic_);
   if (statistic_ < kCalm * options_.trigger && may_learn_range_) follower_.learn_range(now);
   if (!suspicious()) return;
+  test_now();
+}
+
+void Watch::test_now() {
   looked_into_ = statistic_;
-  test_.emplace(bank_, history_, options_, restart_, repeats);
+  test_.emplace(bank_, history_, options_, restart_, trigger_.repeated_codes());
 }
 
 /// Names the fault, or lets the suspicion go when its evidence did not last.

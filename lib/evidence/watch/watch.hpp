@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -65,10 +66,17 @@ class Watch {
   static constexpr int kHistory = 4096;  // samples that a test can look back over
   static constexpr int kRearm = 64;      // samples for which a rejected suspicion is old news
   static constexpr double kNewSuspicion =
-      1.3;                              // times the statistic that was looked into makes it news again
-  static constexpr double kCalm = 0.7;  // of the trigger: below it the range seen is healthy
+      1.3;                                  // times the statistic that was looked into makes it news again
+  static constexpr double kOutgrown = 3.0;  // times it: another thing has begun meanwhile
+  static constexpr double kCalm = 0.7;      // of the trigger: below it the range seen is healthy
 
   void watch();
+  /// Tests from this row back.
+  void test_now();
+  /// Whether what is being looked into without an alarm is small against what shows now.
+  bool is_outgrown() const {
+    return !test_->alarmed() && statistic_ > kOutgrown * std::max(looked_into_, options_.trigger);
+  }
   std::optional<HypothesisTest::Conclusion> conclude();
   void measure();
   void go_on_from(const RunningHypothesis& no_fault);
