@@ -71,6 +71,7 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   sized.chain.length = physical.lengths;
   ParameterSpace space = parameter_space(sized);
   space.extra = id.space.extra;
+  space.chain.friction = id.space.chain.friction;  // its shape, which base parameters do not hold
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
   const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);

@@ -65,7 +65,7 @@ TEST(GoldenCheck, NamesChannelTimeValueAndExpectedOfTheFirstDivergence) {
   expect_another_dq2(golden, "0.25");
   const ProgramRun run = golden.run("check", {"--json", golden.outside("check.json")});
   EXPECT_EQ(run.status, 1) << run.err;
-  EXPECT_TRUE(has(run.out, "first divergence at 3.212 s: dq2 is 1.2169")) << run.out;
+  EXPECT_TRUE(has(run.out, "first divergence at 3.212 s: dq2 is 1.2168")) << run.out;
   EXPECT_TRUE(has(run.out, "expected 0.25 (allowed +-"));
   const auto json = nlohmann::json::parse(read_file(golden.outside("check.json")));
   EXPECT_EQ(json.at("result"), "different");

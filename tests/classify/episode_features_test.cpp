@@ -61,7 +61,7 @@ double feature(const Example& example, const std::string& name, const std::vecto
 
 TEST(EvidenceByLabel, HasEveryLabelOnceWithoutMisreadRowsAndPushesOnAll) {
   const auto all = Example().by_label();
-  EXPECT_EQ(all.size(), 9u * 3u + 1u) << "nine kinds at three joints, and the payload at the tip";
+  EXPECT_EQ(all.size(), 10u * 3u + 1u) << "ten kinds at three joints, and the payload at the tip";
   for (const LabelEvidence& a : all) {
     EXPECT_GT(a.label.joint, 0);
     EXPECT_NE(a.label.kind, FaultKind::none);
