@@ -12,7 +12,7 @@ namespace {
 constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
 constexpr double kLeastPower =
     0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
-constexpr double kFarBeyond = 2.0;  // normal ranges: what is there is no healthy robot any more
+constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
 constexpr double kPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
