@@ -172,11 +172,11 @@ void LearnOptions::check() const {
   twin.check();
   auto at_least = [](const char* name, int value, int bound) {
     if (value < bound)
-      throw Error(ErrorCode::usage, std::string("LearnOptions.") + name,
+      throw Error(ErrorCode::usage, name,
                   "is " + std::to_string(value) + ", must be at least " + std::to_string(bound));
   };
   if (!(alarms_per_hour >= kFewestAlarms && alarms_per_hour <= kMostAlarms))
-    throw Error(ErrorCode::usage, "LearnOptions.alarms_per_hour",
+    throw Error(ErrorCode::usage, "alarms_per_hour",
                 fmt::format("is {}, must be between {} and {}", alarms_per_hour, kFewestAlarms, kMostAlarms));
   at_least("runs_per_label", runs_per_label, 4);
   at_least("validation_per_label", validation_per_label, 0);
