@@ -15,9 +15,8 @@ namespace {
 constexpr double kMoveShare = 0.4;
 constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the logs moves
 
-// A day's friction: within the normal range of two standard deviations, and there is always some.
-constexpr double kMostStds = 2.0;
-constexpr double kLeastFriction = 0.3;
+constexpr double kMostStds = 2.0;       // of a slow state on a day: its normal range
+constexpr double kLeastFriction = 0.3;  // there is always some
 
 std::vector<double> scaled(std::vector<double> values, double by) {
   for (double& value : values) value *= by;
@@ -25,6 +24,12 @@ std::vector<double> scaled(std::vector<double> values, double by) {
 }
 
 double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
+
+/// What a slow state is on a day, within its normal range.
+double draw_change(const SlowState& slow, Random& random) {
+  const double most = kMostStds * slow.day_std, change = slow.day_std * random.normal();
+  return std::clamp(change, -most, most);
+}
 
 double draw_from(const DrawRange& range, Random& random) {
   const double sign = range.either_sign ? random_sign(random) : 1.0;
@@ -118,12 +123,9 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
   DriveSpec drives;
   drives.gain = drives.offset = drives.roughness = std::vector<double>(joints, 0.0);
   drives.roughness_memory_s = std::vector<double>(joints, twin.sample_period_s);
-  const auto draw = [&](double std) {
-    return std::clamp(std * random.normal(), -kMostStds * std, kMostStds * std);
-  };
   for (const SlowState& slow : twin.motion->slow) {
-    if (slow.kind == SlowKind::torque_gain) drives.gain[slow.joint] = draw(slow.day_std);
-    if (slow.kind == SlowKind::torque_offset) drives.offset[slow.joint] = draw(slow.day_std);
+    if (slow.kind == SlowKind::torque_gain) drives.gain[slow.joint] = draw_change(slow, random);
+    if (slow.kind == SlowKind::torque_offset) drives.offset[slow.joint] = draw_change(slow, random);
     if (slow.kind != SlowKind::coloured_torque) continue;
     drives.roughness[slow.joint] = slow.day_std;
     drives.roughness_memory_s[slow.joint] = slow.memory_s;
@@ -134,8 +136,7 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
 void draw_day(const Twin& twin, Robot& robot, Random& random) {
   for (const SlowState& slow : twin.motion->slow) {
     if (slow.kind != SlowKind::friction) continue;
-    const double most = kMostStds * slow.day_std, change = slow.day_std * random.normal();
-    const double scale = std::max(1.0 + std::clamp(change, -most, most), kLeastFriction);
+    const double scale = std::max(1.0 + draw_change(slow, random), kLeastFriction);
     robot.chain.friction[slow.joint].viscous *= scale;
     robot.chain.friction[slow.joint].coulomb *= scale;
     robot.chain.friction[slow.joint].load *= scale;

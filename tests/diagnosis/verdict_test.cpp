@@ -26,6 +26,17 @@ FaultFinding fault(FaultKind kind, int joint, double onset_s, double end_s = 9.0
   return finding;
 }
 
+/// In %, normal within 30.
+ConditionItem friction_of(int joint, double value, const std::array<double, 2>& ci95) {
+  ConditionItem friction;
+  friction.what = "friction of joint " + std::to_string(joint);
+  friction.value = value;
+  friction.ci95 = ci95;
+  friction.normal_range = 30.0;
+  friction.unit = "%";
+  return friction;
+}
+
 TEST(Verdict, FaultsAreNumberedByOnsetWithUnknownTimesLast) {
   Diagnosis diagnosis = of_log(1000, 1000);
   const double nowhen = std::numeric_limits<double>::quiet_NaN();
@@ -50,13 +61,7 @@ TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
 
 TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  ConditionItem friction;
-  friction.what = "friction of joint 3";
-  friction.value = 113.0;
-  friction.ci95 = {99.0, 128.0};
-  friction.normal_range = 30.0;
-  friction.unit = "%";
-  diagnosis.condition = {friction};
+  diagnosis.condition = {friction_of(3, 113.0, {99.0, 128.0})};
   settle_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("friction of joint 3 (+113 %"), std::string::npos);
@@ -64,13 +69,7 @@ TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
 
 TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  ConditionItem friction;
-  friction.what = "friction of joint 1";
-  friction.value = 50.0;
-  friction.ci95 = {45.0, 55.0};
-  friction.normal_range = 30.0;
-  friction.unit = "%";
-  diagnosis.condition = {friction};
+  diagnosis.condition = {friction_of(1, 50.0, {45.0, 55.0})};
   settle_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_NE(diagnosis.verdict_reason.find("beyond its normal range: friction of joint 1 (+50 %"),
             std::string::npos);
