@@ -16,6 +16,8 @@ constexpr double kCodeChanged = -25.0;
 constexpr double kMisread = 14.0;
 /// How much likelier than any fault a change of the work piece is (nats), which happens every few seconds.
 constexpr double kHabit = 10.0;
+/// How much less likely the same change twice in a row is.
+constexpr double kAgain = 20.0;
 /// Width of a code over the standard deviation of the error it makes, the square root of 12.
 constexpr double kCodesInStd = 3.4641;
 /// Codes that never repeated in the healthy logs may do so once in this many samples.
@@ -71,7 +73,8 @@ void Bank::change_work_piece(RunningHypothesis& running, const Step& step) const
   add_work_piece(state, model_, hypotheses_[running.hypothesis].work_piece_kg);
   predict(state, model_, dynamics_, step, nullptr, 0.0);
   blend_with(state, late.mean, 2 * model_.joints());
-  running.log_likelihood_ratio += kHabit;
+  const bool again = hypotheses_[running.hypothesis].work_piece_kg == last_change_kg_;
+  running.log_likelihood_ratio += again ? kHabit - kAgain : kHabit;
 }
 
 /// A misread row says nothing of the robot; that a row is misread at all costs kMisread.

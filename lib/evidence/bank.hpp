@@ -34,6 +34,9 @@ class Bank {
   /// Advances a filter by one sample.
   void advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const;
 
+  /// A work piece was picked up or put down: the same again is as unlikely as the return of it that nobody saw.
+  void work_piece_changed(double kg) { last_change_kg_ = kg; }
+
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   int joints() const { return model_.joints(); }
   bool asks_for(const Hypothesis& hypothesis) const;
@@ -48,6 +51,7 @@ class Bank {
   const FaultDynamics& dynamics_;
   const std::vector<Hypothesis>& hypotheses_;
   JointFlags closed_;
+  double last_change_kg_ = 0.0;  ///< of the work piece
 };
 
 }  // namespace faultline

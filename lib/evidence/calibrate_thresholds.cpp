@@ -89,7 +89,7 @@ EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionMod
     measure(logs, model, hypotheses, start, threads, seen);
     const double trigger = kTriggerSpare * seen.trigger;
     const double ratio = kOwnSpare * *std::max_element(seen.ratio.begin(), seen.ratio.end());
-    if (round < kMostInflations && (trigger > kHighestTrigger || ratio > kMostImitated)) {
+    if (round < kMostInflations && ratio > kMostImitated) {
       inflate(model);
       continue;
     }

@@ -150,9 +150,13 @@ std::vector<RunningHypothesis> HypothesisTest::best_of_each() const {
   return best;
 }
 
-std::vector<double> HypothesisTest::ratios() const {
-  std::vector<double> ratios;
-  for (const RunningHypothesis& running : best_of_each()) ratios.push_back(running.log_likelihood_ratio);
+std::vector<double> HypothesisTest::excess_ratios() const {
+  const RunningHypothesis* piece = work_piece();
+  const double changed = is_changed(piece) ? piece->log_likelihood_ratio : 0.0;
+  std::vector<double> ratios(bank_.hypotheses().size(), 0.0);
+  for (const RunningHypothesis& running : running_)
+    ratios[running.hypothesis] =
+        std::max(ratios[running.hypothesis], running.log_likelihood_ratio - changed);
   return ratios;
 }
 
@@ -185,12 +189,15 @@ const RunningHypothesis* HypothesisTest::work_piece() const {
   return best;
 }
 
+bool HypothesisTest::is_changed(const RunningHypothesis* piece) const {
+  return piece && piece->log_likelihood_ratio > options_.threshold;
+}
+
 const RunningHypothesis* HypothesisTest::no_fault() const {
   const RunningHypothesis* best = likeliest();
-  if (!best || is_healthy(bank_.hypotheses()[best->hypothesis])) return best;
+  if (!best || is_misread(bank_.hypotheses()[best->hypothesis])) return best;
   const RunningHypothesis* piece = work_piece();
-  const bool changed = piece && piece->log_likelihood_ratio > options_.threshold;
-  return changed && best_counted_ < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
+  return is_changed(piece) && best_counted_ < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
 }
 
 /// Whether no fault comes near. Another load than the work piece is one that differs: the next test's to

@@ -27,11 +27,14 @@ class HypothesisTest {
   /// any fault, or so well that no fault passes the threshold on top of a change of the work piece; null
   /// otherwise.
   const RunningHypothesis* no_fault() const;
+  /// The same hypothesis from the onset that explains most: coarse ones are steps of up to 128 samples.
+  RunningHypothesis refined(const RunningHypothesis& coarse) const;
   double best_ratio() const { return best_ratio_; }
   /// Whether a fault still explains more than its threshold, with what healthy days imitate of it.
   bool passes() const { return best_counted_ >= options_.threshold; }
-  /// What each hypothesis of the bank explains, nats; minus infinity for those not asked.
-  std::vector<double> ratios() const;
+  /// What each hypothesis of the bank explains beyond a change of the work piece, if there was one, nats; 0 for
+  /// those that explain nothing or were dropped as hopeless.
+  std::vector<double> excess_ratios() const;
   double largest_ratio() const { return largest_ratio_; }
   /// The evidence so far, onsets refined for the hypotheses that matter, and the best of them.
   struct Conclusion {
@@ -49,11 +52,11 @@ class HypothesisTest {
   double margin() const;
   const RunningHypothesis* likeliest() const;
   const RunningHypothesis* work_piece() const;
+  bool is_changed(const RunningHypothesis* piece) const;
   bool clearly_healthy() const;
   bool lasts_still() const;
   std::vector<RunningHypothesis> best_of_each() const;
   RunningHypothesis run(int hypothesis, std::int64_t onset, std::int64_t until) const;
-  RunningHypothesis refined(const RunningHypothesis& coarse) const;
   bool was_dropped(int hypothesis) const;
 
   const Bank& bank_;

@@ -6,6 +6,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 
 namespace faultline {
@@ -61,7 +62,22 @@ double shown_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& e
   return usual_mass(changes, kLeastOfCarried * model.priors.payload);
 }
 
+double tip_mass(const std::vector<SlowEstimate>& estimates) {
+  for (const SlowEstimate& estimate : estimates)
+    if (estimate.state.kind == SlowKind::tip_mass) return estimate.value;
+  return 0.0;
+}
+
 }  // namespace
+
+WorkPieceHistory work_piece_history(LogSource& log, const MotionModel& model) {
+  const std::vector<Hypothesis> bank = explanations(model.joints(), model.work_pieces_kg);
+  EpisodeDetector detector(model, bank, {}, survey_noise(log, model));
+  log.rewind();
+  for (Log segment; log.next(segment);) detector.take(segment);
+  detector.finish();
+  return {detector.work_piece_changes(), tip_mass(detector.slow_estimates())};
+}
 
 void allow_work_pieces(MotionModel& model) {
   double doubt = 0.0;

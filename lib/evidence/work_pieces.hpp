@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lib/evidence/match_noise.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 
@@ -12,6 +13,16 @@ namespace faultline {
 /// declared. Sets MotionModel::work_pieces_kg and notes in each excerpt when they came and went. Nothing
 /// changes where there is none.
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
+
+/// When work pieces of the model came and went in a healthy log, and what the filter makes of the tip's mass
+/// at its start.
+struct WorkPieceHistory {
+  std::vector<WorkPieceChange> changes;
+  double at_first_kg = 0.0;  ///< beside what was identified
+};
+
+/// Reads the log from its start.
+WorkPieceHistory work_piece_history(LogSource& log, const MotionModel& model);
 
 /// The tip may carry a work piece or not when a log begins, and the identified robot anything in between.
 void allow_work_pieces(MotionModel& model);

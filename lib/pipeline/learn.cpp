@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
-#include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/monitor/monitor.hpp"
-#include "lib/pipeline/identified_model.hpp"
+#include "lib/pipeline/healthy_robot.hpp"
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/reach.hpp"
 #include "lib/pipeline/tracking_model.hpp"
@@ -38,10 +36,10 @@ constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealt
                         kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
                         kSeedBlock = 10'000'000;
 
-std::vector<ModelSource> sources_of(const Identification& identification,
+std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
                                     std::span<const LabelledLog> labelled) {
   std::vector<ModelSource> sources;
-  for (const IdentifiedLog& log : identification.logs)
+  for (const IdentifiedLog& log : healthy)
     sources.push_back({std::filesystem::path(log.path).filename().string(), log.sha256, log.rows, "none"});
   for (const LabelledLog& log : labelled)
     sources.push_back({std::filesystem::path(log.log->identity().path).filename().string(),
@@ -59,23 +57,6 @@ EvidenceOptions thresholds_for(double alarms_per_hour) {
 
 void tell(const Progress& progress, const char* what, double share) {
   if (progress) progress(what, share);
-}
-
-/// How the torques of logs that were opened with one robot are read with another.
-struct TorqueReading {
-  std::vector<double> delay_s, gain;
-
-  DelayedTorqueSource of(LogSource& log) const { return {log, delay_s, gain}; }
-};
-
-TorqueReading reading_of(const Robot& opened_with, const Robot& robot) {
-  TorqueReading out{robot.torque_delay_s, robot.torque_gain};
-  out.delay_s.resize(robot.joints(), 0.0);
-  out.gain.resize(robot.joints(), 1.0);
-  for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
-    out.delay_s[j] -= opened_with.torque_delay_s[j];
-  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
-  return out;
 }
 
 std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueReading& reading,
@@ -96,21 +77,6 @@ std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
   std::erase_if(labels, [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
   labels.insert(labels.end(), kHealthySampleRuns, FaultLabel{});
   return labels;
-}
-
-/// The logs that agree, told as if their torques acted when and as logged.
-std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
-                                        const Identification& id) {
-  std::deque<DelayedTorqueSource> out;
-  for (std::size_t i = 0; i < logs.size(); ++i)
-    if (!id.logs[i].left_out) out.push_back(reading.of(*logs[i]));
-  return out;
-}
-
-std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
-  std::vector<LogSource*> out;
-  for (DelayedTorqueSource& log : logs) out.push_back(&log);
-  return out;
 }
 
 /// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
@@ -190,26 +156,23 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   RememberedLogs logs(healthy);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
+  HealthyRobot found =
+      healthy_robot(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
   Learned out;
   Model& model = out.model;
-  out.identification = identify(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
-  model = identified_model(out.identification);
-  const TorqueReading reading = reading_of(robot, model.robot);
-  std::deque<DelayedTorqueSource> in_time_logs = in_time(logs.sources(), reading, out.identification);
-  const std::vector<LogSource*> acting = pointers(in_time_logs);
+  out.identification = std::move(found.identification);
+  model = std::move(found.model);
+  const std::vector<LogSource*> acting = pointers(found.logs);
   out.residual =
       learn_residual_generator(acting, model.robot, model.robot.torque_phi.value_or(0.0), options.residual,
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  tell(progress, "matching the noise", kResidualsLearned);
-  model.motion = learn_motion_model(acting, identified_motion(out.identification),
-                                    {.normal = model.robot.normal, .threads = options.threads});
   model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
   tell(progress, "checking the alarm threshold", kResidualsLearned);
   model.evidence = calibrate_thresholds(acting, model.motion, model.bank,
                                         thresholds_for(options.alarms_per_hour), options.threads);
-  learn_from_twin(out, labelled, reading, options, progress);
+  learn_from_twin(out, labelled, found.reading, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,
@@ -217,7 +180,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                .torque_offset = model.robot.normal.torque_offset,
                                .alarms_per_hour = options.alarms_per_hour,
                                .torque_gain = model.robot.normal.torque_constant});
-  model.sources = sources_of(out.identification, labelled);
+  model.sources = sources_of(found.given, labelled);
   model.twin = options.twin;
   return out;
 }

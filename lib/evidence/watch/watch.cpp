@@ -99,7 +99,7 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
   rearm_row_ = sample().row + kRearm;
   std::optional<HypothesisTest::Conclusion> named;
   if (const RunningHypothesis* no_fault = test_->no_fault()) {
-    go_on_from(*no_fault);
+    go_on_from(test_->refined(*no_fault));
   } else if (!test_->alarmed()) {
     largest_ratio_ = std::max(largest_ratio_, test_->largest_ratio());
   } else if (!test_->passes()) {
@@ -118,7 +118,7 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
 }
 
 void Watch::measure() {
-  const std::vector<double> ratios = test_->ratios();
+  const std::vector<double> ratios = test_->excess_ratios();
   largest_ratios_.resize(ratios.size(), 0.0);
   for (std::size_t h = 0; h < ratios.size(); ++h)
     largest_ratios_[h] = std::max(largest_ratios_[h], ratios[h]);
@@ -135,6 +135,7 @@ void Watch::go_on_from(const RunningHypothesis& no_fault) {
   restart_ = history_.last();
   trigger_.forget();
   work_piece_changes_.push_back({history_[no_fault.onset].row, hypothesis.work_piece_kg});
+  bank_.work_piece_changed(hypothesis.work_piece_kg);
 }
 
 void Watch::go_on_after(const RunningHypothesis& passed) {

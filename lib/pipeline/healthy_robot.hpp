@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "lib/core/progress.hpp"
+#include "lib/identify/identify.hpp"
+#include "lib/model/model.hpp"
+#include "lib/pipeline/torque_reading.hpp"
+
+namespace faultline {
+
+/// What healthy logs tell of the robot before faults are thought of.
+struct HealthyRobot {
+  Identification identification;
+  std::vector<IdentifiedLog> given;      ///< all logs, as first identified
+  TorqueReading reading;                 ///< of logs that were opened with the robot as given
+  std::deque<DelayedTorqueSource> logs;  ///< those that agree
+  Model model;                           ///< robot, identification and motion
+};
+
+/// Identifies the robot and learns the family of its healthy days. Where a work piece comes and goes, the
+/// robot is identified a second time, from the rows without it. `logs` outlive the result. Throws
+/// Error(input) when they do not suffice.
+HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
+                           const IdentifyOptions& options, const Progress& progress);
+
+}  // namespace faultline
