@@ -115,6 +115,8 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       last_time_(before.last_time_),
       usual_dt_(before.usual_dt_),
       clock_(before.clock_),
+      clock_rows_(before.clock_rows_),
+      wobble_(before.wobble_),
       last_torque_missing_(before.last_torque_missing_),
       speed_unknown_(before.speed_unknown_),
       last_q_(before.last_q_),
@@ -246,6 +248,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   if (!started_ || gap) {
     start(out);
     clock_ = out.time;
+    clock_rows_ = 1.0;
   } else {
     usual_dt_ = usual_dt_ > 0.0 ? usual_dt_ + kPeriodForgetting * (dt - usual_dt_) : dt;
     out.dt = dt;

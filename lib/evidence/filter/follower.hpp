@@ -107,7 +107,13 @@ class Follower {
   void restart_slow_states(double gap_s);
   double step_to_stamp(const FollowedSample& out);
   double step_in_periods(double since, double periods) const;
-  double log_likelihood_after(const FollowedSample& out, double dt) const;
+  double log_likelihood_of_stamp(double since, double periods) const;
+  void set_clock(double since, double step);
+  struct RowFit {
+    double log_likelihood = 0.0;
+    double worst = 0.0;  ///< chi-square of a joint
+  };
+  RowFit fit_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();
   void set_measurement_noise(const GaussianState& state, const JointArray& speed_before,
@@ -121,7 +127,9 @@ class Follower {
   bool started_ = false;
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
-  double clock_ = 0.0;  ///< s: when the last row was taken, as far as its stamp can be believed
+  double clock_ = 0.0;       ///< s: when the last row was taken, as far as its stamp can be believed
+  double clock_rows_ = 1.0;  ///< that told where it stands
+  double wobble_ = 0.04;     ///< variance of the stamps against it, of late, in squared periods
   JointFlags last_torque_missing_{};
   JointFlags
       speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities

@@ -2,28 +2,49 @@
 // When the rows were taken, where their stamps wobble.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/evidence/filter/follower.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kLostStep = 0.75;   // of a period: a stamp farther off is believed
-constexpr double kLeastStep = 0.1;   // of a period
-constexpr double kClockGain = 0.01;  // of what a stamp is off: drift of a clock is slow
-constexpr double kClearStamp = 0.3;  // of a period off whole ones: a stamp farther off leaves two readings
+constexpr double kLostClock = 3.0;     // periods: stamps that lie this far before the clock are believed
+constexpr double kLeastStep = 0.1;     // of a period
+constexpr double kClockGain = 0.01;    // of what a stamp is off: drift of a clock is slow
+constexpr double kLeastWobble = 0.05;  // of a period, as a standard deviation
+constexpr double kRowLost = 5.0;       // nats against each row that was not logged
+// What two numbers of periods may differ by in nats, and still the motion is asked. Less is told by no stamp.
+constexpr double kUnclear = 10.0;
+// Chi-square of a joint: a motion that fits worse, as after a fault began, says nothing of the clock.
+constexpr double kFits = 16.0;
+constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 /// So many periods, of which the stamps only keep the clock from drifting.
 double Follower::step_in_periods(double since, double periods) const {
   const double period = model_.steady_period_s, late = since - periods * period;
-  const bool lost = std::abs(late) > kLostStep * period;
+  const bool lost = late < -kLostClock * period;
   return lost ? std::max(since, kLeastStep * period) : periods * period + kClockGain * late;
 }
 
-/// Of the row, if it came so long after the one before.
-double Follower::log_likelihood_after(const FollowedSample& out, double dt) const {
+/// What the stamp alone says for so many periods, nats.
+double Follower::log_likelihood_of_stamp(double since, double periods) const {
+  const double late = since / model_.steady_period_s - periods;
+  return -0.5 * late * late / wobble_ - kRowLost * (periods - 1.0);
+}
+
+/// After a step of `step`. What the first stamps are off says where the clock stands: their mean is believed.
+void Follower::set_clock(double since, double step) {
+  const double gain = std::max(1.0 / ++clock_rows_, kClockGain);
+  const double late = since - step, off = late / model_.steady_period_s;
+  clock_ += step + (gain - kClockGain) * late;
+  wobble_ += kClockGain * (std::clamp(off * off, kLeastWobble * kLeastWobble, 1.0) - wobble_);
+}
+
+/// How the row fits, if it came so long after the one before.
+Follower::RowFit Follower::fit_after(const FollowedSample& out, double dt) const {
   FollowedSample at = out;
   GaussianState state = state_;
   const int n = model_.joints();
@@ -32,26 +53,35 @@ double Follower::log_likelihood_after(const FollowedSample& out, double dt) cons
   const JointArray speed_before = motion_of(state.mean, n).dq;
   predict(state, model_, dynamics_, step_to(at, last_torque_, last_torque_missing_), nullptr, 0.0);
   set_measurement_noise(state, speed_before, at);
-  double sum = 0.0;
-  for (int j = 0; j < n; ++j) sum += observe_joint(state, n, at, j).log_likelihood;
-  return sum;
+  RowFit fit;
+  for (int j = 0; j < n; ++j) {
+    at.q_tail[j] = at.dq_tail[j] = kNoTail;
+    const JointObservation seen = observe_joint(state, n, at, j);
+    fit.log_likelihood += seen.log_likelihood;
+    fit.worst = std::max(fit.worst, seen.chi_square);
+  }
+  return fit;
 }
 
 /// Seconds since the row before. Where the model knows that rows are taken in step and only their stamps
 /// wobble, the steps are whole periods; where a stamp does not say how many, the motion does.
 double Follower::step_to_stamp(const FollowedSample& out) {
   const double period = model_.steady_period_s, since = out.time - clock_;
-  double step = out.time - last_time_;
-  if (period > 0.0) {
-    const double periods = std::max(std::round(since / period), 1.0), off = since / period - periods;
-    step = step_in_periods(since, periods);
-    const double other_periods = periods + (off > 0.0 ? 1.0 : -1.0);
-    if (std::abs(off) > kClearStamp && other_periods >= 1.0) {
-      const double other = step_in_periods(since, other_periods);
-      if (log_likelihood_after(out, other) > log_likelihood_after(out, step)) step = other;
-    }
+  if (period <= 0.0) {
+    clock_ = out.time;
+    return out.time - last_time_;
   }
-  clock_ += step;
+  const double fewer = std::max(std::floor(since / period), 1.0), more = fewer + 1.0;
+  const double clear = log_likelihood_of_stamp(since, fewer) - log_likelihood_of_stamp(since, more);
+  double periods = clear >= 0.0 ? fewer : more;
+  if (std::abs(clear) < kUnclear) {
+    const RowFit if_fewer = fit_after(out, step_in_periods(since, fewer));
+    const RowFit if_more = fit_after(out, step_in_periods(since, more));
+    if (std::min(if_fewer.worst, if_more.worst) < kFits)
+      periods = clear + if_fewer.log_likelihood - if_more.log_likelihood >= 0.0 ? fewer : more;
+  }
+  const double step = step_in_periods(since, periods);
+  set_clock(since, step);
   return step;
 }
 
