@@ -47,17 +47,18 @@ bool Bank::asks_for(const Hypothesis& hypothesis) const {
 }
 
 RunningHypothesis Bank::start(int hypothesis, std::int64_t onset, const FollowedSample& before,
-                              const FollowedSample& at) const {
+                              const FollowedSample& at, std::optional<double> duration_s) const {
   RunningHypothesis running;
   running.hypothesis = hypothesis;
   running.onset = onset;
   running.onset_s = at.time - 0.5 * at.dt;
+  running.duration_s = duration_s.value_or(hypotheses_[hypothesis].duration_s);
   running.state = with_sizes(before.posterior, hypotheses_[hypothesis], model_.priors);
   const Step step = step_to(at, before.torque, before.torque_missing);
   if (hypotheses_[hypothesis].form == HypothesisForm::work_piece)
     change_work_piece(running, step);
   else
-    predict_onset(running.state, model_, dynamics_, step, hypotheses_[hypothesis]);
+    predict_onset(running.state, model_, dynamics_, step, hypothesis_of(running));
   if (is_misread(hypotheses_[hypothesis]))
     pass_over(running, at);
   else
@@ -88,9 +89,16 @@ void Bank::pass_over(RunningHypothesis& running, const FollowedSample& at) const
   }
 }
 
+Hypothesis Bank::hypothesis_of(const RunningHypothesis& running) const {
+  Hypothesis hypothesis = hypotheses_[running.hypothesis];
+  hypothesis.duration_s = running.duration_s;
+  return hypothesis;
+}
+
 void Bank::advance(RunningHypothesis& running, const FollowedSample& before, const FollowedSample& at) const {
-  predict(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing),
-          &hypotheses_[running.hypothesis], before.time - running.onset_s);
+  const Hypothesis hypothesis = hypothesis_of(running);
+  predict(running.state, model_, dynamics_, step_to(at, before.torque, before.torque_missing), &hypothesis,
+          before.time - running.onset_s);
   observe(running, at);
 }
 
@@ -108,7 +116,7 @@ void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
     const JointObservation seen = observe_joint(running.state, n, at, j, error);
     if (at.pressed[j]) continue;
     running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
-    if (at.in_range && std::isfinite(at.q[j]))
+    if (at.in_range && !at.repeats[j] && std::isfinite(at.q[j]))
       running.surprise.add(j, seen.whitened_q, seen.whitened_dq, std::isfinite(at.dq[j]));
   }
   clamp_sizes(running.state, hypothesis, model_);

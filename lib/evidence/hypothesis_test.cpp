@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/evidence/refined_run.hpp"
+
 namespace faultline {
 namespace {
 
@@ -22,9 +24,6 @@ constexpr int kPruneEvery = 20;          // samples, from then on
 constexpr double kHopeless = 60.0;       // nats: odds of 1e26, which no onset can make good
 constexpr double kWorthRefining = 25.0;  // nats: from farther behind a finer onset would not win
 constexpr int kMostRefined = 6;          // hypotheses
-constexpr int kRefineReach = 3;          // onsets tried on either side of the best,
-constexpr int kRefineFactor = 4;         // at spacings that shrink by this
-constexpr int kOnsetTold = 64;           // samples after the trigger by which an onset has told all it does
 constexpr double kRanAway = 300.0;       // nats: no row that a filter still follows can cost so much
 constexpr int kFewestConfirm = 16;       // samples
 constexpr int kUsualRows = 512;          // before the onset, for what is usually left unexplained
@@ -33,12 +32,8 @@ constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be n
 
 void add_to(Surprise& surprise, const FollowedSample& at, int joints) {
   for (int j = 0; j < joints && at.in_range; ++j)
-    if (!at.pressed[j] && std::isfinite(at.q[j]))
+    if (!at.pressed[j] && !at.repeats[j] && std::isfinite(at.q[j]))
       surprise.add(j, at.whitened[j], at.whitened[joints + j], std::isfinite(at.dq[j]));
-}
-
-bool better(const RunningHypothesis& a, const RunningHypothesis& b) {
-  return a.log_likelihood_ratio > b.log_likelihood_ratio;
 }
 
 /// By how much healthy days imitate each hypothesis.
@@ -65,10 +60,8 @@ HypothesisTest::HypothesisTest(const Bank& bank, const History& history, const E
   update();
 }
 
-RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset, std::int64_t until) const {
-  RunningHypothesis running = bank_.start(hypothesis, onset, history_[onset - 1], history_[onset]);
-  for (std::int64_t k = onset + 1; k <= until; ++k) bank_.advance(running, history_[k - 1], history_[k]);
-  return running;
+RunningHypothesis HypothesisTest::run(int hypothesis, std::int64_t onset) const {
+  return run_hypothesis(bank_, history_, hypothesis, onset, now_);
 }
 
 void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
@@ -77,7 +70,7 @@ void HypothesisTest::begin_at(std::int64_t onset, bool slow_only) {
     if (const Hypothesis& hypothesis = bank_.hypotheses()[h];
         bank_.asks_for(hypothesis) && (!slow_only || describe(hypothesis.label.kind).creeps ||
                                        hypothesis.form == HypothesisForm::work_piece))
-      running_.push_back(run(static_cast<int>(h), onset, now_));
+      running_.push_back(run(static_cast<int>(h), onset));
 }
 
 void HypothesisTest::advance() {
@@ -155,8 +148,7 @@ std::vector<double> HypothesisTest::excess_ratios() const {
   const double changed = is_changed(piece) ? piece->log_likelihood_ratio : 0.0;
   std::vector<double> ratios(bank_.hypotheses().size(), 0.0);
   for (const RunningHypothesis& running : running_)
-    ratios[running.hypothesis] =
-        std::max(ratios[running.hypothesis], running.log_likelihood_ratio - changed);
+    ratios[running.hypothesis] = std::max(ratios[running.hypothesis], running.log_likelihood_ratio - changed);
   return ratios;
 }
 
@@ -197,7 +189,8 @@ const RunningHypothesis* HypothesisTest::no_fault() const {
   const RunningHypothesis* best = likeliest();
   if (!best || is_misread(bank_.hypotheses()[best->hypothesis])) return best;
   const RunningHypothesis* piece = work_piece();
-  return is_changed(piece) && best_counted_ < piece->log_likelihood_ratio + options_.threshold ? piece : nullptr;
+  return is_changed(piece) && best_counted_ < piece->log_likelihood_ratio + options_.threshold ? piece
+                                                                                               : nullptr;
 }
 
 /// Whether no fault comes near. Another load than the work piece is one that differs: the next test's to
@@ -233,29 +226,11 @@ bool HypothesisTest::lasts_still() const {
   if (!best) return false;
   const Hypothesis& hypothesis = bank_.hypotheses()[best->hypothesis];
   return describe(hypothesis.label.kind).passes &&
-         history_[now_].time - best->onset_s < hypothesis.duration_s + kOver_s;
+         history_[now_].time - best->onset_s < best->duration_s + kOver_s;
 }
 
-/// Onsets are held against each other by what a while after the trigger tells: what comes later tells them
-/// apart no more.
 RunningHypothesis HypothesisTest::refined(const RunningHypothesis& coarse) const {
-  const std::int64_t until = std::min(now_, trigger_ + kOnsetTold);
-  RunningHypothesis best = until == now_ ? coarse : run(coarse.hypothesis, coarse.onset, until);
-  const int distance = static_cast<int>(std::max<std::int64_t>(trigger_ - coarse.onset, 1));
-  for (int spacing = std::max(distance / kRefineFactor, 1);; spacing /= kRefineFactor) {
-    const std::int64_t centre = best.onset;
-    for (int k = -kRefineReach; k <= kRefineReach; ++k) {
-      const std::int64_t onset = centre + k * spacing;
-      if (k == 0 || onset < earliest_ || onset > trigger_) continue;
-      const RunningHypothesis candidate = run(coarse.hypothesis, onset, until);
-      if (better(candidate, best)) best = candidate;
-    }
-    if (spacing == 1) break;
-    spacing = std::max(spacing, kRefineFactor);
-  }
-  if (until == now_ || best.onset == coarse.onset) return until == now_ ? best : coarse;
-  const RunningHypothesis to_the_end = run(best.hypothesis, best.onset, now_);
-  return better(to_the_end, coarse) ? to_the_end : coarse;
+  return with_refined_onset(bank_, history_, {earliest_, trigger_, now_}, coarse);
 }
 
 bool HypothesisTest::was_dropped(int hypothesis) const {
@@ -273,17 +248,17 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
     if (best[h].log_likelihood_ratio > best_ratio_ - kWorthRefining)
       best[h] = refined(best[h]);
     else if (std::isfinite(best[h].log_likelihood_ratio) && was_dropped(h))
-      best[h].surprise = run(h, best[h].onset, now_).surprise;  // to the end, like that of the others
+      best[h].surprise = run(h, best[h].onset).surprise;  // to the end, like that of the others
   }
   Conclusion conclusion;
   EpisodeEvidence& out = conclusion.evidence;
-  out.best = 0;
-  for (std::size_t h = 0; h < best.size(); ++h) {
-    out.hypotheses.push_back(std::isfinite(best[h].log_likelihood_ratio) ? bank_.evidence_of(best[h])
+  RunningHypothesis& winner = *std::min_element(best.begin(), best.end(), better);
+  out.best = static_cast<int>(&winner - best.data());
+  if (describe(bank_.hypotheses()[out.best].label.kind).passes)
+    winner = with_refined_duration(bank_, history_, {earliest_, trigger_, now_}, winner);
+  for (const RunningHypothesis& running : best)
+    out.hypotheses.push_back(std::isfinite(running.log_likelihood_ratio) ? bank_.evidence_of(running)
                                                                          : HypothesisEvidence{});
-    if (better(best[h], best[out.best])) out.best = static_cast<int>(h);
-  }
-  const RunningHypothesis& winner = best[out.best];
   out.onset_s = winner.onset_s;
   out.alarm_s = history_[alarm_].time;
   out.isolated_s = history_[now_].time;

@@ -32,8 +32,8 @@ class HypothesisTest {
   double best_ratio() const { return best_ratio_; }
   /// Whether a fault still explains more than its threshold, with what healthy days imitate of it.
   bool passes() const { return best_counted_ >= options_.threshold; }
-  /// What each hypothesis of the bank explains beyond a change of the work piece, if there was one, nats; 0 for
-  /// those that explain nothing or were dropped as hopeless.
+  /// What each hypothesis of the bank explains beyond a change of the work piece, if there was one, nats; 0
+  /// for those that explain nothing or were dropped as hopeless.
   std::vector<double> excess_ratios() const;
   double largest_ratio() const { return largest_ratio_; }
   /// The evidence so far, onsets refined for the hypotheses that matter, and the best of them.
@@ -56,7 +56,7 @@ class HypothesisTest {
   bool clearly_healthy() const;
   bool lasts_still() const;
   std::vector<RunningHypothesis> best_of_each() const;
-  RunningHypothesis run(int hypothesis, std::int64_t onset, std::int64_t until) const;
+  RunningHypothesis run(int hypothesis, std::int64_t onset) const;
   bool was_dropped(int hypothesis) const;
 
   const Bank& bank_;

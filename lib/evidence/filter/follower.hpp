@@ -111,8 +111,10 @@ class Follower {
   void set_clock(double since, double step);
   struct RowFit {
     double log_likelihood = 0.0;
-    double worst = 0.0;  ///< chi-square of a joint
+    JointArray chi_square{};
   };
+  bool tells(const RowFit& likelier, const RowFit& other) const;
+  bool is_elsewhere(const FollowedSample& out, double dt) const;
   RowFit fit_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);
   void keep_some_mass();

@@ -16,8 +16,9 @@ constexpr double kLeastWobble = 0.05;  // of a period, as a standard deviation
 constexpr double kRowLost = 5.0;       // nats against each row that was not logged
 // What two numbers of periods may differ by in nats, and still the motion is asked. Less is told by no stamp.
 constexpr double kUnclear = 10.0;
-// Chi-square of a joint: a motion that fits worse, as after a fault began, says nothing of the clock.
-constexpr double kFits = 16.0;
+constexpr double kFits = 16.0;  // chi-square of a joint: a motion that fits worse says nothing of the clock
+constexpr double kElsewhere = 0.4;  // of the way of a period,
+constexpr double kSurely = 4.0;     // and so many standard deviations of a position beyond
 constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -58,9 +59,33 @@ Follower::RowFit Follower::fit_after(const FollowedSample& out, double dt) const
     at.q_tail[j] = at.dq_tail[j] = kNoTail;
     const JointObservation seen = observe_joint(state, n, at, j);
     fit.log_likelihood += seen.log_likelihood;
-    fit.worst = std::max(fit.worst, seen.chi_square);
+    fit.chi_square[j] = seen.chi_square;
   }
   return fit;
+}
+
+/// Whether there is a joint that moves as expected after one step and not after the other, and none that says
+/// the contrary: after a fault began, the others still tell the time.
+bool Follower::tells(const RowFit& likelier, const RowFit& other) const {
+  bool any = false;
+  for (int j = 0; j < model_.joints(); ++j) {
+    const double fits = likelier.chi_square[j], misfits = other.chi_square[j];
+    if (misfits < kFits && fits > misfits + kFits) return false;
+    any = any || (fits < kFits && misfits > fits + kFits);
+  }
+  return any;
+}
+
+/// Whether the readings lie off where the speeds lead in `dt`, by a good part of what they lead in a period.
+bool Follower::is_elsewhere(const FollowedSample& out, double dt) const {
+  const int n = model_.joints();
+  const MotionState motion = motion_of(state_.mean, n);
+  for (int j = 0; j < n; ++j) {
+    const double off = std::abs(out.q[j] - motion.q[j] - motion.dq[j] * dt);
+    const double way = std::abs(motion.dq[j]) * model_.steady_period_s;
+    if (off > kElsewhere * way + kSurely * model_.q_std[j]) return true;
+  }
+  return false;
 }
 
 /// Seconds since the row before. Where the model knows that rows are taken in step and only their stamps
@@ -74,11 +99,12 @@ double Follower::step_to_stamp(const FollowedSample& out) {
   const double fewer = std::max(std::floor(since / period), 1.0), more = fewer + 1.0;
   const double clear = log_likelihood_of_stamp(since, fewer) - log_likelihood_of_stamp(since, more);
   double periods = clear >= 0.0 ? fewer : more;
-  if (std::abs(clear) < kUnclear) {
+  if (std::abs(clear) < kUnclear || is_elsewhere(out, step_in_periods(since, periods))) {
     const RowFit if_fewer = fit_after(out, step_in_periods(since, fewer));
     const RowFit if_more = fit_after(out, step_in_periods(since, more));
-    if (std::min(if_fewer.worst, if_more.worst) < kFits)
-      periods = clear + if_fewer.log_likelihood - if_more.log_likelihood >= 0.0 ? fewer : more;
+    const bool is_fewer = clear + if_fewer.log_likelihood - if_more.log_likelihood >= 0.0;
+    if (tells(is_fewer ? if_fewer : if_more, is_fewer ? if_more : if_fewer))
+      periods = is_fewer ? fewer : more;
   }
   const double step = step_in_periods(since, periods);
   set_clock(since, step);

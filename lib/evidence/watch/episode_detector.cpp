@@ -102,7 +102,7 @@ class EpisodeDetector::Impl {
     EpisodeEvidence& episode = episodes.back();
     episode.end_s = now_s;
     if (describe(hypothesis.label.kind).passes) {
-      episode.end_s = std::min(now_s, std::max(found.best.onset_s + hypothesis.duration_s, episode.alarm_s));
+      episode.end_s = std::min(now_s, std::max(found.best.onset_s + found.best.duration_s, episode.alarm_s));
       top().watch->go_on_after(found.best);
       return;
     }
