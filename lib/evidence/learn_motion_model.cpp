@@ -108,6 +108,7 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   model.q_high = healthy.q_high;
   model.velocity_scale = healthy.velocity_rms;
   model.torque_scale = healthy.torque_largest;
+  model.torque_jump = healthy.torque_jump;
   model.repeat_share = healthy.repeat_share;
   model.longest_repeat = healthy.longest_repeat;
   for (const double torque : healthy.torque_largest)

@@ -50,6 +50,7 @@ struct MotionModel {
   std::vector<double> q_high;
   std::vector<double> velocity_scale;  ///< root mean square of the healthy velocity
   std::vector<double> torque_scale;    ///< largest healthy torque
+  std::vector<double> torque_jump;     ///< largest from one healthy sample to the next; empty for not known
   std::vector<double> inertia_scale;   ///< M_jj in the middle of the range, kg m^2 or kg
   /// Share of healthy samples whose position and velocity repeat the sample before to the last bit, one a
   /// joint.

@@ -89,6 +89,7 @@ void read_later_lists(const nlohmann::json& json, MotionModel& model) {
   read("compliance", model.noise.compliance);
   read("dq_tail", model.dq_tail);
   read("work_pieces_kg", model.work_pieces_kg);
+  read("torque_jump", model.torque_jump);
 }
 
 }  // namespace
@@ -102,6 +103,7 @@ void to_json(nlohmann::json& json, const MotionModel& model) {
   json["compliance"] = model.noise.compliance;
   json["dq_tail"] = model.dq_tail;
   json["work_pieces_kg"] = model.work_pieces_kg;
+  json["torque_jump"] = model.torque_jump;
   json["steady_period_s"] = model.steady_period_s;
   json["usual_noise"] = {{"q", model.usual_noise.q}, {"dq", model.usual_noise.dq}};
   json["noise_range"] = model.noise_range;

@@ -9,6 +9,7 @@ namespace {
 
 // Of the largest torque: what a torque that was not logged may be off by.
 constexpr double kMissingShare = 0.5;
+constexpr double kUnseenJump = 0.5;  // of a jump larger than any healthy one: what may have been missed
 // Friction is uncertain within this many widths of zero velocity, where its tanh is not yet 1 (to 0.5 %).
 constexpr double kRestWidths = 3.0;
 
@@ -17,6 +18,15 @@ constexpr double kRestWidths = 3.0;
 constexpr double kIntegratedNoise = 3.0;
 
 bool is_set(std::span<const bool> flags, int j) { return !flags.empty() && flags[j]; }
+
+/// What is not known of a torque that jumps between two samples. Healthy jumps tell how much; of a larger one,
+/// such as a controller's answer to a reading that is wrong, nobody knows how long it lasted.
+double missed_of_jump(const MotionModel& model, double jump, int j) {
+  const double share = model.noise.step_share;
+  if (share == 0.0 || model.torque_jump.empty()) return share * jump;
+  const double usual = std::min(jump, model.torque_jump[j]);
+  return share * usual + std::max(share, kUnseenJump) * (jump - usual);
+}
 
 /// Variance of the torque impulse that the model misses at joint j over the step.
 double impulse_variance(const MotionModel& model, const Step& step, const GaussianState& state, int j) {
@@ -33,7 +43,7 @@ double impulse_variance(const MotionModel& model, const Step& step, const Gaussi
     const double guess = kMissingShare * model.torque_scale[j];
     return step.dt * step.dt * guess * guess;
   }
-  const double jump = noise.step_share * (step.next_torque[j] - step.torque[j]);
+  const double jump = missed_of_jump(model, std::abs(step.next_torque[j] - step.torque[j]), j);
   variance = step.dt * noise.correlation_s * variance + step.dt * step.dt * jump * jump;
   return variance;
 }
