@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/classify/episode_features.hpp"
+#include "lib/evidence/bank.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/evidence/slow_states.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
@@ -113,6 +114,35 @@ TEST(HealthyFamily, AWorkPieceThatComesEveryDayIsNoFault) {
   EXPECT_EQ(with_piece.changes.front().kg, 1.0);
   EXPECT_NEAR(log.time[with_piece.changes.front().row], kOnset_s, 0.05);
   EXPECT_NEAR(with_piece.estimate(SlowKind::tip_mass, 2).value, 0.0, 0.05) << "the work piece is none of it";
+}
+
+TEST(HealthyFamily, AWorkPieceIsNotPickedUpForALittleSurprise) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {1.0};
+  for (const int seed : {35, 41, 42})
+    EXPECT_TRUE(watched(simulate(with_friction(1.5), rrp_run(10.0), seed).log, model).changes.empty())
+        << seed;
+}
+
+TEST(HealthyFamily, TheSameChangeOfTheWorkPieceTwiceInARowIsUnlikely) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {1.0};
+  const Log log = simulate(known_rrp(), rrp_run(1.0), 43).log;
+  const std::vector<Hypothesis> hypotheses = hypotheses_of(3, TorqueMeaning::measured, model.work_pieces_kg);
+  const auto picked_up = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                      [](const Hypothesis& h) { return h.work_piece_kg > 0.0; });
+  Follower follower(model);
+  Bank bank(model, follower.dynamics(), hypotheses);
+  FollowedSample before, at;
+  for (int k = 0; k < 50; ++k) follower.follow(log, k, before);
+  follower.follow(log, 50, at);
+  const int index = static_cast<int>(picked_up - hypotheses.begin());
+  const auto ratio = [&] { return bank.start(index, 50, before, at).log_likelihood_ratio; };
+  const double at_first = ratio();
+  bank.work_piece_changed(-1.0);
+  EXPECT_EQ(ratio(), at_first) << "it was put down";
+  bank.work_piece_changed(1.0);
+  EXPECT_LT(ratio(), at_first - 15.0);
 }
 
 TEST(HealthyFamily, TheConditionIsThatOfTheDay) {

@@ -117,7 +117,7 @@ TEST(FaultsInSequence, ALongPushIsOneCollisionThatEnds) {
   const auto faults = found({fault(FaultKind::collision, 1, 2.0, 30.0, 0.45)});
   ASSERT_EQ(faults.size(), 1u) << listed(faults);
   EXPECT_EQ(faults[0].label, text(FaultKind::collision, 1));
-  EXPECT_NEAR(faults[0].evidence.end_s, 2.45, 0.1);
+  EXPECT_NEAR(faults[0].evidence.end_s, 2.45, 0.04);
 }
 
 }  // namespace

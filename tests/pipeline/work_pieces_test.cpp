@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Robots that pick up and put down a work piece all day.
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "lib/pipeline/healthy_robot.hpp"
+#include "lib/pipeline/without_work_piece.hpp"
+#include "tests/pipeline/small_robot.hpp"
+#include "tests/support/rrp_runs.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kPiece_kg = 1.0;
+
+struct Carried {
+  double from_s, to_s;
+};
+
+SimulationSpec carrying(SimulationSpec spec, const std::vector<Carried>& pieces) {
+  const int joint = static_cast<int>(spec.noise.q.size());
+  for (const Carried& piece : pieces)
+    spec.faults.push_back({FaultKind::payload_change, joint, piece.from_s, piece.to_s, kPiece_kg, 0.0});
+  return spec;
+}
+
+TEST(WorkPieces, RowsWithoutThemAreThoseBeforeAndAfterTheyAreCarried) {
+  MotionModel model = rrp_motion_model();
+  model.work_pieces_kg = {kPiece_kg};
+  MemorySource often(simulate(known_rrp(), carrying(rrp_run(20.0), {{4.0, 8.0}, {12.0, 16.0}}), 71).log),
+      never(simulate(known_rrp(), rrp_run(10.0), 72).log);
+  const std::vector<LogSource*> logs = {&often, &never};
+  const auto rows = rows_without_work_piece(logs, model, 0);
+  ASSERT_EQ(rows.size(), 2u);
+  ASSERT_EQ(rows[0].size(), 3u);
+  EXPECT_EQ(rows[0][0].begin, 0);
+  EXPECT_NEAR(static_cast<double>(rows[0][0].end), 400.0, 60.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][1].begin), 800.0, 60.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][1].end), 1200.0, 60.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][2].begin), 1600.0, 60.0);
+  ASSERT_EQ(rows[1].size(), 1u) << "a log in which nothing changes and nothing is carried";
+  EXPECT_EQ(rows[1][0].begin, 0);
+}
+
+TEST(WorkPieces, ARobotThatKnowsOfNoneKeepsAllRows) {
+  MemorySource log(simulate(known_rrp(), rrp_run(10.0), 73).log);
+  const std::vector<LogSource*> logs = {&log};
+  EXPECT_TRUE(rows_without_work_piece(logs, rrp_motion_model(), 0).empty());
+}
+
+TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
+  std::deque<MemorySource> sources;
+  for (int day = 0; day < 3; ++day)
+    sources.emplace_back(
+        simulate(small_robot(), carrying(small_run(24.0), {{3.0, 7.0}, {11.0, 15.0}, {19.0, 22.0}}), 81 + day)
+            .log,
+        "day.csv");
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  const auto mass_of = [](const Identification& id) { return id.robot.chain.links.back().mass; };
+  const double with_pieces = mass_of(identify(logs, unknown_small_robot()));
+  for (MemorySource& source : sources) source.rewind();
+  const HealthyRobot robot = healthy_robot(logs, unknown_small_robot(), {}, {});
+  ASSERT_EQ(robot.model.motion.work_pieces_kg.size(), 1u);
+  EXPECT_NEAR(robot.model.motion.work_pieces_kg.front(), kPiece_kg, 0.1);
+  EXPECT_GT(with_pieces, 2.2) << "the piece is carried half of the time";
+  EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
+}
+
+}  // namespace
+}  // namespace faultline
