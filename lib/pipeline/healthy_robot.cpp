@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lib/core/make_issue.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/pipeline/identified_model.hpp"
 #include "lib/pipeline/without_work_piece.hpp"
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "lib/core/error.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/healthy_robot.hpp"

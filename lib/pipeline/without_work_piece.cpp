@@ -6,7 +6,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/evidence/work_pieces.hpp"
+#include "lib/evidence/learn/work_pieces.hpp"
 
 namespace faultline {
 namespace {

@@ -2,7 +2,7 @@
 // Encoders of coarse codes on robots that rest, learned from logs in which nothing rests.
 #include <gtest/gtest.h>
 
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 #include "tests/support/rrp_runs.hpp"

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 
 namespace faultline {
 namespace {

@@ -19,8 +19,8 @@ constexpr double kIntegratedNoise = 3.0;
 
 bool is_set(std::span<const bool> flags, int j) { return !flags.empty() && flags[j]; }
 
-/// What is not known of a torque that jumps between two samples. Healthy jumps tell how much; of a larger one,
-/// such as a controller's answer to a reading that is wrong, nobody knows how long it lasted.
+/// What is not known of a torque that jumps between two samples. Healthy jumps tell how much; of a larger
+/// one, such as a controller's answer to a reading that is wrong, nobody knows how long it lasted.
 double missed_of_jump(const MotionModel& model, double jump, int j) {
   const double share = model.noise.step_share;
   if (share == 0.0 || model.torque_jump.empty()) return share * jump;

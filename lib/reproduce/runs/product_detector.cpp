@@ -6,7 +6,7 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/classify/episode_features.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 #include "lib/fault/label_text.hpp"

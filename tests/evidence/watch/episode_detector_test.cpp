@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/classify/episode_features.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/fault/label_text.hpp"
 #include "tests/support/rrp_runs.hpp"

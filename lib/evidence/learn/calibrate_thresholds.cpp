@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "lib/core/parallel.hpp"
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 

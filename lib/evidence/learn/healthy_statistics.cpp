@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/healthy_statistics.hpp"
+#include "lib/evidence/learn/healthy_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/evidence/match_noise.hpp"
+#include "lib/evidence/learn/match_noise.hpp"
 
 namespace faultline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/match_noise.hpp"
+#include "lib/evidence/learn/match_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

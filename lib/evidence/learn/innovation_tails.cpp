@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/innovation_tails.hpp"
+#include "lib/evidence/learn/innovation_tails.hpp"
 
 #include <algorithm>
 #include <array>

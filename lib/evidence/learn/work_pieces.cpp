@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/work_pieces.hpp"
+#include "lib/evidence/learn/work_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "lib/evidence/learn_motion_model.hpp"
+#include "lib/evidence/learn/learn_motion_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/evidence/innovation_tails.hpp"
-#include "lib/evidence/match_noise.hpp"
+#include "lib/evidence/learn/innovation_tails.hpp"
+#include "lib/evidence/learn/match_noise.hpp"
+#include "lib/evidence/learn/work_pieces.hpp"
 #include "lib/evidence/noise_level.hpp"
 #include "lib/evidence/slow_states.hpp"
-#include "lib/evidence/work_pieces.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {

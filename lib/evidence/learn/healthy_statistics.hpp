@@ -14,7 +14,7 @@ struct HealthyStatistics {
   std::vector<double> velocity_rms;   ///< rad/s or m/s
   std::vector<double> torque_rms;     ///< N m or N
   std::vector<double> torque_largest;
-  std::vector<double> torque_jump;  ///< largest from one sample to the next
+  std::vector<double> torque_jump;   ///< largest from one sample to the next
   std::vector<double> repeat_share;  ///< samples that repeat the one before bit for bit
   std::vector<int> longest_repeat;   ///< samples
   long long rows = 0;
