@@ -71,6 +71,11 @@ std::vector<Imitation> imitations(const Extremes& seen, const std::vector<Hypoth
   return out;
 }
 
+double largest_ratio(const Extremes& seen) {
+  return seen.ratio.empty() ? 0.0 : *std::max_element(seen.ratio.begin(), seen.ratio.end());
+}
+
+/// A filter that trusts its own motion less explains more, but lets faults explain what it leaves.
 void inflate(MotionModel& model) {
   model.noise.torque_share *= kInflation;
   model.noise.rest_share *= kInflation;
@@ -84,22 +89,24 @@ void inflate(MotionModel& model) {
 EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
                                      const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& start,
                                      int threads) {
-  for (int round = 0;; ++round) {
-    Extremes seen{0.0, std::vector<double>(hypotheses.size(), 0.0)};
-    measure(logs, model, hypotheses, start, threads, seen);
-    const double trigger = kTriggerSpare * seen.trigger;
-    const double ratio = kOwnSpare * *std::max_element(seen.ratio.begin(), seen.ratio.end());
-    if (round < kMostInflations && ratio > kMostImitated) {
-      inflate(model);
-      continue;
+  MotionModel tried = model;
+  Extremes seen;
+  for (int round = 0; round <= kMostInflations; ++round) {
+    if (round > 0) inflate(tried);
+    Extremes now{0.0, std::vector<double>(hypotheses.size(), 0.0)};
+    measure(logs, tried, hypotheses, start, threads, now);
+    if (round == 0 || largest_ratio(now) < largest_ratio(seen)) {
+      seen = now;
+      model = tried;
     }
-    EvidenceOptions options = start;
-    options.trigger = std::max(start.trigger, std::min(trigger, kHighestTrigger));
-    options.imitations = imitations(seen, hypotheses, start.threshold);
-    measure(logs, model, hypotheses, options, threads, seen);  // woken later, tests see something else
-    options.imitations = imitations(seen, hypotheses, start.threshold);
-    return options;
+    if (kOwnSpare * largest_ratio(seen) <= kMostImitated) break;
   }
+  EvidenceOptions options = start;
+  options.trigger = std::max(start.trigger, std::min(kTriggerSpare * seen.trigger, kHighestTrigger));
+  options.imitations = imitations(seen, hypotheses, start.threshold);
+  measure(logs, model, hypotheses, options, threads, seen);  // woken later, tests see something else
+  options.imitations = imitations(seen, hypotheses, start.threshold);
+  return options;
 }
 
 }  // namespace faultline

@@ -49,6 +49,15 @@ double log_likelihood_of(const HealthyExcerpt& excerpt, const MotionModel& model
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::max();
 }
 
+double log_likelihood(const std::vector<HealthyExcerpt>& logs, const MotionModel& model, int threads) {
+  std::vector<double> parts(logs.size());
+  parallel_for(static_cast<int>(logs.size()), threads,
+               [&](int i) { parts[i] = log_likelihood_of(logs[i], model); });
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
 /// Pieces of the excerpts with about `rows` rows in all, spread evenly; the excerpts themselves where they
 /// have no more.
 std::vector<HealthyExcerpt> spread(const std::vector<HealthyExcerpt>& excerpts, int rows) {
@@ -216,15 +225,6 @@ bool wobbles(const std::vector<HealthyExcerpt>& logs, double period) {
 }
 
 }  // namespace
-
-double log_likelihood(const std::vector<HealthyExcerpt>& logs, const MotionModel& model, int threads) {
-  std::vector<double> parts(logs.size());
-  parallel_for(static_cast<int>(logs.size()), threads,
-               [&](int i) { parts[i] = log_likelihood_of(logs[i], model); });
-  double sum = 0.0;
-  for (const double part : parts) sum += part;
-  return sum;
-}
 
 void match_noise(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const MatchOptions& options) {
   if (model.clock_std > 0.0 && wobbles(logs, options.period_s)) {

@@ -23,9 +23,6 @@ struct MatchOptions {
   int threads = 0;        ///< 0 = one a core; the result does not depend on it
 };
 
-/// Of the healthy filter's innovations, over all excerpts. The result does not depend on `threads`.
-double log_likelihood(const std::vector<HealthyExcerpt>& logs, const MotionModel& model, int threads);
-
 /// Moves process noise, measurement noise, error of the clock and the pace of the slow states to where the
 /// innovations of the healthy excerpts are likeliest: a coordinate search by shrinking factors. Stamps
 /// that wobble are taken as steps of the period where that is likelier.

@@ -12,13 +12,11 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestChanges = 3;   // fewer are no habit
-constexpr double kSameMass = 0.25;  // share by which most changes may differ from the usual one
-constexpr double kMostAlike = 0.6;  // share of the changes that must be that alike
-constexpr double kAtFirst = 0.6;    // of a work piece: doubt of what is carried when a log begins
-constexpr double kCoarseMass = 1.1, kFineMass = 1.03;  // steps of the search for the likeliest mass
-constexpr int kMostMoves = 4;                          // in one direction
-constexpr double kLeastOfCarried = 0.05;               // of the prior of a payload: less is no work piece
+constexpr int kFewestChanges = 3;         // fewer are no habit
+constexpr double kSameMass = 0.25;        // share by which most changes may differ from the usual one
+constexpr double kMostAlike = 0.6;        // share of the changes that must be that alike
+constexpr double kAtFirst = 0.6;          // of a work piece: doubt of what is carried when a log begins
+constexpr double kLeastOfCarried = 0.05;  // of the prior of a payload: less is no work piece
 
 /// What a jump of the load may be: a mass, a push on one joint, or a row read wrong.
 std::vector<Hypothesis> explanations(int joints, const std::vector<double>& work_pieces) {
@@ -70,31 +68,6 @@ double tip_mass(const std::vector<SlowEstimate>& estimates) {
   return 0.0;
 }
 
-void scale_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, double factor) {
-  for (double& mass : model.work_pieces_kg) mass *= factor;
-  for (HealthyExcerpt& excerpt : excerpts)
-    for (WorkPieceChange& change : excerpt.work_piece_changes) change.kg *= factor;
-}
-
-/// What one change tells of the mass is mixed with friction and where the tip's mass stood: the mass is moved
-/// to where all excerpts are likeliest.
-void refine_mass(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
-  double best = log_likelihood(excerpts, model, threads);
-  const auto helps = [&](double factor) {
-    scale_work_piece(model, excerpts, factor);
-    const double moved = log_likelihood(excerpts, model, threads);
-    if (moved > best) {
-      best = moved;
-      return true;
-    }
-    scale_work_piece(model, excerpts, 1.0 / factor);
-    return false;
-  };
-  for (const double factor : {kCoarseMass, kFineMass})
-    for (const double by : {factor, 1.0 / factor})
-      for (int moves = 0; moves < kMostMoves && helps(by);) ++moves;
-}
-
 }  // namespace
 
 WorkPieceHistory work_piece_history(LogSource& log, const MotionModel& model) {
@@ -115,8 +88,7 @@ void allow_work_pieces(MotionModel& model) {
 
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
   const int count = static_cast<int>(excerpts.size());
-  const bool is_declared = !model.work_pieces_kg.empty();
-  if (!is_declared) {
+  if (model.work_pieces_kg.empty()) {
     const double mass = shown_mass(model, excerpts, threads);
     if (mass <= 0.0) return;
     model.work_pieces_kg = {mass};
@@ -129,7 +101,6 @@ void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts
     detector.finish();
     excerpts[i].work_piece_changes = detector.work_piece_changes();
   });
-  if (!is_declared) refine_mass(model, excerpts, threads);
 }
 
 }  // namespace faultline
