@@ -252,10 +252,8 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   }
   Conclusion conclusion;
   EpisodeEvidence& out = conclusion.evidence;
-  RunningHypothesis& winner = *std::min_element(best.begin(), best.end(), better);
+  const RunningHypothesis& winner = *std::min_element(best.begin(), best.end(), better);
   out.best = static_cast<int>(&winner - best.data());
-  if (describe(bank_.hypotheses()[out.best].label.kind).passes)
-    winner = with_refined_duration(bank_, history_, {earliest_, trigger_, now_}, winner);
   for (const RunningHypothesis& running : best)
     out.hypotheses.push_back(std::isfinite(running.log_likelihood_ratio) ? bank_.evidence_of(running)
                                                                          : HypothesisEvidence{});
@@ -266,7 +264,10 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   for (std::int64_t k = std::max(winner.onset - kUsualRows, earliest_); k < winner.onset; ++k)
     add_to(out.usual, history_[k], bank_.joints());
   out.trace = trace_evidence(bank_, history_, best, now_);
-  conclusion.best = winner;
+  // Its length tells when it was over; as evidence, a push of any length would explain what is no push.
+  conclusion.best = describe(bank_.hypotheses()[out.best].label.kind).passes
+                        ? with_refined_duration(bank_, history_, {earliest_, trigger_, now_}, winner)
+                        : winner;
   return conclusion;
 }
 
