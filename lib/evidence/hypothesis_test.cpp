@@ -266,7 +266,7 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   out.trace = trace_evidence(bank_, history_, best, now_);
   // Its length tells when it was over; as evidence, a push of any length would explain what is no push.
   conclusion.best = describe(bank_.hypotheses()[out.best].label.kind).passes
-                        ? with_refined_duration(bank_, history_, {earliest_, trigger_, now_}, winner)
+                        ? with_refined_duration(bank_, history_, now_, winner)
                         : winner;
   return conclusion;
 }

@@ -48,8 +48,8 @@ RunningHypothesis with_refined_onset(const Bank& bank, const History& history, c
   return better(to_the_end, coarse) ? to_the_end : coarse;
 }
 
-RunningHypothesis with_refined_duration(const Bank& bank, const History& history,
-                                        const TestedSamples& samples, const RunningHypothesis& coarse) {
+RunningHypothesis with_refined_duration(const Bank& bank, const History& history, std::int64_t until,
+                                        const RunningHypothesis& coarse) {
   RunningHypothesis best = coarse;
   for (const double factor : {kCoarseDuration, kFineDuration}) {
     const double centre = best.duration_s;
@@ -58,7 +58,7 @@ RunningHypothesis with_refined_duration(const Bank& bank, const History& history
       longer *= factor;
       for (const double duration_s : {centre * longer, centre / longer}) {
         const RunningHypothesis candidate =
-            run_hypothesis(bank, history, best.hypothesis, best.onset, samples.now, duration_s);
+            run_hypothesis(bank, history, best.hypothesis, best.onset, until, duration_s);
         if (better(candidate, best)) best = candidate;
       }
     }

@@ -29,8 +29,8 @@ RunningHypothesis run_hypothesis(const Bank& bank, const History& history, int h
 RunningHypothesis with_refined_onset(const Bank& bank, const History& history, const TestedSamples& samples,
                                      const RunningHypothesis& coarse);
 
-/// A push with the duration that explains most: those of the bank are steps apart.
-RunningHypothesis with_refined_duration(const Bank& bank, const History& history,
-                                        const TestedSamples& samples, const RunningHypothesis& coarse);
+/// A push with the duration that explains most up to the sample `until`: those of the bank are steps apart.
+RunningHypothesis with_refined_duration(const Bank& bank, const History& history, std::int64_t until,
+                                        const RunningHypothesis& coarse);
 
 }  // namespace faultline

@@ -11,8 +11,7 @@ namespace {
 constexpr double kFreshCodes = 8.0;       // rows: a joint that moves slowly shows one code for as long
 constexpr double kMostSameCodes = 256.0;  // rows
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMassDoubt = 0.1;  // share by which the mass of a work piece is not known
-constexpr double kNoTail = std::numeric_limits<double>::infinity();
+constexpr double kMassDoubt = 0.1;                // share by which the mass of a work piece is not known
 constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
 constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "lib/evidence/filter/fault_load.hpp"
 #include "lib/evidence/filter/prediction.hpp"
@@ -42,6 +43,9 @@ Step step_to(const FollowedSample& at, const JointArray& torque_before, const Jo
 
 /// Largest chi-square that one measured number may contribute, so that a single wild value decides nothing.
 inline constexpr double kChiSquareCap = 36.0;
+
+/// Every innovation counts in full, however far it strays.
+inline constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
 /// Adds a mass (kg), known but for a small share, to the tip where that is in the state.
 void add_work_piece(GaussianState& state, const MotionModel& model, double kg);

@@ -2,7 +2,6 @@
 // When the rows were taken, where their stamps wobble.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/evidence/filter/follower.hpp"
 
@@ -19,7 +18,6 @@ constexpr double kUnclear = 10.0;
 constexpr double kFits = 16.0;  // chi-square of a joint: a motion that fits worse says nothing of the clock
 constexpr double kElsewhere = 0.4;  // of the way of a period,
 constexpr double kSurely = 4.0;     // and so many standard deviations of a position beyond
-constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -15,8 +15,8 @@ namespace {
 constexpr double kRareShare = 0.999;  // of the innovations: a normal one stays within 3.3 of them
 constexpr double kStrays = 4.2;       // standard deviations of that rare one: no normal distribution
 constexpr double kTail = 3.0;         // standard deviations that then count in full
-constexpr double kNoTail = 1e6;
-constexpr double kFirstJump = 0.05;  // of the largest torque: moves a spring by the sensor's noise, at first
+constexpr double kFarTail = 1e6;      // in models, whose JSON has no infinity
+constexpr double kFirstJump = 0.05;   // of the largest torque: moves a spring by the sensor's noise, at first
 constexpr double kLeastTorque = 1e-9;  // N m or N
 constexpr int kSettlingRows = 10;
 
@@ -48,7 +48,7 @@ bool learn_tails(MotionModel& model, const std::vector<HealthyExcerpt>& excerpts
     for (const Channels& part : parts) all.insert(all.end(), part[channel].begin(), part[channel].end());
     const bool strays = !all.empty() && lower_quantile(all, kRareShare) > kStrays;
     any = any || strays;
-    return strays ? kTail : kNoTail;
+    return strays ? kTail : kFarTail;
   };
   for (int j = 0; j < n; ++j) {
     const double velocity = tail_of(n + j), position = tail_of(j);
