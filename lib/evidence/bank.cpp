@@ -23,14 +23,25 @@ constexpr double kCodesInStd = 3.4641;
 /// Codes that never repeated in the healthy logs may do so once in this many samples.
 constexpr double kSmallestShare = 1e-4;
 
+/// Codes so coarse that healthy joints repeat them: the log likelihood of a reading that was certain.
+double certain_code(const FollowedSample& at, int j) {
+  double codes = std::log(kCodesInStd * at.q_std[j]);
+  if (std::isfinite(at.dq[j])) codes += std::log(kCodesInStd * at.dq_std[j]);
+  return -codes;
+}
+
+/// Nothing is likelier than certain, though the density of a Gaussian as wide as a code is where it repeats.
+double at_most_certain(double log_likelihood, const MotionModel& model, const FollowedSample& at, int j) {
+  if (!at.repeats[j] || repeats_mean_stuck(model, j)) return log_likelihood;
+  return std::min(log_likelihood, certain_code(at, j));
+}
+
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
   if (!at.repeats[j]) return kCodeChanged;
   if (repeats_mean_stuck(model, j))
     return -std::log(std::max(model.repeat_share[j], kSmallestShare)) + 0.5 * at.chi_square[j];
-  // Codes so coarse that healthy joints repeat them: how likely would this one have been?
-  double codes = std::log(kCodesInStd * at.q_std[j]);
-  if (std::isfinite(at.dq[j])) codes += std::log(kCodesInStd * at.dq_std[j]);
-  return -at.log_likelihood[j] - codes;
+  const double certain = certain_code(at, j);
+  return certain - std::min(at.log_likelihood[j], certain);
 }
 
 }  // namespace
@@ -115,7 +126,8 @@ void Bank::observe(RunningHypothesis& running, const FollowedSample& at) const {
                    : SensorError{};
     const JointObservation seen = observe_joint(running.state, n, at, j, error);
     if (at.pressed[j]) continue;
-    running.log_likelihood_ratio += seen.log_likelihood - at.log_likelihood[j];
+    running.log_likelihood_ratio += at_most_certain(seen.log_likelihood, model_, at, j) -
+                                    at_most_certain(at.log_likelihood[j], model_, at, j);
     if (at.in_range && !at.repeats[j] && std::isfinite(at.q[j]))
       running.surprise.add(j, seen.whitened_q, seen.whitened_dq, std::isfinite(at.dq[j]));
   }

@@ -32,6 +32,7 @@ struct SlowState {
   double day_std = 0.0;   ///< how far days differ; of a coloured torque its level at any time
   double walk = 0.0;      ///< what it wanders by in a second, grows with the root of time
   double memory_s = 0.0;  ///< of a coloured torque: it is forgotten in this time; 0 for what stays
+  double usual = 0.0;     ///< what it wanders around: another value once a fault has changed it
 
   /// Normal days are within +- this.
   double normal_range() const { return kStdsInRange * day_std; }

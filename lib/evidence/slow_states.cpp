@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.hpp"
-#include "lib/evidence/filter/follower.hpp"
+#include "lib/evidence/learn/follow_excerpt.hpp"
 #include "lib/log/difference_velocity.hpp"
 
 namespace faultline {
@@ -35,7 +35,8 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
     if (normal.friction > 0.0 && rubs(model.chain.friction[j]))
       add(SlowKind::friction, j, normal.friction, normal.friction_pace);
     if (largest <= 0.0) continue;
-    if (normal.torque_constant > 0.0) add(SlowKind::torque_gain, j, normal.torque_constant, 0.0);
+    if (normal.torque_constant > 0.0)
+      add(SlowKind::torque_gain, j, normal.torque_constant, kDayPace * normal.torque_constant);
     states.push_back({SlowKind::coloured_torque, j, kColourShare * largest, 0.0, kFirstMemory_s});
   }
   const double carried = kCarriedInPriors * model.priors.payload;
@@ -49,23 +50,16 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
   const std::size_t count = model.slow.size();
   std::vector<std::vector<double>> squares(days.size(), std::vector<double>(count, 0.0));
   parallel_for(static_cast<int>(days.size()), threads, [&](int i) {
-    Follower follower(model, days[i].noise);
-    FollowedSample sample;
-    auto change = days[i].work_piece_changes.begin();
+    GaussianState last;
+    follow_excerpt(days[i], model, kMassDoubt,
+                   [&](const FollowedSample& sample, bool) { last = sample.posterior; });
     double carried = 0.0;
-    for (int k = 0; k < days[i].log.rows(); ++k) {
-      for (; change != days[i].work_piece_changes.end() && change->row <= days[i].log.first_row + k;
-           ++change) {
-        follower.change_work_piece(change->kg);
-        carried += change->kg;
-      }
-      follower.follow(days[i].log, k, sample);
-    }
+    for (const WorkPieceChange& change : days[i].work_piece_changes) carried += change.kg;
     for (std::size_t s = 0; s < count; ++s) {
       const int index = first + static_cast<int>(s);
       const double work_piece = model.slow[s].kind == SlowKind::tip_mass ? carried : 0.0;
-      const double mean = sample.posterior.mean[index] - work_piece;
-      squares[i][s] = mean * mean + sample.posterior.p(index, index);
+      const double mean = last.mean[index] - work_piece;
+      squares[i][s] = mean * mean + last.p(index, index);
     }
   });
   for (std::size_t s = 0; s < count; ++s) {

@@ -31,6 +31,18 @@ HealthyRobot matched(std::span<LogSource* const> logs, const Robot& robot, Ident
   return out;
 }
 
+/// A mass that comes and goes looks like a torque that acts late: what such logs tell of a delay is not
+/// believed while work pieces are looked for.
+Identification as_stated(Identification identification, const Robot& robot) {
+  identification.robot.torque_delay_s = robot.torque_delay_s;
+  return identification;
+}
+
+bool has_doubtful_delay(const Identification& identification, const Robot& robot) {
+  return identification.status != IdentificationStatus::converged &&
+         identification.robot.torque_delay_s != robot.torque_delay_s;
+}
+
 /// The logs that agree, without the rows in which a work piece is carried; none where that is told of none.
 std::deque<SelectedRowsSource> without_work_piece(std::span<LogSource* const> logs, HealthyRobot& robot,
                                                   int threads) {
@@ -63,9 +75,13 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
   Identification identification = identify(logs, robot, options, part_of(progress, 0.0, kFirst));
   std::vector<IdentifiedLog> given = identification.logs;
   if (progress) progress("matching the noise", kFirst);
-  HealthyRobot first = matched(logs, robot, std::move(identification), std::move(given), options.threads);
+  const bool doubtful = robot.payloads.empty() && has_doubtful_delay(identification, robot);
+  HealthyRobot first = matched(logs, robot, doubtful ? as_stated(identification, robot) : identification,
+                               given, options.threads);
   if (!robot.payloads.empty()) return first;
   std::deque<SelectedRowsSource> empty = without_work_piece(logs, first, options.threads);
+  if (empty.empty() && doubtful)
+    return matched(logs, robot, std::move(identification), std::move(given), options.threads);
   if (empty.empty()) return first;
   std::vector<LogSource*> sources;
   for (SelectedRowsSource& log : empty) sources.push_back(&log);

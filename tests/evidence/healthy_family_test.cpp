@@ -156,6 +156,22 @@ TEST(HealthyFamily, TheConditionIsThatOfTheDay) {
   }
 }
 
+/// A controller that answers the noise of its sensors, and a model with more process noise than the robot
+/// has.
+TEST(HealthyFamily, TheControllersAnswerToNoiseIsNotTakenForALighterRobot) {
+  SimulationSpec spec = rrp_run(60.0);
+  spec.sample_period_s = spec.control_period_s = 0.002;
+  spec.controller.bandwidth_rad_s = 60.0;
+  spec.noise.q = {1e-4, 1e-4, 2e-5};
+  spec.noise.dq = {1e-2, 1e-2, 2e-3};
+  MotionModel model = rrp_motion_model();
+  allow_model_error(model, 0.02);
+  const Watched day = watched(simulate(known_rrp(), spec, 54).log, model);
+  EXPECT_TRUE(day.episodes.empty());
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(day.estimate(SlowKind::torque_gain, j).value, 0.0, 0.03) << j + 1;
+  EXPECT_NEAR(day.estimate(SlowKind::tip_mass, 2).value, 0.0, 0.05);
+}
+
 TEST(HealthyFamily, OnlyFrictionFarBeyondItsRangeIsAFaultFromTheFirstRow) {
   for (const double factor : {0.5, 1.0, 1.5})
     EXPECT_TRUE(watched(simulate(with_friction(factor), rrp_run(20.0), 53).log).slow_faults.empty())

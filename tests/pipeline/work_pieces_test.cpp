@@ -63,8 +63,7 @@ TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
   for (MemorySource& source : sources) source.rewind();
   const HealthyRobot robot = healthy_robot(logs, unknown_small_robot(), {}, {});
   ASSERT_EQ(robot.model.motion.work_pieces_kg.size(), 1u);
-  EXPECT_NEAR(robot.model.motion.work_pieces_kg.front(), kPiece_kg, 0.25)
-      << "one change tells friction and mass together";
+  EXPECT_NEAR(robot.model.motion.work_pieces_kg.front(), kPiece_kg, 0.03);
   EXPECT_GT(with_pieces, 2.2) << "the piece is carried half of the time";
   EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
 }

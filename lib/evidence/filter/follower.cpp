@@ -11,7 +11,6 @@ namespace {
 constexpr double kFreshCodes = 8.0;       // rows: a joint that moves slowly shows one code for as long
 constexpr double kMostSameCodes = 256.0;  // rows
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMassDoubt = 0.1;                // share by which the mass of a work piece is not known
 constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
 constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
@@ -19,7 +18,8 @@ constexpr double kGapPeriods = 5.5;               // a gap of more than five per
 constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
 constexpr double kSurelyBraked = 5.0;             // standard deviations of dq
 constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
-constexpr double kFarBeyond = 20.0;  // times the usual speed or the largest torque: a filter gone astray
+constexpr double kFarBeyond = 20.0;     // times the usual speed or the largest torque: a filter gone astray
+constexpr double kDriveLevel_s = 0.02;  // slower than feedback of noise, faster than motions
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 double velocity_read(const Log& segment, int row, int joint) {
@@ -48,8 +48,8 @@ JointObservation observe_joint(GaussianState& state, int n, const FollowedSample
   return out;
 }
 
-void add_work_piece(GaussianState& state, const MotionModel& model, double kg) {
-  const double doubt = kMassDoubt * kg;
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg, double mass_doubt) {
+  const double doubt = mass_doubt * kg;
   for (std::size_t s = 0; s < model.slow.size(); ++s) {
     if (model.slow[s].kind != SlowKind::tip_mass) continue;
     const int index = 2 * model.joints() + static_cast<int>(s);
@@ -70,10 +70,12 @@ double RepeatedCodes::noise_factor(int j) const {
   return std::sqrt(1.0 + std::max(rows_[j] - kFreshCodes, 0.0));
 }
 
-void Follower::change_work_piece(double kg) { add_work_piece(state_, model_, kg); }
+void Follower::change_work_piece(double kg, double mass_doubt) {
+  add_work_piece(state_, model_, kg, mass_doubt);
+}
 
 Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before) {
-  return {at.dt, torque_before, at.torque, at.pressed, missing_before, at.torque_missing};
+  return {at.dt, torque_before, at.torque, at.drive_level, at.pressed, missing_before, at.torque_missing};
 }
 
 /// Noise of the sensors, and what an error of the time stamp makes of speed and acceleration.
@@ -121,6 +123,7 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       last_q_(before.last_q_),
       last_dq_(before.last_dq_),
       last_torque_(before.last_torque_),
+      drive_level_(before.drive_level_),
       q_codes_(before.q_codes_),
       low_(before.low_),
       high_(before.high_) {}
@@ -162,6 +165,7 @@ bool Follower::is_pressed(const FollowedSample& sample, int j) const {
 
 void Follower::read_row(const Log& segment, int row, FollowedSample& out) const {
   out.row = segment.first_row + row;
+  out.drive_level = drive_level_;
   out.time = segment.time[row];
   for (int j = 0; j < model_.joints(); ++j) {
     const double q = segment.q[j][row], dq = velocity_read(segment, row, j);
@@ -278,6 +282,8 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
     last_q_[j] = segment.q[j][row];
     last_dq_[j] = velocity_read(segment, row, j);
   }
+  const double passes = out.dt > 0.0 ? std::exp(-out.dt / kDriveLevel_s) : 0.0;
+  for (int j = 0; j < n; ++j) drive_level_[j] = out.torque[j] + passes * (drive_level_[j] - out.torque[j]);
   last_torque_ = out.torque;
   last_torque_missing_ = out.torque_missing;
 }

@@ -23,6 +23,7 @@ struct FollowedSample {
   JointArray q_tail;  ///< standard deviations of an innovation that count in full
   JointArray dq_tail;
   JointArray torque;          ///< held over from the sample before where it is missing
+  JointArray drive_level;     ///< torque at the step before without its quick part, which answers noise
   JointFlags torque_missing;  ///< nobody knows what the drive did around this sample
   JointFlags repeats;         ///< position and velocity equal the sample before, bit for bit
   /// Joints outside the range known to be healthy that do not move outward: an end stop, a cable or a table
@@ -47,8 +48,12 @@ inline constexpr double kChiSquareCap = 36.0;
 /// Every innovation counts in full, however far it strays.
 inline constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
-/// Adds a mass (kg), known but for a small share, to the tip where that is in the state.
-void add_work_piece(GaussianState& state, const MotionModel& model, double kg);
+/// Share by which the mass of a work piece that was learned or declared is not known.
+inline constexpr double kMassDoubt = 0.05;
+
+/// Adds a mass (kg), known but for a share, to the tip where that is in the state.
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg,
+                    double mass_doubt = kMassDoubt);
 
 /// Observes the measured channels of joint j.
 struct JointObservation {
@@ -101,7 +106,7 @@ class Follower {
   /// in the state `before`, what passes is not known.
   void stand_by(const GaussianState& before, const GaussianState& motion);
   /// A work piece of that mass (kg) is picked up, or put down (less than 0), before the next row.
-  void change_work_piece(double kg);
+  void change_work_piece(double kg, double mass_doubt = kMassDoubt);
   const FaultDynamics& dynamics() const { return dynamics_; }
 
  private:
@@ -139,7 +144,7 @@ class Follower {
   JointFlags last_torque_missing_{};
   JointFlags
       speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities
-  JointArray last_q_{}, last_dq_{}, last_torque_{};
+  JointArray last_q_{}, last_dq_{}, last_torque_{}, drive_level_{};
   RepeatedCodes q_codes_;
   JointArray low_{}, high_{};  ///< healthy range, widened by what this log visits
 };

@@ -32,28 +32,38 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
   StateVector before;
   std::copy_n(state.mean.begin(), state.size, before.begin());
   MotionState motion = motion_of(state.mean, n);
-  const Acceleration at =
-      dynamics.integrate(motion, torque, step.dt, circumstances(state.mean, model, hypothesis));
+  const Acceleration at = dynamics.integrate(motion, torque, step.dt,
+                                             circumstances(state.mean, model, hypothesis, step.drive_level));
   set_motion(state.mean, motion, n);
-  const MotionRows a = step.dt <= kAnalyticStep_s ? analytic_transition(state, at, model, step.dt, hypothesis)
-                                                  : stepwise_transition(before, state.size, model, dynamics,
-                                                                        torque, step.dt, hypothesis);
+  const MotionRows a = step.dt <= kAnalyticStep_s
+                           ? analytic_transition(state, at, model, step.dt, hypothesis)
+                           : stepwise_transition(before, state.size, model, dynamics, torque,
+                                                 step.drive_level, step.dt, hypothesis);
   propagate_covariance(state, a, 2 * n);
   return at;
 }
 
-/// What the healthy robot's slow states do over the step: all wander, and a coloured torque is forgotten.
+/// Share of a slow state's distance from its usual value that is left after the step. What wanders and yet
+/// stays within a day's spread forgets where it was. What is carried comes and goes, no day holds it.
+double kept_over(const SlowState& slow, const MotionModel& model, double dt) {
+  if (slow.memory_s > 0.0) return std::exp(-dt / slow.memory_s);
+  if (slow.kind == SlowKind::tip_mass && !model.work_pieces_kg.empty()) return 1.0;
+  const double pace = slow.walk / slow.day_std;
+  return slow.day_std > 0.0 ? 1.0 - 0.5 * pace * pace * dt : 1.0;
+}
+
+/// What the healthy robot's slow states do over the step: all wander around what is usual.
 void move_slow_states(GaussianState& state, const MotionModel& model, double dt) {
   for (std::size_t s = 0; s < model.slow.size(); ++s) {
     const SlowState& slow = model.slow[s];
     const int index = 2 * model.joints() + static_cast<int>(s);
-    if (slow.memory_s <= 0.0) {
-      state.p(index, index) += slow.walk * slow.walk * dt;
-      continue;
-    }
-    const double kept = std::exp(-dt / slow.memory_s);
+    const double kept = kept_over(slow, model, dt);
+    state.mean[index] -= slow.usual;
     relax(state, index, kept);
-    state.p(index, index) += slow.day_std * slow.day_std * (1.0 - kept * kept);
+    state.mean[index] += slow.usual;
+    const double stirred =
+        slow.memory_s > 0.0 ? slow.day_std * slow.day_std * (1.0 - kept * kept) : slow.walk * slow.walk * dt;
+    state.p(index, index) += stirred;
   }
 }
 

@@ -11,6 +11,7 @@ struct Step {
   double dt = 0.0;                              ///< s
   std::span<const double> torque{};             ///< logged at its start, N m or N
   std::span<const double> next_torque{};        ///< logged at its end
+  std::span<const double> drive_level{};        ///< at its start, without what answers the sensors' noise
   std::span<const bool> pressed{};              ///< at its end: joints that an end stop may hold; or empty
   std::span<const bool> torque_missing{};       ///< at its start: held over because none was logged; or empty
   std::span<const bool> next_torque_missing{};  ///< at its end

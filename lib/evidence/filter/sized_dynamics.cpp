@@ -53,6 +53,7 @@ struct SizedDynamics::RigidBody {
 SizedDynamics::SizedDynamics(const RobotLoad& load, const SizedFault& fault)
     : load_(load),
       sizes_(fault.sizes),
+      drive_level_(fault.drive_level),
       kind_(fault.hypothesis ? fault.hypothesis->label.kind : FaultKind::none),
       joints_(load.model.joints()) {
   if (fault.hypothesis) {
@@ -72,6 +73,7 @@ void SizedDynamics::take_slow_states(const SizedFault& fault) {
   friction_scale_.fill(1.0);
   gain_.fill(1.0);
   slow_torque_.fill(0.0);
+  coloured_.fill(0.0);
   for (std::size_t s = 0; s < fault.slow.size(); ++s) {
     const SlowState& state = load_.model.slow[s];
     switch (state.kind) {
@@ -81,8 +83,10 @@ void SizedDynamics::take_slow_states(const SizedFault& fault) {
       case SlowKind::torque_gain:
         gain_[state.joint] += fault.slow[s];
         break;
-      case SlowKind::torque_offset:
       case SlowKind::coloured_torque:
+        coloured_[state.joint] += fault.slow[s];
+        [[fallthrough]];
+      case SlowKind::torque_offset:
         slow_torque_[state.joint] += fault.slow[s];
         break;
       case SlowKind::tip_mass:
@@ -155,7 +159,8 @@ JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& to
     if (everywhere_) load.drive += sizes_[j];
     for (int s = 0; s < kMostSizes; ++s) out.size_torque[s][j] = load.size_torque[s];
     out.friction_torque[j] = -f.viscous * at.dq[j] - f.coulomb * sign - shape.torque;
-    out.gain_torque[j] = torque[j] * (j == joint_ ? driven_share(kind_, sizes_) : 1.0);
+    out.gain_torque[j] = (drive_level_.empty() ? torque[j] : drive_level_[j]) *
+                         (j == joint_ ? driven_share(kind_, sizes_) : 1.0);
     out.friction_slope[j] = load.viscous + load.coulomb * sharpness + scale * shape.slope;
     net.steepest[j] = load.viscous + load.coulomb / f.width;
     net.value[j] = load.drive - load.viscous * at.dq[j] - load.coulomb * sign - scale * shape.torque -
@@ -170,15 +175,27 @@ JointArray SizedDynamics::net_torque(const MotionState& at, const JointArray& to
   return net.value;
 }
 
-/// What a kilogram at the tip, accelerated as in `out`, asks of every joint.
-void SizedDynamics::tip_torque(const RigidBody& body, Acceleration& out) const {
+/// The acceleration without what the drive's quick part and the coloured torques do.
+JointArray SizedDynamics::telling_acceleration(const JointArray& torque, const Acceleration& at) const {
+  JointArray telling = at.value;
+  if (drive_level_.empty()) return telling;
+  for (int j = 0; j < joints_; ++j) {
+    const double quick = gain_[j] * (torque[j] - drive_level_[j]) + coloured_[j];
+    for (int i = 0; i < joints_; ++i) telling[i] -= at.inverse_inertia[i * joints_ + j] * quick;
+  }
+  return telling;
+}
+
+/// What a kilogram at the tip, accelerated as tells of it, asks of every joint.
+void SizedDynamics::tip_torque(const RigidBody& body, const JointArray& torque, Acceleration& out) const {
   JointMatrix<double> inertia = body.payload_inertia;
   JointVector<double> bias = body.payload_bias;
   if (load_.healthy.planar())
     load_.healthy.inertia_and_bias(body.q, body.dq, load_.payload_bodies, inertia, bias);
+  const JointArray acceleration = telling_acceleration(torque, out);
   for (int i = 0; i < joints_; ++i) {
     double sum = bias[i];
-    for (int j = 0; j < joints_; ++j) sum += inertia(i, j) * out.value[j];
+    for (int j = 0; j < joints_; ++j) sum += inertia(i, j) * acceleration[j];
     out.tip_torque[i] = -sum;
   }
   if (kind_ == FaultKind::payload_change) out.size_torque[0] = out.tip_torque;
@@ -196,7 +213,7 @@ Acceleration SizedDynamics::evaluate(const MotionState& at, const JointArray& to
     for (int j = 0; j < n; ++j) sum += out.inverse_inertia[i * n + j] * net[j];
     out.value[i] = sum;
   }
-  if (with_tip && tip_is_free_) tip_torque(body, out);
+  if (with_tip && tip_is_free_) tip_torque(body, torque, out);
   return out;
 }
 

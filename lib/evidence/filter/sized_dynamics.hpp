@@ -36,6 +36,10 @@ struct SizedFault {
   const Hypothesis* hypothesis = nullptr;
   std::span<const double> sizes{};
   std::span<const double> slow{};
+  /// By joint: the torque whose effect tells gains and masses. A controller answers the noise of its sensors,
+  /// and a filter with more process noise than the robot has takes the noise for motion: what both share
+  /// would be taken for a robot that moves more than it should. Empty: all that acts.
+  std::span<const double> drive_level{};
 };
 
 /// What the equations of motion take from the model, worked out once.
@@ -76,7 +80,8 @@ class SizedDynamics {
 
   void take_slow_states(const SizedFault& fault);
   void rigid_body(const MotionState& at, RigidBody& body) const;
-  void tip_torque(const RigidBody& body, Acceleration& out) const;
+  JointArray telling_acceleration(const JointArray& torque, const Acceleration& at) const;
+  void tip_torque(const RigidBody& body, const JointArray& torque, Acceleration& out) const;
   void take_extra_torque(const RigidBody& body, NetTorque& net, Acceleration& out) const;
   void lose_to_load(const MotionState& at, NetTorque& net, Acceleration& out) const;
   JointArray net_torque(const MotionState& at, const JointArray& torque, const RigidBody& body,
@@ -87,13 +92,14 @@ class SizedDynamics {
   void runge_kutta_step(MotionState& state, const JointArray& torque, double h) const;
 
   const RobotLoad& load_;
-  std::span<const double> sizes_;
+  std::span<const double> sizes_, drive_level_;
   FaultKind kind_;
   int joints_;
   int joint_ = -1;  ///< of the fault
   bool everywhere_ = false;
   JointArray friction_scale_, gain_;
   JointArray slow_torque_;  ///< beside the drive's, N m or N
+  JointArray coloured_;     ///< of that, what passes
   double tip_mass_ = 0.0;   ///< kg, beside what was identified
   bool tip_is_free_ = false;
   FastDynamics::Bodies bodies_;  ///< with the tip's mass, where the dynamics are planar

@@ -146,11 +146,12 @@ void advance_rows(MotionRows& a, int size, const Slopes& slopes, const MotionMod
 
 }  // namespace
 
-SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis) {
+SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis,
+                         std::span<const double> drive_level) {
   const std::span<const double> all(vector);
   const std::size_t slow = model.slow.size(), first = 2 * static_cast<std::size_t>(model.joints());
   const std::size_t sizes = hypothesis ? static_cast<std::size_t>(hypothesis->sizes) : 0;
-  return {hypothesis, all.subspan(first + slow, sizes), all.subspan(first, slow)};
+  return {hypothesis, all.subspan(first + slow, sizes), all.subspan(first, slow), drive_level};
 }
 
 MotionRows analytic_transition(const GaussianState& state, const Acceleration& at, const MotionModel& model,
@@ -176,13 +177,13 @@ MotionRows analytic_transition(const GaussianState& state, const Acceleration& a
 }
 
 MotionRows stepwise_transition(const StateVector& before, int size, const MotionModel& model,
-                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
-                               const Hypothesis* hypothesis) {
+                               const FaultDynamics& dynamics, const JointArray& torque,
+                               std::span<const double> drive_level, double dt, const Hypothesis* hypothesis) {
   MotionRows a;
   const int n = model.joints();
   std::fill_n(a.begin(), 2 * n * size, 0.0);
   for (int i = 0; i < 2 * n; ++i) a[i * size + i] = 1.0;
-  const SizedDynamics sized = dynamics.at(circumstances(before, model, hypothesis));
+  const SizedDynamics sized = dynamics.at(circumstances(before, model, hypothesis, drive_level));
   MotionState state = motion_of(before, n);
   Acceleration start = sized.evaluate(state, torque, false);
   const int steps = SizedDynamics::substeps(start, dt, kCoarseSubstep_s);

@@ -10,7 +10,8 @@ namespace faultline {
 using MotionRows = std::array<double, 2 * kMaxJoints * kMaxStates>;
 
 /// The slow states and the fault sizes in a state vector, behind q and dq.
-SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis);
+SizedFault circumstances(const StateVector& vector, const MotionModel& model, const Hypothesis* hypothesis,
+                         std::span<const double> drive_level = {});
 
 /// For short steps, from the friction slope and inverse inertia in `at`; the change of the rigid-body torque
 /// with position and speed over a step is left out.
@@ -20,7 +21,7 @@ MotionRows analytic_transition(const GaussianState& state, const Acceleration& a
 /// For any step: the product of those of substeps, each with the slopes of the acceleration in its middle (by
 /// differences) and the implicit trapezoidal rule, which friction of any stiffness leaves stable.
 MotionRows stepwise_transition(const StateVector& before, int size, const MotionModel& model,
-                               const FaultDynamics& dynamics, const JointArray& torque, double dt,
-                               const Hypothesis* hypothesis);
+                               const FaultDynamics& dynamics, const JointArray& torque,
+                               std::span<const double> drive_level, double dt, const Hypothesis* hypothesis);
 
 }  // namespace faultline

@@ -85,9 +85,11 @@ void learn_family(MotionModel& model, std::vector<HealthyExcerpt>& pieces, const
   if (!model.work_pieces_kg.empty()) {  // what they shook was taken for noise
     model.slow = before;
     allow_work_pieces(model);
+    const bool settles = normal.work_pieces_kg.empty();
+    if (settles) settle_work_piece(model, pieces, matching.threads);
     match_noise(model, pieces, matching);
+    if (settles) settle_work_piece(model, pieces, matching.threads);
   }
-  widen_to_days(model, pieces, matching.threads);
 }
 
 }  // namespace
@@ -133,7 +135,10 @@ MotionModel learn_motion_model(std::span<LogSource* const> logs, const Identifie
   for (double& floor : noise.floor) floor *= options.safety;
   for (SlowState& slow : model.slow)
     if (slow.kind == SlowKind::coloured_torque) slow.day_std *= options.safety;
-  if (options.normal) allow_model_error(model, options.normal->model_error);
+  if (options.normal) {
+    allow_model_error(model, options.normal->model_error);
+    widen_to_days(model, pieces, options.threads);
+  }
   return model;
 }
 

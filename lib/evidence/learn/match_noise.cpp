@@ -7,7 +7,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/evidence/filter/follower.hpp"
+#include "lib/evidence/learn/follow_excerpt.hpp"
 
 namespace faultline {
 namespace {
@@ -37,15 +37,10 @@ constexpr double kUniformSpread = 12.0;  // an error that is uniform over a code
 
 double log_likelihood_of(const HealthyExcerpt& excerpt, const MotionModel& model) {
   double sum = 0.0;
-  FollowedSample sample;
-  Follower follower(model, excerpt.noise);
-  auto change = excerpt.work_piece_changes.begin();
-  for (int k = 0; k < excerpt.log.rows(); ++k) {
-    for (; change != excerpt.work_piece_changes.end() && change->row <= excerpt.log.first_row + k; ++change)
-      follower.change_work_piece(change->kg);
-    follower.follow(excerpt.log, k, sample);
-    if (k > kSettlingRows) sum += sample.total_log_likelihood;
-  }
+  int rows = 0;
+  follow_excerpt(excerpt, model, kMassDoubt, [&](const FollowedSample& sample, bool) {
+    if (rows++ > kSettlingRows) sum += sample.total_log_likelihood;
+  });
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::max();
 }
 

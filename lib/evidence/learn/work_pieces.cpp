@@ -6,6 +6,7 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/evidence/learn/follow_excerpt.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr int kFewestChanges = 3;         // fewer are no habit
 constexpr double kSameMass = 0.25;        // share by which most changes may differ from the usual one
 constexpr double kMostAlike = 0.6;        // share of the changes that must be that alike
+constexpr double kMassUnknown = 0.5;      // share by which it may be another while it is being learned
 constexpr double kAtFirst = 0.6;          // of a work piece: doubt of what is carried when a log begins
 constexpr double kLeastOfCarried = 0.05;  // of the prior of a payload: less is no work piece
 
@@ -62,10 +64,51 @@ double shown_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& e
   return usual_mass(changes, kLeastOfCarried * model.priors.payload);
 }
 
+/// By how much the tip's mass at the end of each stretch between changes differs from that at the end of the
+/// stretch before: what whole stretches tell, where the moment of a change mixes mass and friction.
+std::vector<double> level_changes(const MotionModel& model, const HealthyExcerpt& excerpt) {
+  const auto tip = std::find_if(model.slow.begin(), model.slow.end(),
+                                [](const SlowState& slow) { return slow.kind == SlowKind::tip_mass; });
+  if (tip == model.slow.end() || excerpt.work_piece_changes.empty()) return {};
+  const auto index = 2 * model.joints() + static_cast<int>(tip - model.slow.begin());
+  std::vector<double> levels;
+  double level = 0.0;
+  follow_excerpt(excerpt, model, kMassUnknown, [&](const FollowedSample& sample, bool changed) {
+    if (changed) levels.push_back(level);
+    level = sample.posterior.mean[index];
+  });
+  levels.push_back(level);
+  std::vector<double> changes;
+  for (std::size_t i = 1; i < levels.size(); ++i) changes.push_back(std::abs(levels[i] - levels[i - 1]));
+  return changes;
+}
+
+/// The mass of the model's only work piece as whole stretches tell it.
+double settled_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+  std::vector<std::vector<double>> found(excerpts.size());
+  parallel_for(static_cast<int>(excerpts.size()), threads,
+               [&](int i) { found[i] = level_changes(model, excerpts[i]); });
+  std::vector<double> changes;
+  for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
+  if (static_cast<int>(changes.size()) < kFewestChanges) return model.work_pieces_kg.front();
+  return upper_median(changes);
+}
+
 double tip_mass(const std::vector<SlowEstimate>& estimates) {
   for (const SlowEstimate& estimate : estimates)
     if (estimate.state.kind == SlowKind::tip_mass) return estimate.value;
   return 0.0;
+}
+
+/// When the model's work pieces come and go in each excerpt.
+void note_changes(const MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
+  const std::vector<Hypothesis> bank = explanations(model.joints(), model.work_pieces_kg);
+  parallel_for(static_cast<int>(excerpts.size()), threads, [&](int i) {
+    EpisodeDetector detector(model, bank, {}, excerpts[i].noise);
+    detector.take(excerpts[i].log);
+    detector.finish();
+    excerpts[i].work_piece_changes = detector.work_piece_changes();
+  });
 }
 
 }  // namespace
@@ -87,20 +130,19 @@ void allow_work_pieces(MotionModel& model) {
 }
 
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
-  const int count = static_cast<int>(excerpts.size());
   if (model.work_pieces_kg.empty()) {
     const double mass = shown_mass(model, excerpts, threads);
     if (mass <= 0.0) return;
     model.work_pieces_kg = {mass};
   }
   allow_work_pieces(model);
-  const std::vector<Hypothesis> bank = explanations(model.joints(), model.work_pieces_kg);
-  parallel_for(count, threads, [&](int i) {
-    EpisodeDetector detector(model, bank, {}, excerpts[i].noise);
-    detector.take(excerpts[i].log);
-    detector.finish();
-    excerpts[i].work_piece_changes = detector.work_piece_changes();
-  });
+  note_changes(model, excerpts, threads);
+}
+
+void settle_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
+  model.work_pieces_kg = {settled_mass(model, excerpts, threads)};
+  allow_work_pieces(model);
+  note_changes(model, excerpts, threads);
 }
 
 }  // namespace faultline

@@ -14,6 +14,10 @@ namespace faultline {
 /// changes where there is none.
 void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
 
+/// Finds the mass of the model's only work piece again, from whole stretches with and without it. With noise
+/// that was matched before it was known, much of what it weighs passes for a torque that the model misses.
+void settle_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
+
 /// When work pieces of the model came and went in a healthy log, and what the filter makes of the tip's mass
 /// at its start.
 struct WorkPieceHistory {

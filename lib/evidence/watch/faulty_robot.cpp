@@ -22,12 +22,13 @@ GaussianState without_sizes(const GaussianState& state, int healthy) {
 }
 
 /// Adds what a fault's size is, with its doubt, to the slow state of that kind and joint.
-void add_to_slow_state(const MotionModel& model, GaussianState& state, SlowKind kind, int joint,
-                       double change, double variance) {
+void add_to_slow_state(MotionModel& model, GaussianState& state, SlowKind kind, int joint, double change,
+                       double variance) {
   for (std::size_t s = 0; s < model.slow.size(); ++s) {
-    const SlowState& slow = model.slow[s];
+    SlowState& slow = model.slow[s];
     if (slow.kind != kind || (kind != SlowKind::tip_mass && slow.joint != joint)) continue;
     const int index = 2 * model.joints() + static_cast<int>(s);
+    slow.usual += change;
     state.mean[index] += change;
     state.p(index, index) += variance;
   }

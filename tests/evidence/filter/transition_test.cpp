@@ -58,7 +58,8 @@ TEST(StepwiseTransition, IsTheDerivativeOfTheMotionByStateSlowStatesAndSizes) {
     for (const Hypothesis& hypothesis : moving_hypotheses()) {
       const int size = 11 + hypothesis.sizes;
       const StateVector x = world.before(hypothesis);
-      const MotionRows a = stepwise_transition(x, size, world.model, world.dynamics, drive, dt, &hypothesis);
+      const MotionRows a =
+          stepwise_transition(x, size, world.model, world.dynamics, drive, {}, dt, &hypothesis);
       for (int column = 0; column < size; ++column) {
         if (hypothesis.label.kind == FaultKind::locked && column == 3 + hypothesis.joint_index()) continue;
         StateVector above = x, below = x;
@@ -84,7 +85,7 @@ TEST(StepwiseTransition, StiffFrictionLeavesItStable) {
   x[0] = 0.3;
   x[1] = 0.8;
   const Hypothesis none{{FaultKind::unknown, 1}, 0.0, HypothesisForm::usual, 0};
-  const MotionRows a = stepwise_transition(x, 11, world.model, dynamics, JointArray{}, 0.073, &none);
+  const MotionRows a = stepwise_transition(x, 11, world.model, dynamics, JointArray{}, {}, 0.073, &none);
   for (int row = 3; row < 6; ++row)
     for (int column = 3; column < 6; ++column) EXPECT_LT(std::abs(a[row * 11 + column]), 1.1);
 }
