@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
+#include "lib/robot/dynamics.hpp"
 #include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
@@ -17,6 +18,20 @@ namespace {
 }
 
 double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
+
+constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg: less is none, and no spring's step is that short
+
+/// A link that has no inertia of its own cannot hang on a spring.
+void check_links(const Chain<double>& chain, const Gears& gears) {
+  const JointMatrix<double> inertia =
+      inertia_matrix(gears.link_side(chain), JointVector<double>(JointVector<double>::Zero(chain.joints())));
+  const JointMatrix<double> mobility = inertia.inverse();
+  for (int j = 0; j < chain.joints(); ++j)
+    if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
+      bad("stiffness",
+          fmt::format("without its motor joint {} moves no inertia; expected 0 for it, or a link with one",
+                      j + 1));
+}
 
 }  // namespace
 
@@ -54,6 +69,7 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
       if (drive.along[j] != 0.0)
         bad("stiffness", fmt::format("a shared drive turns joint {}; expected 0 for it", j + 1));
   }
+  check_links(chain, Gears(chain, spec));
 }
 
 Gears::Gears(const Chain<double>& chain, const GearSpec& spec)

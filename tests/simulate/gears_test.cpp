@@ -223,6 +223,9 @@ TEST(Gears, AreRefusedWhenTheyCannotBe) {
   Robot shared = robot;
   shared.chain.shared_drives = {{.along = Eigen::VectorXd::Ones(1)}};
   expect_refused(shared, {.stiffness = {1.0}, .motor_inertia = {1.0}}, "stiffness");
+  Robot without_mass = robot;
+  without_mass.chain.links[0] = {};
+  expect_refused(without_mass, {.stiffness = {1.0}, .motor_inertia = {1.0}}, "stiffness");
   Robot with_rotor = robot;
   with_rotor.chain.rotor_inertia = {0.1};
   EXPECT_NO_THROW(check_gears(with_rotor, {.stiffness = {1.0}}));
