@@ -95,6 +95,34 @@ TEST(WarmUp, WhatAFaultAddsIsNeverCold) {
   EXPECT_NEAR(extra.torque(0, 1.0, now), 0.6 * kCoulomb, 1e-12);
 }
 
+TEST(ExtraFriction, AColdJointAndOneThatRubsBreakAwayLater) {
+  const Robot robot = dry_joint();
+  ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.1}}, {.share = {0.6}, .time_s = {4.0}});
+  extra.set_time(4.0);
+  Friction<double> now = robot.chain.friction[0];
+  now.coulomb += 5.0;
+  const double v = 0.05, cold = 0.6 * std::exp(-1.0) * kCoulomb;
+  const double expected = cold + 0.5 * std::exp(-0.25) * (kCoulomb + 5.0 + cold);
+  EXPECT_NEAR(extra.torque(0, v, now), expected * std::tanh(v / kWidth), 1e-12);
+}
+
+TEST(ExtraFriction, IsNeverSteeperThanItsWorst) {
+  const Robot robot = dry_joint(kViscous);
+  const ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.02}},
+                            {.share = {0.6}, .time_s = {4.0}});
+  const Friction<double> now = robot.chain.friction[0], worst = extra.worst(0, now);
+  const auto total = [&](double v) {
+    return now.viscous * v + now.coulomb * std::tanh(v / now.width) + extra.torque(0, v, now);
+  };
+  for (double v = -0.1; v < 0.1; v += 1e-4) {
+    const double slope = (total(v + 1e-7) - total(v - 1e-7)) / 2e-7;
+    ASSERT_LE(slope, steepest(worst)) << v;
+    if (std::abs(v) > 8.0 * kWidth) {
+      ASSERT_LE(std::abs(slope), worst.viscous) << v;
+    }
+  }
+}
+
 TEST(ExtraFriction, BehindASpringBrakesTheMotor) {
   MachineSpec machine = cold();
   machine.gears = {.stiffness = {1000.0}, .play = {0.5}, .motor_inertia = {0.2}};

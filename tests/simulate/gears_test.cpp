@@ -44,6 +44,17 @@ TEST(Gears, TwoMassesSwingAtTheirNaturalFrequency) {
   }
 }
 
+TEST(Gears, StepsAreShortEnoughForTheSpringAlone) {
+  constexpr double kLong_s = 0.05;  // most of a swing
+  Plant plant(one_joint(), {}, {}, kLong_s, with_gears());
+  const double tau = 5.0, w = std::sqrt(kSpring * (1.0 / kMotor + 1.0 / kRodInertia));
+  for (int k = 0; k < 40; ++k) {
+    plant.advance(k * kLong_s, (k + 1) * kLong_s, one(tau));
+    ASSERT_NEAR(twist(plant), tau / kMotor / (w * w) * (1.0 - std::cos(w * (k + 1) * kLong_s)),
+                0.02 * tau / kSpring);
+  }
+}
+
 TEST(Gears, DampingTakesTheSwingAwayAtItsRate) {
   const double damping = 0.4, sum = 1.0 / kMotor + 1.0 / kRodInertia;
   Plant plant(one_joint(), {}, {}, kTick_s, with_gears(0.0, damping));
