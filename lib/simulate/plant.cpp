@@ -38,11 +38,10 @@ void Plant::advance(double from, double to, const JointVector<double>& tau) {
 
 /// A stop pushes, it never pulls.
 double Plant::stop_torque(int joint, double at, double rate) const {
-  const double beyond =
-      at > stop_high_[joint] ? at - stop_high_[joint] : std::min(at - stop_low_[joint], 0.0);
-  if (beyond == 0.0) return 0.0;
+  const bool high = at > stop_high_[joint];
+  const double beyond = at - (high ? stop_high_[joint] : stop_low_[joint]);
   const double push = stop_stiffness_[joint] * beyond + stop_damping_[joint] * rate;
-  return beyond > 0.0 ? std::max(push, 0.0) : std::min(push, 0.0);
+  return high ? std::max(push, 0.0) : std::min(push, 0.0);
 }
 
 void Plant::accelerate(const JointVector<double>& at, const JointVector<double>& rate,
@@ -54,7 +53,7 @@ void Plant::accelerate(const JointVector<double>& at, const JointVector<double>&
   for (int i = 0; i < n; ++i) {
     net[i] = gain_[i] * tau[i] + external_[i];
     if (extra) net[i] -= extra_friction_.torque(i, rate[i], dynamics_.chain().friction[i]);
-    if (stops) net[i] -= stop_torque(i, at[i], rate[i]);
+    if (stops && is_beyond_stop(i, at[i])) net[i] -= stop_torque(i, at[i], rate[i]);
   }
   dynamics_.acceleration(at, rate, net, out, locked_);
 }

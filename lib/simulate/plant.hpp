@@ -68,6 +68,7 @@ class Plant {
   void integrate_geared(double length, const JointVector<double>& tau);
   void accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector<double>& tau,
                          BothSides& out) const;
+  bool is_beyond_stop(int joint, double at) const { return at > stop_high_[joint] || at < stop_low_[joint]; }
   double stop_torque(int joint, double at, double rate) const;
   unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }
 

@@ -47,7 +47,7 @@ void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const 
     const double gear =
         spring ? gears.torque(i, motor[i] - link[i], motor_rate[i] - link_rate[i]) : arrives[i];
     net[i] = gear + external_[i];
-    if (stop_low_.size() > 0) net[i] -= stop_torque(i, link[i], link_rate[i]);
+    if (stop_low_.size() > 0 && is_beyond_stop(i, link[i])) net[i] -= stop_torque(i, link[i], link_rate[i]);
     if (spring) out[n + i] = locked_ >> i & 1u ? 0.0 : (arrives[i] - drag[i] - gear) / gears.motor_inertia(i);
   }
   dynamics_.acceleration(link, link_rate, net, ddq, locked_ & ~springs());
