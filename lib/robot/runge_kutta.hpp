@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/robot/chain.hpp"
+#include <Eigen/Core>
 
 namespace faultline {
 
 /// Moves `q` and `dq` on by `h` seconds with one Runge-Kutta step of fourth order. `acceleration(after, q,
 /// dq, ddq)` writes the acceleration at a state `after` seconds from the start; `a1` is the one at the start.
-template <typename Acceleration>
-void runge_kutta_step(double h, const JointVector<double>& a1, const Acceleration& acceleration,
-                      JointVector<double>& q, JointVector<double>& dq) {
+template <typename Vector, typename Acceleration>
+void runge_kutta_step(double h, const Vector& a1, const Acceleration& acceleration, Vector& q, Vector& dq) {
   const Eigen::Index n = q.size();
-  JointVector<double> a2(n), a3(n), a4(n), v2(n), v3(n), v4(n), x(n);
+  Vector a2(n), a3(n), a4(n), v2(n), v3(n), v4(n), x(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     v2[i] = dq[i] + 0.5 * h * a1[i];
     x[i] = q[i] + 0.5 * h * dq[i];

@@ -3,15 +3,13 @@
 
 #include <cmath>
 
+#include "lib/simulate/joint_list.hpp"
+
 namespace faultline {
 namespace {
 
 constexpr double kUsualMemory_s = 0.03;
 constexpr double kFinestStep = 0.25;  // of the correlation time, over which it hardly changes
-
-std::vector<double> or_all(const std::vector<double>& given, int joints, double usual) {
-  return given.empty() ? std::vector<double>(joints, usual) : given;
-}
 
 }  // namespace
 

@@ -70,7 +70,7 @@ MachineFault machine_fault(const FaultEvent& fault) {
     case FaultKind::collision:
       return {.external_torque = fault.size};
     case FaultKind::torque_sensor_error:
-      return {.external_torque = -fault.size};
+      return {.drive_offset = -fault.size};
   }
   return {};
 }

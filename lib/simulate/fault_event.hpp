@@ -25,7 +25,8 @@ struct FaultEvent {
 /// What a fault does to the machine while it acts; nothing by default.
 struct MachineFault {
   double torque_gain = 1.0;      ///< of the joint's drive
-  double external_torque = 0.0;  ///< on the joint, N m or N
+  double external_torque = 0.0;  ///< on the link, N m or N
+  double drive_offset = 0.0;     ///< of the joint's drive, N m or N
   double coulomb = 0.0;          ///< added friction, N m or N
   double viscous = 0.0;          ///< added friction, N m s/rad or N s/m
   double tip_mass = 0.0;         ///< added, kg

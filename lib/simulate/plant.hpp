@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "lib/robot/fast_dynamics.hpp"
+#include "lib/simulate/extra_friction.hpp"
 #include "lib/simulate/fault_event.hpp"
+#include "lib/simulate/gears.hpp"
 
 namespace faultline {
 
@@ -17,29 +19,58 @@ struct JointStops {
   double damping = 0.5;            ///< ratio
 };
 
+/// What a machine has that rigid links with the friction of their model have not.
+struct MachineSpec {
+  GearSpec gears{};
+  StickSlipSpec stick_slip{};
+  WarmUpSpec warm_up{};
+};
+
 /// The robot as it is at a time: its motion under a commanded torque, with the faults that act on the
-/// mechanics. Integrates with Runge-Kutta of fourth order in sub-steps short enough for the friction's
-/// stiffness.
+/// mechanics. Integrates with Runge-Kutta of fourth order in sub-steps short enough for the stiffness of
+/// friction, stops and gears.
 class Plant {
  public:
-  Plant(const Robot& robot, const JointStops& stops, const std::vector<FaultEvent>& faults,
-        double max_step_s);
+  /// `machine` fits the robot. Throws Error(usage) when the stops do not.
+  Plant(const Robot& robot, const JointStops& stops, const std::vector<FaultEvent>& faults, double max_step_s,
+        const MachineSpec& machine = {});
 
-  JointVector<double> q, dq;
+  JointVector<double> q, dq;  ///< of the links
 
+  /// Motors and links move with `speed`, the motors are at `position`; gears that give way hang as at rest.
+  void start(const JointVector<double>& position, const JointVector<double>& speed);
   /// Moves from `from` to `to` seconds under a constant commanded torque; faults that begin or end in between
-  /// do so at their very moment.
+  /// do so at their very moment. The friction's warmth is that of the middle.
   void advance(double from, double to, const JointVector<double>& tau);
 
+  /// Position and speed of the motors, which the encoders read; with rigid gears those of the links.
+  const JointVector<double>& motor_q() const { return geared_ ? geared_->q : q; }
+  const JointVector<double>& motor_dq() const { return geared_ ? geared_->dq : dq; }
+
  private:
+  /// The motors' side of a plant whose gears give way; a joint without a spring moves with its link.
+  struct Geared {
+    Gears gears;
+    FastDynamics drives;  ///< the whole chain, for the friction of the motors
+    JointVector<double> q{}, dq{};
+  };
+  /// Positions or rates of the links and then of the motors.
+  using BothSides = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
+
   void set_stops(const JointStops& stops);
   void enter(double now);
   void choose_steps(Chain<double>& chain);
-  double safe_step(const JointVector<double>& ddq) const;
-  void impact();
+  double safe_step(const JointVector<double>& rate, const JointVector<double>& ddq) const;
+  void impact(unsigned newly_locked);
   void integrate(double length, const JointVector<double>& tau);
   void accelerate(const JointVector<double>& at, const JointVector<double>& rate,
                   const JointVector<double>& tau, JointVector<double>& out) const;
+  void integrate_geared(double length, const JointVector<double>& tau);
+  void accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector<double>& tau,
+                         BothSides& out) const;
+  bool is_beyond_stop(int joint, double at) const { return at > stop_high_[joint] || at < stop_low_[joint]; }
+  double stop_torque(int joint, double at, double rate) const;
+  unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }
 
   Chain<double> healthy_;
   std::vector<FaultEvent> faults_;
@@ -48,10 +79,13 @@ class Plant {
   JointVector<double> stop_low_, stop_high_, stop_stiffness_, stop_damping_;
   double max_step_ = 0.001;
 
-  FastDynamics dynamics_;
-  JointVector<double> gain_;      ///< share of the torque that arrives
-  JointVector<double> external_;  ///< added torque
-  bool altered_ = false;          ///< gain_ or external_ matter
+  FastDynamics dynamics_;  ///< of the links, with all that is rigidly joined to them
+  std::optional<Geared> geared_;
+  ExtraFriction extra_friction_;
+  JointVector<double> gain_;          ///< share of the torque that arrives
+  JointVector<double> external_;      ///< added torque on the links
+  JointVector<double> drive_offset_;  ///< added torque of drives with springs
+  bool altered_ = false;              ///< gain_ or external_ matter
   unsigned locked_ = 0;
   double step_ = 0.001;          ///< where friction is stiff
   double sliding_step_ = 0.001;  ///< elsewhere

@@ -15,6 +15,8 @@ namespace {
 
 /// Largest rate x step that Runge-Kutta of fourth order follows with a few per cent (it is stable to 2.78).
 constexpr double kRateTimesStep = 1.0;
+/// The same for a vibration that must neither grow nor fade: it loses 4e-5 of its amplitude a period.
+constexpr double kVibrationTimesStep = 0.25;
 
 /// Steps a stiff friction may ask for within max_step_s.
 constexpr double kMostSubSteps = 10.0;
@@ -58,16 +60,21 @@ JointVector<double> usual_torque(const Chain<double>& chain) {
 }  // namespace
 
 Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<FaultEvent>& faults,
-             double max_step_s)
-    : healthy_(robot.chain), faults_(faults), max_step_(max_step_s), dynamics_(robot.chain) {
-  const int n = robot.joints();
+             double max_step_s, const MachineSpec& machine)
+    : healthy_(with_motors(robot, machine.gears).chain),
+      faults_(faults),
+      max_step_(max_step_s),
+      dynamics_(healthy_),
+      extra_friction_(healthy_, machine.stick_slip, machine.warm_up) {
   for (const FaultEvent& fault : faults_) {
     changes_.push_back(fault.onset_s);
     if (std::isfinite(fault.end_s)) changes_.push_back(fault.end_s);
   }
   std::sort(changes_.begin(), changes_.end());
   if (!stops.low.empty() || !stops.high.empty()) set_stops(stops);
-  q = dq = JointVector<double>::Zero(n);
+  q = dq = JointVector<double>::Zero(robot.joints());
+  const Gears gears(healthy_, machine.gears);
+  if (gears.springs() != 0u) geared_.emplace(Geared{gears, dynamics_, q, dq});
   enter(-1.0);
 }
 
@@ -89,21 +96,28 @@ void Plant::set_stops(const JointStops& stops) {
 /// The steps this moment's mechanics allow, near rest and sliding; raises friction widths that would ask for
 /// more than kMostSubSteps.
 void Plant::choose_steps(Chain<double>& chain) {
-  const JointVector<double> most = mobility(FastDynamics(chain));
+  const JointVector<double> links = mobility(FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain));
+  JointVector<double> drives = links;
+  for (int i = 0; i < chain.joints(); ++i)
+    if (springs() >> i & 1u) drives[i] = 1.0 / geared_->gears.motor_inertia(i);
   const JointVector<double> usual = usual_torque(chain);
   double sliding = 0.0, near_rest = 0.0;
   for (int i = 0; i < chain.joints(); ++i) {
-    Friction<double>& f = chain.friction[i];
+    Friction<double> f = extra_friction_.worst(i, chain.friction[i]);
     f.width = std::max(
-        f.width, most[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
-    sliding = std::max(sliding, most[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
-    if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(most[i] * stop_stiffness_[i]));
-    near_rest = std::max(near_rest, most[i] * steepest(f, usual[i]));
+        f.width, drives[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
+    chain.friction[i].width = f.width;
+    sliding = std::max(sliding, drives[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
+    if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(links[i] * stop_stiffness_[i]));
+    near_rest = std::max(near_rest, drives[i] * steepest(f, usual[i]));
   }
   for (const SharedDrive& f : chain.shared_drives) {
-    const double mobile = f.along.cwiseAbs2().dot(Eigen::VectorXd(most));
+    const double mobile = f.along.cwiseAbs2().dot(Eigen::VectorXd(drives));
     near_rest = std::max(near_rest, mobile * (f.viscous + f.coulomb / f.width));
   }
+  if (geared_)
+    sliding = std::max({sliding, geared_->gears.damping_rate(links),
+                        geared_->gears.vibration_rate(links) * kRateTimesStep / kVibrationTimesStep});
   const auto step_for = [&](double rate) {
     return rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;
   };
@@ -117,7 +131,7 @@ void Plant::enter(double now) {
   Chain<double> chain = healthy_;
   const unsigned was_locked = locked_;
   gain_ = JointVector<double>::Ones(n);
-  external_ = JointVector<double>::Zero(n);
+  external_ = drive_offset_ = JointVector<double>::Zero(n);
   locked_ = 0;
   altered_ = false;
   for (const FaultEvent& fault : faults_) {
@@ -127,26 +141,32 @@ void Plant::enter(double now) {
     const MachineFault change = machine_fault(fault);
     gain_[i] *= change.torque_gain;
     external_[i] += change.external_torque;
+    (springs() >> i & 1u ? drive_offset_ : external_)[i] += change.drive_offset;
     chain.friction[i].coulomb += change.coulomb;
     chain.friction[i].viscous += change.viscous;
     if (change.locks) locked_ |= 1u << i;
     if (change.tip_mass != 0.0) add_payload(chain, change.tip_mass);
   }
   choose_steps(chain);
-  dynamics_ = FastDynamics(chain);
-  if (locked_ & ~was_locked) impact();
+  dynamics_ = FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain);
+  if (geared_) geared_->drives = FastDynamics(chain);
+  if (locked_ & ~was_locked) impact(locked_ & ~was_locked);
 }
 
 /// A joint locks: it stops at once, and the impulse of the lock changes the other joints' velocities so that
-/// their momenta stay.
-void Plant::impact() {
+/// their momenta stay. Behind a spring the motor alone stops.
+void Plant::impact(unsigned newly_locked) {
   const int n = healthy_.joints();
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
-  dynamics_.inertia_and_bias(q, dq, inertia, bias);
-  JointVector<double> momenta = inertia * dq;
-  solve_small(n, inertia.data(), momenta.data(), locked_);
-  dq = momenta;
+  if (newly_locked & ~springs()) {
+    JointMatrix<double> inertia;
+    JointVector<double> bias;
+    dynamics_.inertia_and_bias(q, dq, inertia, bias);
+    JointVector<double> momenta = inertia * dq;
+    solve_small(n, inertia.data(), momenta.data(), locked_ & ~springs());
+    dq = momenta;
+  }
+  for (int i = 0; geared_ && i < n; ++i)
+    geared_->dq[i] = !geared_->gears.has_spring(i) ? dq[i] : locked_ >> i & 1u ? 0.0 : geared_->dq[i];
 }
 
 }  // namespace faultline

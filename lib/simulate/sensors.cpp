@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/sensors.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "lib/core/error.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/simulate/joint_list.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {
-namespace {
-
-std::vector<double> for_joints(int joints, const std::vector<double>& given, const char* key) {
-  if (given.empty()) return std::vector<double>(joints, 0.0);
-  if (static_cast<int>(given.size()) != joints)
-    throw Error(ErrorCode::usage, key, fmt::format("expected {} numbers, found {}", joints, given.size()));
-  for (const double value : given)
-    if (!(value >= 0.0))
-      throw Error(ErrorCode::usage, key, fmt::format("expected no negative number, found {}", value));
-  return given;
-}
-
-}  // namespace
 
 Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<FaultEvent>& faults, Random random)
-    : q_noise_(for_joints(joints, noise.q, "noise.q")),
-      dq_noise_(for_joints(joints, noise.dq, "noise.dq")),
-      resolution_(for_joints(joints, noise.q_resolution, "noise.q_resolution")),
+    : q_noise_(or_all(noise.q, joints, 0.0)),
+      dq_noise_(or_all(noise.dq, joints, 0.0)),
+      resolution_(or_all(noise.q_resolution, joints, 0.0)),
       random_(random) {
   for (const FaultEvent& fault : faults)
     if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);

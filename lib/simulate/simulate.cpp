@@ -1,88 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/simulate.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "lib/core/error.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/simulate/clock.hpp"
 #include "lib/simulate/sensors.hpp"
+#include "lib/simulate/simulation_check.hpp"
 
 namespace faultline {
 namespace {
 
-enum Stream : std::uint64_t { motion_stream = 1, noise_stream = 2, drive_stream = 4 };
+/// 3 is that of the controller's mass errors in spec files.
+enum Stream : std::uint64_t {
+  motion_stream = 1,
+  noise_stream = 2,
+  drive_stream = 4,
+  work_piece_stream = 5,
+  recording_stream = 6
+};
 
 constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s: the simulation diverged
-
-void check_count(const Robot& robot, const std::vector<double>& list, const char* key) {
-  if (!list.empty() && static_cast<int>(list.size()) != robot.joints())
-    throw Error(ErrorCode::usage, key,
-                fmt::format("expected {} numbers, found {}", robot.joints(), list.size()));
-}
-
-void check_list(const Robot& robot, const std::vector<double>& list, const char* key) {
-  check_count(robot, list, key);
-  for (const double value : list)
-    if (!(value > 0.0))
-      throw Error(ErrorCode::usage, key, fmt::format("expected positive numbers, found {}", value));
-}
-
-void check_drives(const Robot& robot, const DriveSpec& drives) {
-  check_count(robot, drives.gain, "drives.gain");
-  check_count(robot, drives.offset, "drives.offset");
-  check_count(robot, drives.roughness, "drives.roughness");
-  check_list(robot, drives.roughness_memory_s, "drives.roughness_memory_s");
-  for (const double gain : drives.gain)
-    if (!(gain > -1.0))
-      throw Error(ErrorCode::usage, "drives.gain", fmt::format("expected shares above -1, found {}", gain));
-  for (const double roughness : drives.roughness)
-    if (!(roughness >= 0.0))
-      throw Error(ErrorCode::usage, "drives.roughness",
-                  fmt::format("expected numbers that are not negative, found {}", roughness));
-}
-
-/// Control periods in a sample period.
-int check(const Robot& robot, const SimulationSpec& spec) {
-  if (!(spec.control_period_s > 0.0) || !(spec.max_step_s > 0.0) || !(spec.sample_period_s > 0.0))
-    throw Error(ErrorCode::usage, "sample_period_s, control_period_s, max_step_s", "expected positive times");
-  if (!(spec.duration_s >= spec.sample_period_s) || !(spec.duration_s / spec.sample_period_s < 1e9))
-    throw Error(
-        ErrorCode::usage, "duration_s",
-        fmt::format("expected at least one sample period of {} s and less than 1e9 of them, found {} s",
-                    spec.sample_period_s, spec.duration_s));
-  const double ratio = spec.sample_period_s / spec.control_period_s;
-  if (std::round(ratio) < 1.0 || std::abs(ratio - std::round(ratio)) > 1e-6)
-    throw Error(
-        ErrorCode::usage, "control_period_s",
-        fmt::format("expected a whole number of control periods in the sample period of {} s, found {} s",
-                    spec.sample_period_s, spec.control_period_s));
-  check_list(robot, spec.torque_limit, "limits.torque");
-  check_drives(robot, spec.drives);
-  check_list(robot, spec.overspeed, "limits.overspeed");
-  for (const FaultEvent& fault : spec.faults) check_fault(robot, fault);
-  return static_cast<int>(std::lround(ratio));
-}
-
-/// Times of the control ticks. Periods of whole microseconds give the doubles nearest to the decimal times,
-/// so that they read 3.953 in a log and not 3.9530000000000003.
-class Clock {
- public:
-  explicit Clock(double period_s) : period_s_(period_s) {
-    const double micro = period_s * 1e6;
-    if (std::round(micro) >= 1.0 && std::abs(micro - std::round(micro)) < 1e-6) micro_ = std::round(micro);
-  }
-  double at(std::int64_t tick) const {
-    const auto k = static_cast<double>(tick);
-    return micro_ > 0.0 ? k * micro_ / 1e6 : k * period_s_;
-  }
-
- private:
-  double period_s_;
-  double micro_ = 0.0;
-};
 
 std::vector<FaultEvent> real_faults(const Robot& robot, const SimulationSpec& spec) {
   std::vector<FaultEvent> faults;
@@ -126,9 +66,11 @@ void record(Log& log, int row, const ControlTick& tick) {
 }
 
 EndReason state_of(const Plant& plant, const std::vector<double>& overspeed) {
+  const JointVector<double>& drives = plant.motor_dq();
   for (int i = 0; i < plant.dq.size(); ++i) {
-    if (!(std::abs(plant.dq[i]) < kBeyondAnyRobot)) return EndReason::diverged;
-    if (!overspeed.empty() && std::abs(plant.dq[i]) > overspeed[i]) return EndReason::overspeed_trip;
+    if (!(std::abs(plant.dq[i]) < kBeyondAnyRobot && std::abs(drives[i]) < kBeyondAnyRobot))
+      return EndReason::diverged;
+    if (!overspeed.empty() && std::abs(drives[i]) > overspeed[i]) return EndReason::overspeed_trip;
   }
   return EndReason::complete;
 }
@@ -158,32 +100,28 @@ const char* to_string(EndReason reason) {
   return "unknown";
 }
 
-void check_simulation(const Robot& robot, const SimulationSpec& spec) {
-  check(robot, spec);
-  const Motion motion(robot, spec.motion, 0.0, 1);
-  const Controller controller(robot, spec.controller, spec.control_period_s);
-  const Sensors sensors(robot.joints(), spec.noise, {}, Random(1));
-  const Plant plant(robot, spec.stops, {}, spec.max_step_s);
-}
-
 Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
   return {robot, spec.motion, spec.duration_s, Random::stream(seed, motion_stream).bits()};
 }
 
 SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
-  const int ticks = check(robot, spec);
+  check_numbers(robot, spec);
+  const int ticks = control_periods_per_sample(spec), joints = robot.joints();
   const std::vector<FaultEvent> faults = real_faults(robot, spec);
   const Motion motion = reference_motion(robot, spec, seed);
-  const Controller controller(robot, spec.controller, spec.control_period_s);
-  Sensors sensors(robot.joints(), spec.noise, faults, Random::stream(seed, noise_stream));
-  Drives drives(robot.joints(), spec.drives, Random::stream(seed, drive_stream));
-  Plant plant(robot, spec.stops, faults, spec.max_step_s);
+  const Controller controller(with_motors(robot, spec.machine.gears), spec.controller, spec.control_period_s);
+  Sensors sensors(joints, spec.noise, faults, Random::stream(seed, noise_stream));
+  Drives drives(joints, spec.drives, Random::stream(seed, drive_stream));
+  std::vector<FaultEvent> changes = faults;
+  for (const FaultEvent& piece :
+       carried(spec.work_piece, joints, spec.duration_s, Random::stream(seed, work_piece_stream)))
+    changes.push_back(piece);
+  Plant plant(robot, spec.stops, changes, spec.max_step_s, spec.machine);
 
   Reference reference;
   motion.at(0.0, reference);
-  plant.q = reference.q;
-  plant.dq = reference.dq;
-  JointVector<double> tau = JointVector<double>::Zero(robot.joints());
+  plant.start(reference.q, reference.dq);
+  JointVector<double> tau = JointVector<double>::Zero(joints);
   const int rows = static_cast<int>(std::floor(spec.duration_s / spec.sample_period_s + 1e-6)) + 1;
   SimulatedRun run;
   run.log = empty_log(robot, spec, rows);
@@ -193,7 +131,7 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
   for (; row < rows && run.end == EndReason::complete; ++row) {
     for (int k = 0; k < ticks && run.end == EndReason::complete; ++k, ++tick) {
       const double t = clock.at(tick);
-      sensors.read(t, plant.q, plant.dq);
+      sensors.read(t, plant.motor_q(), plant.motor_dq());
       motion.at(t, reference);
       controller.torque(reference, sensors.q, sensors.dq, tau);
       for (std::size_t i = 0; i < spec.torque_limit.size(); ++i)
@@ -205,6 +143,8 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
     }
   }
   finish(run, row, faults);
+  run.log = recorded(std::move(run.log), spec.recording, spec.sample_period_s,
+                     Random::stream(seed, recording_stream));
   return run;
 }
 

@@ -10,6 +10,8 @@
 #include "lib/simulate/fault_event.hpp"
 #include "lib/simulate/motion.hpp"
 #include "lib/simulate/plant.hpp"
+#include "lib/simulate/recording.hpp"
+#include "lib/simulate/work_piece.hpp"
 
 namespace faultline {
 
@@ -35,8 +37,11 @@ struct SimulationSpec {
   DriveSpec drives{};
   std::vector<double> torque_limit{};  ///< N m or N, one each a joint; empty: none
   JointStops stops{};
+  MachineSpec machine{};            ///< springs and play, friction beyond the model's
+  WorkPieceSpec work_piece{};       ///< comes and goes and is no fault
   std::vector<double> overspeed{};  ///< true speed at which the drives trip and the log ends; empty: never
   std::vector<FaultEvent> faults{};
+  RecordingSpec recording{};
   bool record_reference = false;  ///< q_ref and dq_ref in the log
 };
 
@@ -62,9 +67,10 @@ void check_simulation(const Robot& robot, const SimulationSpec& spec);
 Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed);
 
 /// Simulates one run. The log's torque is the commanded one, after the torque limit; its row k is the reading
-/// at k sample periods and the torque that acts from then on. The same robot, spec and seed give the same
-/// bytes; motion and noise draw from separate streams, so that adding a fault changes neither. Throws
-/// Error(usage) naming the key when the spec does not fit the robot.
+/// at k sample periods and the torque that acts from then on, unless `recording` says otherwise. Positions
+/// and speeds are those of the motors where gears give way. The same robot, spec and seed give the same
+/// bytes; motion, noise, drives, work pieces and recording draw from separate streams, so that adding a fault
+/// changes none of them. Throws Error(usage) naming the key when the spec does not fit the robot.
 SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed = 1);
 
 }  // namespace faultline

@@ -9,67 +9,13 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "lib/simulate/spec_sections.hpp"
 
 namespace faultline {
 namespace {
-
-void read_span(const TomlTable& table, const std::string& key, double& low, double& high) {
-  if (!table.has(key)) return;
-  const auto ends = table.is_array(key) ? table.numbers(key, 2) : table.each(key, 2);
-  low = ends[0];
-  high = ends[1];
-}
-
-void read_list(const TomlTable& table, const std::string& key, int joints, std::vector<double>& list) {
-  if (table.has(key)) list = table.each(key, joints);
-}
-
-/// A whole number of modest size, for joints and counts.
-int small_integer(const TomlTable& table, const std::string& key, int fallback) {
-  const std::int64_t value = table.integer(key, fallback);
-  if (value < 0 || value > 1000)
-    table.fail(key, fmt::format("expected a whole number from 0 to 1000, found {}", value));
-  return static_cast<int>(value);
-}
-
-void read_motion(const TomlTable& table, int joints, MotionSpec& motion) {
-  if (table.has("profile")) {
-    const std::string profile = table.choice("profile", {"quintic", "trapezoidal", "step", "fourier"});
-    motion.profile = profile == "quintic"       ? MotionProfile::quintic
-                     : profile == "trapezoidal" ? MotionProfile::trapezoidal
-                     : profile == "step"        ? MotionProfile::step
-                                                : MotionProfile::fourier;
-  }
-  read_list(table, "low", joints, motion.low);
-  read_list(table, "high", joints, motion.high);
-  read_span(table, "move_s", motion.move_min_s, motion.move_max_s);
-  read_span(table, "dwell_s", motion.dwell_min_s, motion.dwell_max_s);
-  motion.blend = table.number("blend", motion.blend);
-  motion.harmonics = small_integer(table, "harmonics", motion.harmonics);
-  motion.fourier_period_s = table.number("fourier_period_s", motion.fourier_period_s);
-  if (table.has("points")) motion.points = table.number_rows("points", joints);
-}
-
-void read_controller(const TomlTable& table, int joints, std::uint64_t seed, ControllerSpec& controller) {
-  if (table.has("kind"))
-    controller.kind = table.choice("kind", {"computed_torque", "pd_gravity"}) == "pd_gravity"
-                          ? ControllerKind::pd_gravity
-                          : ControllerKind::computed_torque;
-  controller.bandwidth_rad_s = table.number("bandwidth_rad_s", controller.bandwidth_rad_s);
-  controller.damping = table.number("damping", controller.damping);
-  controller.friction_compensation = table.flag("friction_compensation", controller.friction_compensation);
-  read_list(table, "mass_error", joints, controller.mass_error);
-  if (!table.has("mass_error_std")) return;
-  if (table.has("mass_error")) table.fail("mass_error_std", "stands beside mass_error; give one of them");
-  const double std = table.number("mass_error_std");
-  Random random = Random::stream(seed, 3);
-  controller.mass_error.resize(joints);
-  for (double& error : controller.mass_error) error = std * random.normal();
-}
 
 FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
   FaultEvent fault;
@@ -122,20 +68,7 @@ void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t s
   spec.record_reference = table.flag("record_reference", spec.record_reference);
   read_motion(table.table("motion"), joints, spec.motion);
   read_controller(table.table("controller"), joints, seed, spec.controller);
-  const TomlTable noise = table.table("noise");
-  read_list(noise, "q", joints, spec.noise.q);
-  read_list(noise, "dq", joints, spec.noise.dq);
-  read_list(noise, "q_resolution", joints, spec.noise.q_resolution);
-  const TomlTable drives = table.table("drives");
-  read_list(drives, "gain", joints, spec.drives.gain);
-  read_list(drives, "offset", joints, spec.drives.offset);
-  read_list(drives, "roughness", joints, spec.drives.roughness);
-  read_list(drives, "roughness_memory_s", joints, spec.drives.roughness_memory_s);
-  const TomlTable limits = table.table("limits");
-  read_list(limits, "torque", joints, spec.torque_limit);
-  read_list(limits, "stop_low", joints, spec.stops.low);
-  read_list(limits, "stop_high", joints, spec.stops.high);
-  read_list(limits, "overspeed", joints, spec.overspeed);
+  read_machine(table, joints, spec);
   read_faults(table, robot, spec.faults);
 }
 

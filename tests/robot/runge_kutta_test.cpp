@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "lib/robot/chain.hpp"
+
 namespace faultline {
 namespace {
 

@@ -10,8 +10,8 @@ namespace faultline {
 namespace {
 
 bool changes_motion(const MachineFault& f) {
-  return f.torque_gain != 1.0 || f.external_torque != 0.0 || f.coulomb != 0.0 || f.viscous != 0.0 ||
-         f.tip_mass != 0.0 || f.locks;
+  return f.torque_gain != 1.0 || f.external_torque != 0.0 || f.drive_offset != 0.0 || f.coulomb != 0.0 ||
+         f.viscous != 0.0 || f.tip_mass != 0.0 || f.locks;
 }
 
 bool changes_readings(const MachineFault& f) {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "lib/simulate/gears.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/robot/dynamics.hpp"
+#include "lib/simulate/joint_list.hpp"
+
+namespace faultline {
+namespace {
+
+[[noreturn]] void bad(const char* key, const std::string& message) {
+  throw Error(ErrorCode::usage, std::string("gears.") + key, message);
+}
+
+double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
+
+constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg: less is none, and no spring's step is that short
+
+/// A link that has no inertia of its own cannot hang on a spring.
+void check_links(const Chain<double>& chain, const Gears& gears) {
+  const JointMatrix<double> inertia =
+      inertia_matrix(gears.link_side(chain), JointVector<double>(JointVector<double>::Zero(chain.joints())));
+  const JointMatrix<double> mobility = inertia.inverse();
+  for (int j = 0; j < chain.joints(); ++j)
+    if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
+      bad("stiffness",
+          fmt::format("without its motor joint {} moves no inertia; expected 0 for it, or a link with one",
+                      j + 1));
+}
+
+}  // namespace
+
+Robot with_motors(Robot robot, const GearSpec& spec) {
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double inertia = value_of(spec.motor_inertia, j);
+    if (!(inertia > 0.0)) continue;
+    if (robot.chain.rotor_inertia.empty()) robot.chain.rotor_inertia.assign(robot.joints(), 0.0);
+    robot.chain.rotor_inertia[j] = inertia;
+  }
+  return robot;
+}
+
+void check_gears(const Robot& robot, const GearSpec& spec) {
+  const int joints = robot.joints();
+  check_not_negative(joints, spec.stiffness, "gears.stiffness");
+  check_not_negative(joints, spec.damping, "gears.damping");
+  check_not_negative(joints, spec.play, "gears.play");
+  check_not_negative(joints, spec.motor_inertia, "gears.motor_inertia");
+  const Chain<double> chain = with_motors(robot, spec).chain;
+  for (int j = 0; j < joints; ++j) {
+    if (!(value_of(spec.stiffness, j) > 0.0)) {
+      const bool plays = value_of(spec.play, j) > 0.0;
+      if (plays || value_of(spec.damping, j) > 0.0)
+        bad(plays ? "play" : "damping",
+            fmt::format("the gear of joint {} is rigid; expected 0, or a stiffness", j + 1));
+      continue;
+    }
+    if (!(value_of(chain.rotor_inertia, j) > 0.0))
+      bad("motor_inertia",
+          fmt::format("the gear of joint {0} is a spring; expected the inertia of the motor behind it, here "
+                      "or as jr{0} of the robot",
+                      j + 1));
+    for (const SharedDrive& drive : chain.shared_drives)
+      if (drive.along[j] != 0.0)
+        bad("stiffness", fmt::format("a shared drive turns joint {}; expected 0 for it", j + 1));
+  }
+  check_links(chain, Gears(chain, spec));
+}
+
+Gears::Gears(const Chain<double>& chain, const GearSpec& spec)
+    : stiffness_(or_all(spec.stiffness, chain.joints(), 0.0)),
+      damping_(or_all(spec.damping, chain.joints(), 0.0)),
+      play_(or_all(spec.play, chain.joints(), 0.0)),
+      motor_inertia_(or_all(chain.rotor_inertia, chain.joints(), 0.0)) {
+  for (int j = 0; j < chain.joints(); ++j)
+    if (stiffness_[j] > 0.0) springs_ |= 1u << j;
+}
+
+double Gears::torque(int joint, double twist, double rate) const {
+  const double half = 0.5 * play_[joint];
+  const double wound = twist > half ? twist - half : std::min(twist + half, 0.0);
+  const double torque = stiffness_[joint] * wound + damping_[joint] * rate;
+  if (!(half > 0.0)) return torque;
+  if (wound == 0.0) return 0.0;
+  return wound > 0.0 ? std::max(torque, 0.0) : std::min(torque, 0.0);
+}
+
+double Gears::twist_under(int joint, double torque) const {
+  if (torque == 0.0) return 0.0;
+  return torque / stiffness_[joint] + std::copysign(0.5 * play_[joint], torque);
+}
+
+Chain<double> Gears::link_side(Chain<double> chain) const {
+  for (int j = 0; j < chain.joints(); ++j) {
+    if (!has_spring(j)) continue;
+    chain.friction[j] = {};
+    chain.rotor_inertia[j] = 0.0;
+  }
+  std::erase_if(chain.ripples, [this](const Ripple& ripple) { return has_spring(ripple.joint); });
+  return chain;
+}
+
+double Gears::vibration_rate(const JointVector<double>& link_mobility) const {
+  double square = 0.0;  // the trace of K (M^-1 + J^-1) is no less than its largest eigenvalue
+  for (int j = 0; j < link_mobility.size(); ++j)
+    if (has_spring(j)) square += stiffness_[j] * (link_mobility[j] + 1.0 / motor_inertia_[j]);
+  return std::sqrt(square);
+}
+
+double Gears::damping_rate(const JointVector<double>& link_mobility) const {
+  double rate = 0.0;
+  for (int j = 0; j < link_mobility.size(); ++j)
+    if (has_spring(j)) rate += damping_[j] * (link_mobility[j] + 1.0 / motor_inertia_[j]);
+  return rate;
+}
+
+}  // namespace faultline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/core/random.hpp"
+#include "lib/simulate/fault_event.hpp"
+
+namespace faultline {
+
+/// A work piece that the robot picks up and puts down all day, which is no fault.
+struct WorkPieceSpec {
+  double mass = 0.0;           ///< kg; 0: none
+  double carried_min_s = 1.0;  ///< time between picking up and putting down, drawn uniformly
+  double carried_max_s = 3.0;
+  double empty_min_s = 1.0;  ///< time before picking up, drawn uniformly
+  double empty_max_s = 3.0;
+};
+
+/// Throws Error(usage) naming the key when there can be no such piece.
+void check_work_piece(const WorkPieceSpec& spec);
+
+/// When a run of that length, which begins with an empty tool, carries it: to the plant the same as a change
+/// of payload. The piece moves with the tip when it is picked up.
+std::vector<FaultEvent> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random);
+
+}  // namespace faultline
