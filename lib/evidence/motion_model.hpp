@@ -44,6 +44,7 @@ struct MotionModel {
   /// none.
   std::vector<double> q_tail, dq_tail;
   std::vector<double> work_pieces_kg;  ///< that come and go every day
+  double work_piece_doubt = 0.05;      ///< standard deviation of their masses, share of each
   NoiseLevel usual_noise;              ///< of the healthy logs; empty where logs are taken as they are
   std::array<double, 2> noise_range{1.0, 1.0};  ///< times that, for a log's own level
   std::vector<double> q_low;                    ///< range seen in healthy logs

@@ -80,8 +80,8 @@ std::vector<SlowState> slow_from_json(const nlohmann::json& json, int joints, co
   return states;
 }
 
-/// Lists that models of earlier programs lack.
-void read_later_lists(const nlohmann::json& json, MotionModel& model) {
+/// What models of earlier programs lack.
+void read_later(const nlohmann::json& json, const std::string& where, MotionModel& model) {
   auto read = [&](const char* key, std::vector<double>& values) {
     if (json.contains(key)) values = json.at(key).get<std::vector<double>>();
   };
@@ -90,6 +90,8 @@ void read_later_lists(const nlohmann::json& json, MotionModel& model) {
   read("dq_tail", model.dq_tail);
   read("work_pieces_kg", model.work_pieces_kg);
   read("torque_jump", model.torque_jump);
+  if (json.contains("work_piece_doubt"))
+    model.work_piece_doubt = number_from_json(json, "work_piece_doubt", where);
 }
 
 }  // namespace
@@ -103,6 +105,7 @@ void to_json(nlohmann::json& json, const MotionModel& model) {
   json["compliance"] = model.noise.compliance;
   json["dq_tail"] = model.dq_tail;
   json["work_pieces_kg"] = model.work_pieces_kg;
+  json["work_piece_doubt"] = model.work_piece_doubt;
   json["torque_jump"] = model.torque_jump;
   json["steady_period_s"] = model.steady_period_s;
   json["usual_noise"] = {{"q", model.usual_noise.q}, {"dq", model.usual_noise.dq}};
@@ -128,7 +131,7 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
   visit_numbers(model, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
   model.slow = slow_from_json(json, robot.joints(), where);
   model.clock_std = json.contains("clock_std") ? number_from_json(json, "clock_std", where) : 0.0;
-  read_later_lists(json, model);
+  read_later(json, where, model);
   if (json.contains("dq_is_difference"))
     for (const int flag : json.at("dq_is_difference").get<std::vector<int>>())
       model.dq_is_difference.push_back(flag != 0 ? 1 : 0);

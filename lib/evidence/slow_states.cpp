@@ -51,8 +51,7 @@ void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, 
   std::vector<std::vector<double>> squares(days.size(), std::vector<double>(count, 0.0));
   parallel_for(static_cast<int>(days.size()), threads, [&](int i) {
     GaussianState last;
-    follow_excerpt(days[i], model, kMassDoubt,
-                   [&](const FollowedSample& sample, bool) { last = sample.posterior; });
+    follow_excerpt(days[i], model, [&](const FollowedSample& sample, bool) { last = sample.posterior; });
     double carried = 0.0;
     for (const WorkPieceChange& change : days[i].work_piece_changes) carried += change.kg;
     for (std::size_t s = 0; s < count; ++s) {

@@ -48,8 +48,8 @@ JointObservation observe_joint(GaussianState& state, int n, const FollowedSample
   return out;
 }
 
-void add_work_piece(GaussianState& state, const MotionModel& model, double kg, double mass_doubt) {
-  const double doubt = mass_doubt * kg;
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg) {
+  const double doubt = model.work_piece_doubt * kg;
   for (std::size_t s = 0; s < model.slow.size(); ++s) {
     if (model.slow[s].kind != SlowKind::tip_mass) continue;
     const int index = 2 * model.joints() + static_cast<int>(s);
@@ -70,9 +70,7 @@ double RepeatedCodes::noise_factor(int j) const {
   return std::sqrt(1.0 + std::max(rows_[j] - kFreshCodes, 0.0));
 }
 
-void Follower::change_work_piece(double kg, double mass_doubt) {
-  add_work_piece(state_, model_, kg, mass_doubt);
-}
+void Follower::change_work_piece(double kg) { add_work_piece(state_, model_, kg); }
 
 Step step_to(const FollowedSample& at, const JointArray& torque_before, const JointFlags& missing_before) {
   return {at.dt, torque_before, at.torque, at.drive_level, at.pressed, missing_before, at.torque_missing};

@@ -48,12 +48,8 @@ inline constexpr double kChiSquareCap = 36.0;
 /// Every innovation counts in full, however far it strays.
 inline constexpr double kNoTail = std::numeric_limits<double>::infinity();
 
-/// Share by which the mass of a work piece that was learned or declared is not known.
-inline constexpr double kMassDoubt = 0.05;
-
-/// Adds a mass (kg), known but for a share, to the tip where that is in the state.
-void add_work_piece(GaussianState& state, const MotionModel& model, double kg,
-                    double mass_doubt = kMassDoubt);
+/// Adds the mass of a work piece (kg), known but for its doubt, to the tip where that is in the state.
+void add_work_piece(GaussianState& state, const MotionModel& model, double kg);
 
 /// Observes the measured channels of joint j.
 struct JointObservation {
@@ -106,7 +102,7 @@ class Follower {
   /// in the state `before`, what passes is not known.
   void stand_by(const GaussianState& before, const GaussianState& motion);
   /// A work piece of that mass (kg) is picked up, or put down (less than 0), before the next row.
-  void change_work_piece(double kg, double mass_doubt = kMassDoubt);
+  void change_work_piece(double kg);
   const FaultDynamics& dynamics() const { return dynamics_; }
 
  private:

@@ -3,7 +3,7 @@
 
 namespace faultline {
 
-void follow_excerpt(const HealthyExcerpt& excerpt, const MotionModel& model, double mass_doubt,
+void follow_excerpt(const HealthyExcerpt& excerpt, const MotionModel& model,
                     const std::function<void(const FollowedSample& sample, bool changed)>& visit) {
   FollowedSample sample;
   Follower follower(model, excerpt.noise);
@@ -11,7 +11,7 @@ void follow_excerpt(const HealthyExcerpt& excerpt, const MotionModel& model, dou
   for (int k = 0; k < excerpt.log.rows(); ++k) {
     bool changed = false;
     for (; change != excerpt.work_piece_changes.end() && change->row <= excerpt.log.first_row + k; ++change) {
-      follower.change_work_piece(change->kg, mass_doubt);
+      follower.change_work_piece(change->kg);
       changed = true;
     }
     follower.follow(excerpt.log, k, sample);

@@ -38,7 +38,7 @@ constexpr double kUniformSpread = 12.0;  // an error that is uniform over a code
 double log_likelihood_of(const HealthyExcerpt& excerpt, const MotionModel& model) {
   double sum = 0.0;
   int rows = 0;
-  follow_excerpt(excerpt, model, kMassDoubt, [&](const FollowedSample& sample, bool) {
+  follow_excerpt(excerpt, model, [&](const FollowedSample& sample, bool) {
     if (rows++ > kSettlingRows) sum += sample.total_log_likelihood;
   });
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::max();

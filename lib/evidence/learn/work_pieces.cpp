@@ -13,10 +13,13 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestChanges = 3;         // fewer are no habit
-constexpr double kSameMass = 0.25;        // share by which most changes may differ from the usual one
-constexpr double kMostAlike = 0.6;        // share of the changes that must be that alike
-constexpr double kMassUnknown = 0.5;      // share by which it may be another while it is being learned
+constexpr int kFewestChanges = 3;   // fewer are no habit
+constexpr double kSameMass = 0.25;  // share by which most changes may differ from the usual one
+constexpr double kMostAlike = 0.6;  // share of the changes that must be that alike
+// Standard deviation of a work piece's mass, share of it: from single changes, from levels at the least, and
+// while levels are to tell it.
+constexpr double kDoubtOfChanges = 0.15, kDoubtOfLevels = 0.03, kAnyMass = 0.5;
+constexpr double kStdOfMedian = 1.4826;   // standard deviation over median of the absolute errors
 constexpr double kAtFirst = 0.6;          // of a work piece: doubt of what is carried when a log begins
 constexpr double kLeastOfCarried = 0.05;  // of the prior of a payload: less is no work piece
 
@@ -71,9 +74,11 @@ std::vector<double> level_changes(const MotionModel& model, const HealthyExcerpt
                                 [](const SlowState& slow) { return slow.kind == SlowKind::tip_mass; });
   if (tip == model.slow.end() || excerpt.work_piece_changes.empty()) return {};
   const auto index = 2 * model.joints() + static_cast<int>(tip - model.slow.begin());
+  MotionModel open_minded = model;
+  open_minded.work_piece_doubt = kAnyMass;
   std::vector<double> levels;
   double level = 0.0;
-  follow_excerpt(excerpt, model, kMassUnknown, [&](const FollowedSample& sample, bool changed) {
+  follow_excerpt(excerpt, open_minded, [&](const FollowedSample& sample, bool changed) {
     if (changed) levels.push_back(level);
     level = sample.posterior.mean[index];
   });
@@ -83,15 +88,18 @@ std::vector<double> level_changes(const MotionModel& model, const HealthyExcerpt
   return changes;
 }
 
-/// The mass of the model's only work piece as whole stretches tell it.
-double settled_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+/// Sets the mass of the model's only work piece, and its doubt, to what whole stretches tell.
+void take_levels(MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
   std::vector<std::vector<double>> found(excerpts.size());
   parallel_for(static_cast<int>(excerpts.size()), threads,
                [&](int i) { found[i] = level_changes(model, excerpts[i]); });
-  std::vector<double> changes;
+  std::vector<double> changes, errors;
   for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
-  if (static_cast<int>(changes.size()) < kFewestChanges) return model.work_pieces_kg.front();
-  return upper_median(changes);
+  if (static_cast<int>(changes.size()) < kFewestChanges) return;
+  const double mass = upper_median(changes);
+  for (const double change : changes) errors.push_back(std::abs(change - mass));
+  model.work_pieces_kg = {mass};
+  model.work_piece_doubt = std::max(kStdOfMedian * upper_median(errors) / mass, kDoubtOfLevels);
 }
 
 double tip_mass(const std::vector<SlowEstimate>& estimates) {
@@ -134,13 +142,14 @@ void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts
     const double mass = shown_mass(model, excerpts, threads);
     if (mass <= 0.0) return;
     model.work_pieces_kg = {mass};
+    model.work_piece_doubt = kDoubtOfChanges;
   }
   allow_work_pieces(model);
   note_changes(model, excerpts, threads);
 }
 
 void settle_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
-  model.work_pieces_kg = {settled_mass(model, excerpts, threads)};
+  take_levels(model, excerpts, threads);
   allow_work_pieces(model);
   note_changes(model, excerpts, threads);
 }
