@@ -56,7 +56,9 @@ Decision by_likelihood(const Decision& unnamed, const DecisionBasis& basis, cons
 
 /// A repeated code is all that a stuck encoder is told by, and the other joints miss its readings.
 bool is_refuted(const LabelEvidence& evidence, const Surprise& usual) {
-  return evidence.label.kind != FaultKind::stuck_encoder && is_far_from_white(evidence.surprise, usual);
+  const FaultKind kind = evidence.label.kind;
+  const bool is_specific = !describe(kind).passes && kind != FaultKind::unknown;
+  return kind != FaultKind::stuck_encoder && is_far_from_white(evidence.surprise, usual, is_specific);
 }
 
 const LabelEvidence* find(const FaultLabel& label, const std::vector<LabelEvidence>& evidence) {

@@ -11,7 +11,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kCalm_s = 1.0;  // between two faults that are not one
+constexpr double kCalm_s = 1.0;          // between two faults that are not one
+constexpr double kShaking_s = 1.4;       // of springs after an onset, and of the transients of a controller
+constexpr double kAfterShaking_s = 0.6;  // until what lasts is named
 
 double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
@@ -42,6 +44,24 @@ bool begins(const FaultFinding& earlier, const FaultFinding& later) {
   return follow_closely(earlier, later) && passes(earlier) && is_unknown(later);
 }
 
+/// Whether what the finding looks like may be at that joint.
+bool may_be_at(const FaultFinding& finding, int joint) {
+  if (!is_unknown(finding)) return finding.label.joint == joint;
+  const auto& others = finding.could_also_be;
+  return others.empty() || std::any_of(others.begin(), others.end(), [joint](const Alternative& other) {
+           return other.label.joint == joint;
+         });
+}
+
+/// Whether `earlier` is the shaking that the onset of a lasting fault left in a machine that gives way: an
+/// unknown disturbance or a push at its joint, short, and right before.
+bool is_shaken_by(const FaultFinding& earlier, const FaultFinding& later) {
+  const bool lasts = !passes(later) && !is_unknown(later), shakes = is_unknown(earlier) || passes(earlier);
+  return lasts && shakes && may_be_at(earlier, later.label.joint) && follow_closely(earlier, later) &&
+         earlier.end_s - earlier.onset_s < kShaking_s && later.onset_s > earlier.end_s - kShaking_s &&
+         later.onset_s < earlier.end_s + kAfterShaking_s;
+}
+
 std::tuple<double, double, int> order_key(const FaultFinding& finding) {
   return {or_last(finding.onset_s), or_last(finding.alarm_s), finding.label.joint};
 }
@@ -51,7 +71,7 @@ std::tuple<double, double, int> order_key(const FaultFinding& finding) {
 std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults) {
   std::vector<FaultFinding> merged;
   for (FaultFinding& fault : faults) {
-    if (!merged.empty() && begins(merged.back(), fault)) {
+    if (!merged.empty() && (begins(merged.back(), fault) || is_shaken_by(merged.back(), fault))) {
       fault.onset_s = merged.back().onset_s;
       fault.alarm_s = merged.back().alarm_s;
       merged.back() = std::move(fault);

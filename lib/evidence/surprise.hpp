@@ -46,7 +46,7 @@ class Surprise {
 };
 
 /// Whether that is no noise, held against what the filter usually leaves: larger, or the same again and
-/// again.
-bool is_far_from_white(const Surprise& left, const Surprise& usual);
+/// again. A free-form push explains much of anything, so it may leave less than a fault that is specific.
+bool is_far_from_white(const Surprise& left, const Surprise& usual, bool is_specific = false);
 
 }  // namespace faultline

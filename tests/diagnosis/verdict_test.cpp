@@ -115,6 +115,20 @@ TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
   EXPECT_EQ(merged[1].label.kind, FaultKind::collision);
 }
 
+TEST(MergeFaults, WhatShakesBeforeALastingFaultIsItsOnset) {
+  FaultFinding shaking = fault(FaultKind::unknown, 0, 1.0, 1.3);
+  shaking.could_also_be.emplace_back().label = {FaultKind::collision, 2};
+  const auto merged = merge_continued({shaking, fault(FaultKind::locked, 2, 1.6, 9.0)});
+  ASSERT_EQ(merged.size(), 1u);
+  EXPECT_EQ(merged[0].label.kind, FaultKind::locked);
+  EXPECT_EQ(merged[0].onset_s, 1.0);
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 3, 1.6, 9.0)}).size(), 2u) << "another joint";
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2, 2.1, 9.0)}).size(), 2u) << "much later";
+  shaking.end_s = 4.0;
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2, 4.1, 9.0)}).size(), 2u)
+      << "nothing shakes that long";
+}
+
 TEST(MergeFaults, APushLongBeforeAnUnknownDisturbanceStays) {
   const auto merged =
       merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::unknown, 0, 2.2, 5.0)});

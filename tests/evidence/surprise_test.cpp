@@ -44,6 +44,13 @@ TEST(Surprise, WhatIsLargeOrRepeatsIsFarFromWhite) {
   EXPECT_TRUE(is_far_from_white(surprise_of(1500, 0.4, 1.0), {}));
 }
 
+TEST(Surprise, AFaultThatIsSpecificMayLeaveALittle) {
+  EXPECT_TRUE(is_far_from_white(surprise_of(1500, 0.25, 1.0), {}, false));
+  EXPECT_FALSE(is_far_from_white(surprise_of(1500, 0.25, 1.0), {}, true));
+  EXPECT_TRUE(is_far_from_white(surprise_of(1500, 0.5, 1.0), {}, true));
+  EXPECT_TRUE(is_far_from_white(surprise_of(1500, 0.0, 1.5), {}, true));
+}
+
 TEST(Surprise, WhatIsUsualIsNoEvidence) {
   EXPECT_FALSE(is_far_from_white(surprise_of(1500, 0.4, 1.3, 2), surprise_of(500, 0.4, 1.3, 3)));
 }

@@ -119,6 +119,7 @@ class Follower {
     JointArray chi_square{};
   };
   bool tells(const RowFit& likelier, const RowFit& other) const;
+  double periods_by_motion(const FollowedSample& out, double since, double by_stamp) const;
   bool is_elsewhere(const FollowedSample& out, double dt) const;
   RowFit fit_after(const FollowedSample& out, double dt) const;
   void guess_unknown_speed(const FollowedSample& out);

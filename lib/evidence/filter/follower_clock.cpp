@@ -16,8 +16,9 @@ constexpr double kRowLost = 5.0;       // nats against each row that was not log
 // What two numbers of periods may differ by in nats, and still the motion is asked. Less is told by no stamp.
 constexpr double kUnclear = 10.0;
 constexpr double kFits = 16.0;  // chi-square of a joint: a motion that fits worse says nothing of the clock
-constexpr double kElsewhere = 0.4;  // of the way of a period,
-constexpr double kSurely = 4.0;     // and so many standard deviations of a position beyond
+constexpr double kElsewhere = 0.4;    // of the way of a period,
+constexpr double kFarthestOff = 1.0;  // periods by which what the stamp says is tried to be off
+constexpr double kSurely = 4.0;       // and so many standard deviations of a position beyond
 
 }  // namespace
 
@@ -86,6 +87,25 @@ bool Follower::is_elsewhere(const FollowedSample& out, double dt) const {
   return false;
 }
 
+/// The likeliest number of periods by stamp and motion, where the motion tells it from `by_stamp`: a stamp
+/// may be off by more than a period, as late as it seldom is.
+double Follower::periods_by_motion(const FollowedSample& out, double since, double by_stamp) const {
+  const double first = std::max(by_stamp - kFarthestOff, 1.0);
+  const RowFit as_stamped = fit_after(out, step_in_periods(since, by_stamp));
+  const auto likelihood = [&](const RowFit& fit, double periods) {
+    return fit.log_likelihood + log_likelihood_of_stamp(since, periods);
+  };
+  double best = by_stamp, most = likelihood(as_stamped, by_stamp);
+  for (double periods = first; periods <= by_stamp + kFarthestOff; ++periods) {
+    if (periods == by_stamp) continue;
+    const RowFit fit = fit_after(out, step_in_periods(since, periods));
+    if (likelihood(fit, periods) <= most || !tells(fit, as_stamped)) continue;
+    most = likelihood(fit, periods);
+    best = periods;
+  }
+  return best;
+}
+
 /// Seconds since the row before. Where the model knows that rows are taken in step and only their stamps
 /// wobble, the steps are whole periods; where a stamp does not say how many, the motion does.
 double Follower::step_to_stamp(const FollowedSample& out) {
@@ -97,13 +117,8 @@ double Follower::step_to_stamp(const FollowedSample& out) {
   const double fewer = std::max(std::floor(since / period), 1.0), more = fewer + 1.0;
   const double clear = log_likelihood_of_stamp(since, fewer) - log_likelihood_of_stamp(since, more);
   double periods = clear >= 0.0 ? fewer : more;
-  if (std::abs(clear) < kUnclear || is_elsewhere(out, step_in_periods(since, periods))) {
-    const RowFit if_fewer = fit_after(out, step_in_periods(since, fewer));
-    const RowFit if_more = fit_after(out, step_in_periods(since, more));
-    const bool is_fewer = clear + if_fewer.log_likelihood - if_more.log_likelihood >= 0.0;
-    if (tells(is_fewer ? if_fewer : if_more, is_fewer ? if_more : if_fewer))
-      periods = is_fewer ? fewer : more;
-  }
+  if (std::abs(clear) < kUnclear || is_elsewhere(out, step_in_periods(since, periods)))
+    periods = periods_by_motion(out, since, periods);
   const double step = step_in_periods(since, periods);
   set_clock(since, step);
   return step;

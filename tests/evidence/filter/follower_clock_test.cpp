@@ -65,6 +65,13 @@ TEST(FollowerClock, AFirstStampThatIsOffDoesNotSetTheClock) {
   EXPECT_EQ(wrong_steps(wobbly(log, -0.6 * kPeriod_s)), 0) << "early";
 }
 
+TEST(FollowerClock, AStampMoreThanAPeriodLateIsNoRowThatWasLost) {
+  Wobbly log = wobbly(simulate(known_rrp(), rrp_run(5.0), 64).log, 0.0);
+  for (int k = 40; k + 1 < log.log.rows(); k += 37)
+    log.log.time[k] = log.log.time[k - 1] + 2.2 * kPeriod_s, log.log.time[k + 1] = log.log.time[k] + 1e-4;
+  EXPECT_EQ(wrong_steps(log), 0);
+}
+
 TEST(FollowerClock, AfterAJointIsLockedTheOthersStillTellTheTime) {
   const Log log = simulate(known_rrp(), rrp_run_with(FaultKind::locked, 1, 2.5), 63).log;
   EXPECT_LE(wrong_steps(wobbly(log, 0.0)), 2);
