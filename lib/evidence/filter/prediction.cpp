@@ -44,12 +44,14 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
 }
 
 /// Share of a slow state's distance from its usual value that is left after the step. What wanders and yet
-/// stays within a day's spread forgets where it was. What is carried comes and goes, no day holds it.
+/// stays within a day's spread forgets where it was. The pace of friction is matched to a walk without end,
+/// and what is carried comes and goes: no day holds them.
 double kept_over(const SlowState& slow, const MotionModel& model, double dt) {
   if (slow.memory_s > 0.0) return std::exp(-dt / slow.memory_s);
-  if (slow.kind == SlowKind::tip_mass && !model.work_pieces_kg.empty()) return 1.0;
+  const bool carries = slow.kind == SlowKind::tip_mass && !model.work_pieces_kg.empty();
+  if (carries || slow.kind == SlowKind::friction || !(slow.day_std > 0.0)) return 1.0;
   const double pace = slow.walk / slow.day_std;
-  return slow.day_std > 0.0 ? 1.0 - 0.5 * pace * pace * dt : 1.0;
+  return 1.0 / (1.0 + 0.5 * pace * pace * dt);
 }
 
 /// What the healthy robot's slow states do over the step: all wander around what is usual.
@@ -58,12 +60,14 @@ void move_slow_states(GaussianState& state, const MotionModel& model, double dt)
     const SlowState& slow = model.slow[s];
     const int index = 2 * model.joints() + static_cast<int>(s);
     const double kept = kept_over(slow, model, dt);
+    if (kept == 1.0) {
+      state.p(index, index) += slow.walk * slow.walk * dt;
+      continue;
+    }
     state.mean[index] -= slow.usual;
     relax(state, index, kept);
     state.mean[index] += slow.usual;
-    const double stirred =
-        slow.memory_s > 0.0 ? slow.day_std * slow.day_std * (1.0 - kept * kept) : slow.walk * slow.walk * dt;
-    state.p(index, index) += stirred;
+    state.p(index, index) += slow.day_std * slow.day_std * (1.0 - kept * kept);
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// Follows an excerpt whose work pieces come and go as it says, each known but for `mass_doubt` (share of
-/// it). Calls `visit` with every sample, and whether a work piece came or went since the one before.
+/// Follows an excerpt whose work pieces come and go as it says. Calls `visit` with every sample, and whether
+/// a work piece came or went since the one before.
 void follow_excerpt(const HealthyExcerpt& excerpt, const MotionModel& model,
                     const std::function<void(const FollowedSample& sample, bool changed)>& visit);
 
