@@ -4,7 +4,6 @@
 
 Usage: coarse_cells.py [CELL...]     called by coarse_cells.sh
 """
-import concurrent.futures
 import math
 import os
 import random
@@ -82,11 +81,7 @@ def simulate(folder, seed, runs, wobble_s):
 
 def learn(folder, seed, wobble_s):
     logs = simulate(os.path.join(folder, "learn"), seed, [(f"day_{i}", "") for i in range(DAYS)], wobble_s)
-    robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
-    with open(robot, "w") as file:
-        file.write('axes = "RRP"\n\n[known]\nl1 = 0.4\n\n[log]\ntorque = "commanded"\n')
-    simulated.run("learn", *logs, "--robot", robot, "-o", model)
-    return model
+    return simulated.learn_from(logs, folder)[0]
 
 
 def judge(name, seed):
@@ -97,13 +92,7 @@ def judge(name, seed):
     healthy = [((f"healthy_{i}", "none", 0, math.inf), "") for i in range(DAYS)]
     runs = healthy + faulty_runs()
     paths = simulate(os.path.join(folder, "test"), seed + 1, [(run[0][0], run[1]) for run in runs], wobble_s)
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        reports = list(pool.map(lambda path: simulated.diagnose(path, model), paths))
-    tally, notes = simulated.Tally(), []
-    for ((run_name, kind, joint, onset), _), report in zip(runs, reports):
-        simulated.ONSET_S = onset
-        if not tally.take(kind, joint, report):
-            notes.append(f"{name}/{run_name}: reported {simulated.said(report['faults'])}, onset {onset:.1f}")
+    tally, notes = simulated.tally_of(name, [run[0] for run in runs], paths, model)
     return tally.line(name), notes
 
 

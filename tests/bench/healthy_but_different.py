@@ -188,16 +188,25 @@ def simulate(folder, row, seed, runs):
             csv.writer(file).writerows([head] + rows)
 
 
+def learn_from(logs, folder, l1=0.4, held=False):
+    """The model of a RRP robot of which l1 alone is known, and the seconds that learning it took."""
+    robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
+    with open(robot, "w") as file:
+        file.write(f'axes = "RRP"\n\n[known]\nl1 = {l1}\n\n[log]\ntorque = "commanded"\n')
+        if held:
+            file.write('torque_between_samples = "held"\n')
+    start = time.monotonic()
+    said = run("learn", *logs, "--robot", robot, "-o", model)
+    learn_s = time.monotonic() - start
+    with open(os.path.join(folder, "learn.txt"), "w") as out:
+        out.write(said)
+    return model, learn_s
+
+
 def learn():
     folder = os.path.join(OUT, "learn")
     simulate(folder, Row(), 9001, [((f"healthy_{i}", "none", 0), "duration_s = 8") for i in range(3)])
-    robot, model = os.path.join(folder, "robot.toml"), os.path.join(OUT, "model.json")
-    with open(robot, "w") as file:
-        file.write('axes = "RRP"\n\n[known]\nl1 = 0.4\n\n[log]\ntorque = "commanded"\n'
-                   'torque_between_samples = "held"\n')
-    start = time.monotonic()
-    run("learn", *[os.path.join(folder, f"healthy_{i}.csv") for i in range(3)], "--robot", robot, "-o", model)
-    return model, time.monotonic() - start
+    return learn_from([os.path.join(folder, f"healthy_{i}.csv") for i in range(3)], folder, held=True)
 
 
 def diagnose(path, model):
@@ -239,6 +248,18 @@ class Tally:
         delay = f"{statistics.median(self.delays):.3f}" if self.delays else "-"
         return (f"| {name} | {self.alarms} of {self.healthy} | {self.inconclusive} | {self.found} of {self.runs} | "
                 f"{self.right} | {self.early} | {delay} |")
+
+
+def tally_of(cell, runs, paths, model):
+    """The tally of a cell's (name, kind, joint, onset), and what went wrong."""
+    global ONSET_S
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        reports = list(pool.map(lambda path: diagnose(path, model), paths))
+    tally, notes = Tally(), []
+    for (name, kind, joint, ONSET_S), report in zip(runs, reports):
+        if not tally.take(kind, joint, report):
+            notes.append(f"{cell}/{name}: reported {said(report['faults'])}, onset {ONSET_S:.2f}")
+    return tally, notes
 
 
 def main(wanted):

@@ -41,12 +41,7 @@ def simulate(folder, name, spec, keys):
 def learn(folder, period_s, rng):
     logs = [simulate(folder, f"learn_{i}", day_spec(period_s, rng, 100 + i), f"duration_s = {LEARN_S}")
             for i in range(LEARN_DAYS)]
-    robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
-    with open(robot, "w") as file:
-        file.write('axes = "RRP"\n\n[known]\nl1 = 0.4\n\n[log]\ntorque = "commanded"\n'
-                   'torque_between_samples = "held"\n')
-    simulated.run("learn", *logs, "--robot", robot, "-o", model)
-    return model
+    return simulated.learn_from(logs, folder, held=True)[0]
 
 
 def diagnose(log, model):
@@ -78,7 +73,7 @@ def healthy_hours(rate, hours, folder, model, rng):
 
 def one_hour(rate, folder, model, rng):
     """Wall time, processor time and peak memory of one log of an hour: healthy, and a fault from 10 s on."""
-    fault = f'fault = {{kind = "torque_loss", joint = 2, onset_s = 10.0, size = 0.5}}'
+    fault = 'fault = {kind = "torque_loss", joint = 2, onset_s = 10.0, size = 0.5}'
     for name, keys in (("healthy", ""), ("a fault all the time", fault)):
         log = simulate(folder, name.replace(" ", "_"), day_spec(1.0 / rate, rng, 77), f"duration_s = 3600\n{keys}")
         measured = os.path.join(folder, "measured")

@@ -4,12 +4,10 @@
 
 Usage: own_cells.py [CELL...]     called by own_cells.sh; SEED in the environment draws other robots
 """
-import concurrent.futures
 import math
 import os
 import random
 import sys
-import time
 
 import healthy_but_different as simulated
 
@@ -173,13 +171,7 @@ def simulate(folder, robot, cell, seed, runs):
 
 def learn(folder, robot, cell, seed):
     logs = simulate(os.path.join(folder, "learn"), robot, cell, seed, [(f"day_{i}", "") for i in range(DAYS)])
-    path, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
-    with open(path, "w") as file:
-        file.write(f'axes = "RRP"\n\n[known]\nl1 = {robot.l[0]}\n\n[log]\ntorque = "commanded"\n')
-    start = time.monotonic()
-    with open(os.path.join(folder, "learn.txt"), "w") as out:
-        out.write(simulated.run("learn", *logs, "--robot", path, "-o", model))
-    return model, time.monotonic() - start
+    return simulated.learn_from(logs, folder, robot.l[0])
 
 
 def judge(name, seed):
@@ -189,13 +181,7 @@ def judge(name, seed):
     model, learn_s = learn(folder, robot, cell, seed)
     runs = [((f"healthy_{i}", "none", 0, math.inf), "") for i in range(DAYS)] + faulty_runs(robot, rng)
     paths = simulate(os.path.join(folder, "test"), robot, cell, seed + 1, [(run[0][0], run[1]) for run in runs])
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        reports = list(pool.map(lambda path: simulated.diagnose(path, model), paths))
-    tally, notes = simulated.Tally(), []
-    for ((run_name, kind, joint, onset), _), report in zip(runs, reports):
-        simulated.ONSET_S = onset
-        if not tally.take(kind, joint, report):
-            notes.append(f"{name}/{run_name}: reported {simulated.said(report['faults'])}, onset {onset:.2f}")
+    tally, notes = simulated.tally_of(name, [run[0] for run in runs], paths, model)
     return tally, notes, learn_s
 
 
