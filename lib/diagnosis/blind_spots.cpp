@@ -66,6 +66,19 @@ std::vector<std::string> weak_spots(const Validation& validation) {
   return spots;
 }
 
+std::vector<std::string> rough_spots(const std::vector<double>& roughness) {
+  std::string joints;
+  for (std::size_t j = 0; j < roughness.size(); ++j)
+    if (roughness[j] > 1.0)
+      joints += fmt::format("{}joint {} {:.2g}", joints.empty() ? "" : ", ", j + 1, roughness[j]);
+  if (joints.empty()) return {};
+  return {fmt::format(
+      "The model misses more torque in this log than in the learned ones (times theirs: {}). The sizes "
+      "below are those of logs like the learned ones; here faults of these joints must be about so "
+      "many times larger.",
+      joints)};
+}
+
 std::string reach_text(const Reach& reach, const Chain<double>& chain) {
   const FaultDescription& fault = describe(reach.label.kind);
   if (fault.size_count == 0) return "";

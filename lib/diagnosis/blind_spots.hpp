@@ -21,6 +21,10 @@ double power_of(const Validation& validation);
 /// The kinds of which it found too few, a sentence each.
 std::vector<std::string> weak_spots(const Validation& validation);
 
+/// How much less is seen where the model misses more torque than in the learned logs (Diagnosis::roughness):
+/// a sentence, or none.
+std::vector<std::string> rough_spots(const std::vector<double>& roughness);
+
 /// How small a fault is surely found, a sentence for each kind that has a size.
 std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain<double>& chain);
 

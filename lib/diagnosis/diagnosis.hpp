@@ -102,6 +102,8 @@ struct Diagnosis {
   std::vector<JointResidual> residuals;  ///< of the MLP over the whole log, a joint each
   std::vector<FaultFinding> faults;      ///< by onset
   std::vector<ConditionItem> condition;  ///< what differs from day to day; empty where it was not followed
+  /// By joint: torque that the model misses, times that in the learned logs; empty where that is as usual.
+  std::vector<double> roughness;
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

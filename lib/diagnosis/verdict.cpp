@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lib/core/text.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
 
@@ -13,9 +15,22 @@ constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong 
 constexpr double kLeastPower =
     0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
 constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
+constexpr double kRough = 3.0;      // times as much torque missed as in the learned logs: faults hide there
 constexpr double kPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
+
+/// Where the model misses so much more torque than in the learned logs that what was learned of its power is
+/// not true of this log; empty if nowhere.
+std::string why_too_rough(const std::vector<double>& roughness) {
+  const auto worst = std::max_element(roughness.begin(), roughness.end());
+  if (worst == roughness.end() || *worst < kRough) return "";
+  return fmt::format(
+      "no fault was found, but from the first rows on the model misses {:.2g} times as much torque at joint "
+      "{} as in the learned logs, and faults that it finds there may hide here; where the robot is so on "
+      "purpose, learn a model with such logs",
+      *worst, worst - roughness.begin() + 1);
+}
 
 /// Why a log in which no fault was found is not called healthy; empty when it can be.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
@@ -24,6 +39,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
         "logs that resemble each other more",
         kPercent * power);
+  if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
   if (far.empty()) return "";
   return fmt::format(

@@ -2,6 +2,7 @@
 #include "lib/monitor/monitor.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
@@ -71,9 +72,10 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   relations.finish();
   LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
   facts.issues.merge(day.notes);
-  return {std::move(facts),       whole.joints(),           evidence.episodes(),
-          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
-          evidence.slow_faults(), relations.episodes(),     relations.judged_s()};
+  return {std::move(facts),        whole.joints(),           evidence.episodes(),
+          samples.alarms(),        evidence.largest_ratio(), evidence.slow_estimates(),
+          evidence.slow_faults(),  relations.episodes(),     relations.judged_s(),
+          std::move(day.roughness)};
 }
 
 }  // namespace

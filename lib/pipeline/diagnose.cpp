@@ -45,7 +45,7 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
   if (run.log.is_tracked) return tracking_spots(model, run.relations_judged_s);
   std::vector<std::string> spots = blind_spots(model.robot.log.torque, run.log.has_velocity);
   for (auto& more : {relation_spots(model.relations, run.relations_judged_s), weak_spots(model.validation),
-                     reach_sentences(model.validation.reach, model.robot.chain)})
+                     rough_spots(run.roughness), reach_sentences(model.validation.reach, model.robot.chain)})
     spots.insert(spots.end(), more.begin(), more.end());
   return spots;
 }
@@ -72,6 +72,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
+  diagnosis.roughness = run.roughness;
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
   if (run.log.is_tracked)

@@ -146,5 +146,23 @@ TEST(Verdict, AModelThatSeesLittleCannotCallALogHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
+TEST(Verdict, ALogThatTheModelMissesManyTimesMoreOfIsNotCalledHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.roughness = {1.0, 2.4, 4.8};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("4.8 times as much torque at joint 3"), std::string::npos);
+  diagnosis.roughness[2] = 2.4;
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+}
+
+TEST(Verdict, AFaultStandsInARoughLog) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.roughness = {9.0};
+  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 2.0)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
+}
+
 }  // namespace
 }  // namespace faultline

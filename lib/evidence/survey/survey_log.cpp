@@ -23,13 +23,15 @@ constexpr double kWellExplained = 1.2;  // mean chi-square of a number: nothing 
 constexpr int kPeriodRows = 32;
 constexpr double kLostRow = 0.75;      // periods more than those rows take
 constexpr double kLeastGain = 10.0;    // nats, in one of the first two stretches that move
+constexpr double kLeastHidden = 20.0;  // nats, likewise, where the motion is well explained all the same
+constexpr double kClearlyMore = 1.01;  // times the gain of a torque that is less rough
 constexpr double kFromTheStart = 0.1;  // of what the second gains by the way it goes, the first gains too
-constexpr double kMostOfFirst = 2.0;   // times the first gain: more may be a fault that came later
-constexpr double kPeaks = 2.0;         // times the level that suits the whole, for where it peaks
-constexpr double kHidden = 1.5;        // times its noise: what jitters there is motion, not noise
+constexpr double kMostOfFirst = 2.0;  // times the first gain: more, or a loss, may be a fault that came later
+constexpr double kPeaks = 2.0;        // times the level that suits the whole, for where it peaks
+constexpr double kHidden = 1.5;       // times its noise: what jitters there is motion, not noise
 constexpr std::array kNoiseLevels = {1.4142, 2.0};                       // times the usual
 constexpr std::array kShares = {0.003, 0.006, 0.012, 0.025, 0.05, 0.1};  // of the largest torque
-constexpr std::array kMemories_s = {0.004, 0.03};
+constexpr std::array kMemories_s = {0.004, 0.03, 0.12};  // of a spring, of a shape of friction, of a ripple
 
 /// How well a day explains the rows.
 struct Explained {
@@ -106,11 +108,12 @@ class Survey {
     moving_ = first_moving(rows_, day_.model);
     way_ = way_of(rows_, day_.model);
     best_ = explained(rows_, day_.model, day_.noise);
-    if (is_badly_explained() && !rows_.tau.empty()) {
+    if (rows_.tau.empty()) return std::move(day_);
+    if (is_badly_explained()) {
       try_stamps_and_timing();
       try_noisy_readings();
-      try_rough_torque();
     }
+    if (is_badly_explained() || gains_by_little()) try_rough_torque();
     return std::move(day_);
   }
 
@@ -123,16 +126,16 @@ class Survey {
 
   /// What a day gains, as far as the first stretches speak for it; 0 where they do not, or where only the
   /// second does: a fault may have begun there.
-  double gain_of(const Explained& with) const {
+  double gain_of(const Explained& with, double least = kLeastGain) const {
     const auto gain = [&](int s) { return with.log_likelihood[s] - best_.log_likelihood[s]; };
     double first = 0.0;
     for (const int s : moving_) first = std::max(first, gain(s));
-    if (first < kLeastGain) return 0.0;
+    if (first < least) return 0.0;
     const int begins = moving_.front(), goes_on = moving_.back();
     if (gain(begins) * way_[goes_on] < kFromTheStart * gain(goes_on) * way_[begins]) return 0.0;
     double sum = 0.0;
     for (int s = 0; s < kStretches; ++s)
-      sum += std::min(with.log_likelihood[s] - best_.log_likelihood[s], kMostOfFirst * first);
+      sum += std::clamp(gain(s), -kMostOfFirst * first, kMostOfFirst * first);
     return sum;
   }
 
@@ -216,14 +219,31 @@ class Survey {
     return model;
   }
 
+  /// Slow states may hide for a while what a rougher torque explains better: whether the least of it gains.
+  bool gains_by_little() const {
+    for (const double memory_s : kMemories_s) {
+      std::optional<MotionModel> model;
+      for (auto share = kShares.begin(); share != kShares.end() && !model; ++share)
+        model = rougher(-1, *share, memory_s);
+      if (model && gain_of(explained(rows_, *model, day_.noise), kLeastHidden) > 0.0) return true;
+    }
+    return false;
+  }
+
   /// All joints alike, then each more.
   void try_rough_torque() {
     const MotionModel before = day_.model;
     bool rough = false;
     for (int joint = -1; joint < before.joints(); ++joint) rough = try_rough_torque(joint) || rough;
     if (!rough) return;
-    for (std::size_t s = 0; s < before.slow.size(); ++s)
-      if (day_.model.slow[s].day_std > before.slow[s].day_std) day_.model.slow[s].day_std *= kPeaks;
+    day_.roughness.assign(before.joints(), 1.0);
+    for (std::size_t s = 0; s < before.slow.size(); ++s) {
+      SlowState& slow = day_.model.slow[s];
+      const double usual = before.slow[s].day_std;
+      if (slow.day_std <= usual) continue;
+      slow.day_std *= kPeaks;
+      day_.roughness[slow.joint] = slow.day_std / usual;
+    }
     note("torque_rough",
          "the model misses more torque in this log than in the learned ones from its first rows on; "
          "small faults are seen later or not at all");
@@ -238,7 +258,7 @@ class Survey {
         std::optional<MotionModel> model = rougher(joint, share, memory_s);
         if (!model) continue;
         const Explained with = explained(rows_, *model, day_.noise);
-        if (const double gain = gain_of(with); gain > best_gain)
+        if (const double gain = gain_of(with); gain > kClearlyMore * best_gain)
           best_gain = gain, best = std::move(model), best_explained = with;
       }
     if (!best) return false;

@@ -16,7 +16,10 @@ struct LogDay {
   MotionModel model;  ///< as it suits this log
   LogNoise noise;
   std::vector<double> torque_delay_s;  ///< by joint, for DelayedTorqueSource; empty for none
-  Issues notes;                        ///< stamps_wobble, torque_timing, torque_rough
+  /// By joint: the torque that the filter lets the model miss, times that of the learned logs; empty for as
+  /// much as in those.
+  std::vector<double> roughness;
+  Issues notes;  ///< stamps_wobble, torque_timing, noisy_readings, torque_rough
 };
 
 /// How a log measures against the model's logs, from its first rows. Rewinds the log before and after.

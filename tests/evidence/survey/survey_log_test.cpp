@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/core/random.hpp"
 #include "lib/log/memory_source.hpp"
@@ -63,6 +64,18 @@ TEST(SurveyLog, RippleFromTheFirstRowsOnIsARougherTorque) {
     return 0.0;
   };
   EXPECT_GT(level(day.model), level(model));
+}
+
+TEST(SurveyLog, ASlowRippleIsARougherTorqueThoughSlowStatesHideItAtFirst) {
+  Log log = healthy();
+  const MotionModel& model = rrp_motion_model();
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < log.rows(); ++k)
+      log.tau[j][k] += 0.03 * model.torque_scale[j] * std::sin((j < 2 ? 7.0 : 60.0) * log.q[j][k]);
+  const LogDay day = day_of(log);
+  EXPECT_NE(day.notes.find("torque_rough"), nullptr);
+  ASSERT_EQ(day.roughness.size(), 3u);
+  EXPECT_GT(*std::max_element(day.roughness.begin(), day.roughness.end()), 2.0);
 }
 
 TEST(SurveyLog, AFaultAmongTheFirstRowsIsNotExcused) {
