@@ -14,8 +14,10 @@ namespace {
 constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
 constexpr double kLeastPower =
     0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
-constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
-constexpr double kRough = 3.0;      // times as much torque missed as in the learned logs: faults hide there
+// Normal ranges: what is there is no healthy robot any more. Friction rises by many things that are no fault.
+constexpr double kFarBeyond = 1.5, kFrictionFarBeyond = 3.0;
+constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
+constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
 constexpr double kPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
@@ -32,6 +34,19 @@ std::string why_too_rough(const std::vector<double>& roughness) {
       *worst, worst - roughness.begin() + 1);
 }
 
+/// Where the motion was so far from a fault-free one that something happened there, though no fault explains
+/// it; empty if nowhere.
+std::string why_too_wild(const std::vector<JointResidual>& residuals) {
+  const auto worst = std::max_element(residuals.begin(), residuals.end(), [](const auto& a, const auto& b) {
+    return !(a.velocity_peak >= b.velocity_peak);
+  });
+  if (worst == residuals.end() || !(worst->velocity_peak > kWild)) return "";
+  return fmt::format(
+      "no fault explains the log, but joint {} moved at {:.3f} s as no fault-free robot does ({:.3g} times the "
+      "healthy residual); look at that moment: a reading that jumped or stood still, or rows that are missing",
+      worst->joint, worst->velocity_peak_s, worst->velocity_peak);
+}
+
 /// Why a log in which no fault was found is not called healthy; empty when it can be.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (power < kLeastPower)
@@ -40,7 +55,8 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
         "logs that resemble each other more",
         kPercent * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
-  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
+  if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
+  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond, kFrictionFarBeyond);
   if (far.empty()) return "";
   return fmt::format(
       "no moment was found at which a fault begins, but the robot is not as it was when healthy logs were "

@@ -45,6 +45,12 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
   return states;
 }
 
+int tip_mass_index(const MotionModel& model) {
+  for (std::size_t s = 0; s < model.slow.size(); ++s)
+    if (model.slow[s].kind == SlowKind::tip_mass) return 2 * model.joints() + static_cast<int>(s);
+  return -1;
+}
+
 void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, int threads) {
   const int first = 2 * model.joints();
   const std::size_t count = model.slow.size();

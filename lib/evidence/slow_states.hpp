@@ -14,6 +14,9 @@ namespace faultline {
 /// chain and scales. Coloured torques begin as a small share of the largest torque.
 std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& normal);
 
+/// Where the mass at the tip stands in a filter's state; -1 where it does not.
+int tip_mass_index(const MotionModel& model);
+
 /// Widens the doubt of each slow state to what the excerpts of healthy days show beyond it: random effects,
 /// the expected square of the state given a day's log.
 void widen_to_days(MotionModel& model, const std::vector<HealthyExcerpt>& days, int threads);

@@ -164,5 +164,28 @@ TEST(Verdict, AFaultStandsInARoughLog) {
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
 }
 
+TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.residuals = {{1, 1.1, 55.0, 3.0}, {2, 4.4, 276.0, 12.22}};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("joint 2 moved at 12.220 s"), std::string::npos);
+  diagnosis.residuals[1].velocity_peak = 61.0;
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+}
+
+TEST(Verdict, AnOffsetFarBeyondItsRangeIsNotCalledHealthyFrictionLater) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  ConditionItem item = friction_of(1, 65.0, {60.0, 70.0});
+  item.name = "friction_1";
+  diagnosis.condition = {item};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+  diagnosis.condition[0].name = "torque_offset_1";
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+}
+
 }  // namespace
 }  // namespace faultline

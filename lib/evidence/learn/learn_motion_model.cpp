@@ -81,7 +81,7 @@ void learn_family(MotionModel& model, std::vector<HealthyExcerpt>& pieces, const
   const std::vector<SlowState> before = slow_states(model, normal);
   if (learn_tails(model, pieces, matching.threads)) match_noise(model, pieces, matching);
   model.work_pieces_kg = normal.work_pieces_kg;
-  learn_work_pieces(model, pieces, matching.threads);
+  learn_work_pieces(model, before, pieces, matching.threads);
   if (!model.work_pieces_kg.empty()) {  // what they shook was taken for noise
     model.slow = before;
     allow_work_pieces(model);

@@ -6,7 +6,9 @@
 
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/evidence/learn/carried_levels.hpp"
 #include "lib/evidence/learn/follow_excerpt.hpp"
+#include "lib/evidence/slow_states.hpp"
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/evidence/watch/episode_detector.hpp"
 
@@ -57,8 +59,16 @@ double usual_mass(const std::vector<double>& changes, double least) {
   return most && mass > least ? mass : 0.0;
 }
 
-/// The work piece that the excerpts show; 0 for none.
-double shown_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+/// What motions from rest to rest show; 0 for none.
+double mass_by_motions(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+  std::vector<std::vector<CarriedLevel>> levels(excerpts.size());
+  parallel_for(static_cast<int>(excerpts.size()), threads,
+               [&](int i) { levels[i] = carried_levels(model, excerpts[i]); });
+  return mass_that_comes_and_goes(levels);
+}
+
+/// What changes of the load within a motion show; 0 for none.
+double mass_by_changes(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
   std::vector<std::vector<double>> found(excerpts.size());
   parallel_for(static_cast<int>(excerpts.size()), threads,
                [&](int i) { found[i] = mass_changes(model, excerpts[i]); });
@@ -70,17 +80,15 @@ double shown_mass(const MotionModel& model, const std::vector<HealthyExcerpt>& e
 /// By how much the tip's mass at the end of each stretch between changes differs from that at the end of the
 /// stretch before: what whole stretches tell, where the moment of a change mixes mass and friction.
 std::vector<double> level_changes(const MotionModel& model, const HealthyExcerpt& excerpt) {
-  const auto tip = std::find_if(model.slow.begin(), model.slow.end(),
-                                [](const SlowState& slow) { return slow.kind == SlowKind::tip_mass; });
-  if (tip == model.slow.end() || excerpt.work_piece_changes.empty()) return {};
-  const auto index = 2 * model.joints() + static_cast<int>(tip - model.slow.begin());
+  const int tip = tip_mass_index(model);
+  if (tip < 0 || excerpt.work_piece_changes.empty()) return {};
   MotionModel open_minded = model;
   open_minded.work_piece_doubt = kAnyMass;
   std::vector<double> levels;
   double level = 0.0;
   follow_excerpt(excerpt, open_minded, [&](const FollowedSample& sample, bool changed) {
     if (changed) levels.push_back(level);
-    level = sample.posterior.mean[index];
+    level = sample.posterior.mean[tip];
   });
   levels.push_back(level);
   std::vector<double> changes;
@@ -137,9 +145,16 @@ void allow_work_pieces(MotionModel& model) {
     if (slow.kind == SlowKind::tip_mass) slow.day_std = std::max(slow.day_std, doubt);
 }
 
-void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
+void learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
+                       std::vector<HealthyExcerpt>& excerpts, int threads) {
   if (model.work_pieces_kg.empty()) {
-    const double mass = shown_mass(model, excerpts, threads);
+    MotionModel open_minded = model;
+    open_minded.slow = unmatched;
+    double mass = mass_by_motions(open_minded, excerpts, threads);
+    if (mass > 0.0)
+      model.slow = unmatched;
+    else
+      mass = mass_by_changes(model, excerpts, threads);
     if (mass <= 0.0) return;
     model.work_pieces_kg = {mass};
     model.work_piece_doubt = kDoubtOfChanges;

@@ -8,11 +8,13 @@
 
 namespace faultline {
 
-/// Finds the work piece that healthy excerpts show to come and go: changes of the tip's mass that no other
-/// explanation fits, several times and by the same mass; those that the model has already are taken as
-/// declared. Sets MotionModel::work_pieces_kg and notes in each excerpt when they came and went. Nothing
-/// changes where there is none.
-void learn_work_pieces(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
+/// Finds the work piece that healthy excerpts show to come and go: motions that carry it and motions that do
+/// not, or else changes of the tip's mass within a motion that no other explanation fits, several times and
+/// by the same mass; those that the model has already are taken as declared. Sets MotionModel::work_pieces_kg
+/// and notes in each excerpt when they came and went. `unmatched` are the slow states before anything was
+/// matched. Nothing changes where there is none.
+void learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
+                       std::vector<HealthyExcerpt>& excerpts, int threads);
 
 /// Finds the mass of the model's only work piece again, from whole stretches with and without it. With noise
 /// that was matched before it was known, much of what it weighs passes for a torque that the model misses.

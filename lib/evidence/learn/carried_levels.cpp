@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "lib/evidence/learn/carried_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/statistics.hpp"
+#include "lib/evidence/filter/follower.hpp"
+#include "lib/evidence/slow_states.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kAtRest = 0.05;        // of the usual speed, all joints
+constexpr double kRest_s = 0.06;        // at least: what is shorter is a turn
+constexpr double kDoubtInPriors = 2.0;  // of what is carried after a rest
+constexpr double kMostStd = 3.0;        // times the usual one: what is known worse is left out
+constexpr double kFarApart = 5.0;       // times what each group scatters by; one group that is halved: 2.7
+constexpr double kSmallestGroup = 0.2;  // share of the motions
+constexpr int kFewestMotions = 10, kFewestChanges = 4;
+constexpr double kMostByDirection = 0.7;  // of a group less of the other that goes one way
+constexpr double kStdOfMedian = 1.4826;   // standard deviation over median of the absolute errors
+
+/// Follows an excerpt and notes each motion.
+class MotionLevels {
+ public:
+  MotionLevels(const MotionModel& model, const HealthyExcerpt& excerpt, int tip)
+      : model_(model), excerpt_(excerpt), tip_(tip), follower_(model, excerpt.noise) {}
+
+  std::vector<CarriedLevel> run() {
+    const Log& log = excerpt_.log;
+    for (int k = 0; k < log.rows(); ++k) {
+      follower_.follow(log, k, sample_);
+      if (!is_still()) {
+        if (!moving_) begin();
+        moving_ = true;
+        rest_from_s_ = std::numeric_limits<double>::quiet_NaN();
+      } else if (moving_) {
+        if (std::isnan(rest_from_s_)) rest_from_s_ = sample_.time;
+        if (sample_.time - rest_from_s_ >= kRest_s) end();
+      }
+    }
+    return std::move(levels_);
+  }
+
+ private:
+  bool is_still() const {
+    for (int j = 0; j < model_.joints(); ++j)
+      if (std::abs(sample_.posterior.mean[model_.joints() + j]) > kAtRest * model_.velocity_scale[j])
+        return false;
+    return true;
+  }
+
+  void begin() {
+    for (int j = 0; j < model_.joints(); ++j) began_[j] = sample_.posterior.mean[j];
+  }
+
+  /// From here on anything may be carried.
+  void end() {
+    GaussianState state = sample_.posterior;
+    CarriedLevel level{state.mean[tip_], std::sqrt(state.p(tip_, tip_)), {}};
+    for (int j = 0; j < model_.joints(); ++j) level.way[j] = state.mean[j] - began_[j];
+    levels_.push_back(level);
+    const double doubt = kDoubtInPriors * model_.priors.payload;
+    state.p(tip_, tip_) += doubt * doubt;
+    follower_.restore(state);
+    moving_ = false;
+  }
+
+  const MotionModel& model_;
+  const HealthyExcerpt& excerpt_;
+  int tip_;
+  Follower follower_;
+  FollowedSample sample_;
+  std::vector<CarriedLevel> levels_;
+  std::array<double, kMaxJoints> began_{};
+  double rest_from_s_ = std::numeric_limits<double>::quiet_NaN();
+  bool moving_ = false;
+};
+
+std::vector<std::vector<CarriedLevel>> well_known(std::vector<std::vector<CarriedLevel>> logs) {
+  std::vector<double> stds;
+  for (const auto& log : logs)
+    for (const CarriedLevel& level : log) stds.push_back(level.std);
+  if (stds.empty()) return {};
+  const double most = kMostStd * upper_median(stds);
+  for (auto& log : logs) std::erase_if(log, [&](const CarriedLevel& level) { return level.std > most; });
+  return logs;
+}
+
+/// The value that parts the masses into the two groups that scatter least.
+double parting(std::vector<double> kg) {
+  std::sort(kg.begin(), kg.end());
+  double sum = 0.0, all = 0.0;
+  for (const double x : kg) all += x;
+  std::size_t best = 1;
+  double best_between = -1.0;
+  for (std::size_t i = 1; i < kg.size(); ++i) {
+    sum += kg[i - 1];
+    const auto low = static_cast<double>(i), high = static_cast<double>(kg.size() - i);
+    const double apart = (all - sum) / high - sum / low;
+    if (const double between = low * high * apart * apart; between > best_between)
+      best_between = between, best = i;
+  }
+  return 0.5 * (kg[best - 1] + kg[best]);
+}
+
+struct Group {
+  std::vector<double> kg;
+  std::array<double, kMaxJoints> forward{};  ///< motions in which the joint went that way
+
+  void add(const CarriedLevel& level) {
+    kg.push_back(level.kg);
+    for (int j = 0; j < kMaxJoints; ++j) forward[j] += level.way[j] > 0.0;
+  }
+  double scatter() const {
+    const double middle = upper_median(kg);
+    std::vector<double> errors;
+    for (const double x : kg) errors.push_back(std::abs(x - middle));
+    return kStdOfMedian * upper_median(errors);
+  }
+};
+
+bool differ_by_direction(const Group& a, const Group& b) {
+  for (int j = 0; j < kMaxJoints; ++j) {
+    const double share_a = a.forward[j] / static_cast<double>(a.kg.size());
+    const double share_b = b.forward[j] / static_cast<double>(b.kg.size());
+    if (std::abs(share_a - share_b) > kMostByDirection) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<CarriedLevel> carried_levels(const MotionModel& model, const HealthyExcerpt& excerpt) {
+  const int tip = tip_mass_index(model);
+  return tip < 0 ? std::vector<CarriedLevel>{} : MotionLevels(model, excerpt, tip).run();
+}
+
+double mass_that_comes_and_goes(const std::vector<std::vector<CarriedLevel>>& logs) {
+  const std::vector<std::vector<CarriedLevel>> levels = well_known(logs);
+  std::vector<double> kg;
+  for (const auto& log : levels)
+    for (const CarriedLevel& level : log) kg.push_back(level.kg);
+  if (static_cast<int>(kg.size()) < kFewestMotions) return 0.0;
+  const double border = parting(kg);
+  Group low, high;
+  int changes = 0;
+  for (const auto& log : levels)
+    for (std::size_t i = 0; i < log.size(); ++i) {
+      (log[i].kg > border ? high : low).add(log[i]);
+      changes += i > 0 && (log[i].kg > border) != (log[i - 1].kg > border);
+    }
+  const auto fewest = static_cast<std::size_t>(kSmallestGroup * static_cast<double>(kg.size()));
+  if (changes < kFewestChanges || std::min(low.kg.size(), high.kg.size()) < std::max<std::size_t>(fewest, 2))
+    return 0.0;
+  if (differ_by_direction(low, high)) return 0.0;
+  const double mass = upper_median(high.kg) - upper_median(low.kg);
+  return mass > kFarApart * std::max(low.scatter(), high.scatter()) ? mass : 0.0;
+}
+
+}  // namespace faultline
