@@ -19,8 +19,8 @@ constexpr double kMostStd = 3.0;        // times the usual one: what is known wo
 constexpr double kFarApart = 5.0;       // times what each group scatters by; one group that is halved: 2.7
 constexpr double kSmallestGroup = 0.2;  // share of the motions
 constexpr int kFewestMotions = 10, kFewestChanges = 4;
-constexpr double kMostByDirection = 0.7;  // of a group less of the other that goes one way
-constexpr double kStdOfMedian = 1.4826;   // standard deviation over median of the absolute errors
+constexpr double kMostByDirection = 0.85;  // of the motions: more is friction
+constexpr double kStdOfMedian = 1.4826;    // standard deviation over median of the absolute errors
 
 /// Follows an excerpt and notes each motion.
 class MotionLevels {
@@ -60,7 +60,8 @@ class MotionLevels {
   void end() {
     GaussianState state = sample_.posterior;
     CarriedLevel level{state.mean[tip_], std::sqrt(state.p(tip_, tip_)), {}};
-    for (int j = 0; j < model_.joints(); ++j) level.way[j] = state.mean[j] - began_[j];
+    for (int j = 0; j < model_.joints(); ++j)
+      if (model_.chain.geometry[j].kind == AxisKind::prismatic) level.way[j] = state.mean[j] - began_[j];
     levels_.push_back(level);
     const double doubt = kDoubtInPriors * model_.priors.payload;
     state.p(tip_, tip_) += doubt * doubt;
@@ -122,13 +123,13 @@ struct Group {
   }
 };
 
+/// Whether the way that one joint goes tells nearly all motions of one group from those of the other.
 bool differ_by_direction(const Group& a, const Group& b) {
-  for (int j = 0; j < kMaxJoints; ++j) {
-    const double share_a = a.forward[j] / static_cast<double>(a.kg.size());
-    const double share_b = b.forward[j] / static_cast<double>(b.kg.size());
-    if (std::abs(share_a - share_b) > kMostByDirection) return true;
-  }
-  return false;
+  const auto all = static_cast<double>(a.kg.size() + b.kg.size());
+  return std::any_of(a.forward.begin(), a.forward.end(), [&, j = 0](double forward) mutable {
+    const double told = (forward + static_cast<double>(b.kg.size()) - b.forward[j++]) / all;
+    return std::max(told, 1.0 - told) > kMostByDirection;
+  });
 }
 
 }  // namespace

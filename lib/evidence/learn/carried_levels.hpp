@@ -13,7 +13,7 @@ namespace faultline {
 struct CarriedLevel {
   double kg = 0.0;  ///< beside what was identified
   double std = 0.0;
-  std::array<double, kMaxJoints> way{};  ///< by joint, where it ends less where it began, rad or m
+  std::array<double, kMaxJoints> way{};  ///< of sliding axes, where it ends less where it began, m
 };
 
 /// The levels of the motions of an excerpt, in the order of time: the tip's mass may be another after every
@@ -22,8 +22,8 @@ struct CarriedLevel {
 std::vector<CarriedLevel> carried_levels(const MotionModel& model, const HealthyExcerpt& excerpt);
 
 /// The mass, kg, by which the levels of the logs jump between two values, several times within a log; 0 where
-/// they scatter around one, differ from log to log only, or differ with the direction of a joint, as a
-/// friction would.
+/// they scatter around one, differ from log to log only, or differ with the direction of a sliding
+/// axis, as its friction would.
 double mass_that_comes_and_goes(const std::vector<std::vector<CarriedLevel>>& logs);
 
 }  // namespace faultline
