@@ -28,6 +28,8 @@ constexpr double kRanAway = 300.0;       // nats: no row that a filter still fol
 constexpr int kFewestConfirm = 16;       // samples
 constexpr int kUsualRows = 512;          // before the onset, for what is usually left unexplained
 constexpr double kOver_s = 0.25;         // of calm after a push, which tells it from what goes on
+constexpr double kOverThreshold = 2.0;   // thresholds that an alarm reached which nothing explains in the end
+constexpr double kHigher = 1.1;          // times the last peak: less is no other
 constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
 
 void add_to(Surprise& surprise, const FollowedSample& at, int joints) {
@@ -81,6 +83,7 @@ void HypothesisTest::advance() {
   ++now_;
   for (RunningHypothesis& running : running_) bank_.advance(running, history_[now_ - 1], history_[now_]);
   update();
+  note_peak();
   if (stands && !(best_ratio_ > ratio_before - kRanAway)) {
     lost_ = true;
     --now_;
@@ -107,6 +110,24 @@ void HypothesisTest::update() {
   }
   largest_ratio_ = std::max(largest_ratio_, best_counted_);
   if (alarm_ < 0 && best_counted_ > options_.threshold) alarm_ = now_;
+}
+
+void HypothesisTest::note_peak() {
+  const bool stands = alarmed() && now_ - alarm_ >= options_.fewest_samples &&
+                      history_[now_].time - history_[alarm_].time >= kShortestCheck_s;
+  if (!stands || best_counted_ < std::max(kOverThreshold * options_.threshold, kHigher * peak_counted_))
+    return;
+  at_peak_ = running_;
+  peak_ = now_;
+  peak_counted_ = best_counted_;
+}
+
+bool HypothesisTest::return_to_peak() {
+  if (peak_ < 0) return false;
+  now_ = peak_;
+  running_ = at_peak_;
+  update();
+  return true;
 }
 
 void HypothesisTest::prune() {

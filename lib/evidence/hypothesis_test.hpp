@@ -32,6 +32,9 @@ class HypothesisTest {
   double best_ratio() const { return best_ratio_; }
   /// Whether a fault still explains more than its threshold, with what healthy days imitate of it.
   bool passes() const { return best_counted_ >= options_.threshold; }
+  /// A fault that ended while it was looked into is explained until it did, and by nothing after: goes back
+  /// to where the alarm stood highest. False where none stood for long enough to be more than wild values.
+  bool return_to_peak();
   /// What each hypothesis of the bank explains beyond a change of the work piece, if there was one, nats; 0
   /// for those that explain nothing or were dropped as hopeless.
   std::vector<double> excess_ratios() const;
@@ -40,6 +43,7 @@ class HypothesisTest {
   struct Conclusion {
     EpisodeEvidence evidence;
     RunningHypothesis best;
+    bool is_over = false;  ///< ended while it was looked into, when the evidence says it was isolated
   };
   Conclusion conclude() const;
   EpisodeEvidence evidence() const { return conclude().evidence; }
@@ -47,6 +51,7 @@ class HypothesisTest {
  private:
   void begin_at(std::int64_t onset, bool slow_only);
   void update();
+  void note_peak();
   double counted(const RunningHypothesis& running) const;
   void prune();
   double margin() const;
@@ -74,6 +79,9 @@ class HypothesisTest {
   double largest_ratio_ = 0.0;
   std::vector<RunningHypothesis> running_;
   std::vector<RunningHypothesis> before_;   ///< the same a sample ago, once an alarm stands
+  std::vector<RunningHypothesis> at_peak_;  ///< the same when the alarm stood highest
+  std::int64_t peak_ = -1;
+  double peak_counted_ = 0.0;
   std::vector<RunningHypothesis> dropped_;  ///< their ratio is kept as a deficit against the best, below zero
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lib/core/statistics.hpp"
 #include "lib/evidence/filter/follower.hpp"
@@ -53,13 +54,14 @@ class MotionLevels {
   }
 
   void begin() {
+    row_ = (ended_ + sample_.row) / 2;
     for (int j = 0; j < model_.joints(); ++j) began_[j] = sample_.posterior.mean[j];
   }
 
   /// From here on anything may be carried.
   void end() {
     GaussianState state = sample_.posterior;
-    CarriedLevel level{state.mean[tip_], std::sqrt(state.p(tip_, tip_)), {}};
+    CarriedLevel level{state.mean[tip_], std::sqrt(state.p(tip_, tip_)), row_, {}};
     for (int j = 0; j < model_.joints(); ++j)
       if (model_.chain.geometry[j].kind == AxisKind::prismatic) level.way[j] = state.mean[j] - began_[j];
     levels_.push_back(level);
@@ -67,6 +69,7 @@ class MotionLevels {
     state.p(tip_, tip_) += doubt * doubt;
     follower_.restore(state);
     moving_ = false;
+    ended_ = sample_.row;
   }
 
   const MotionModel& model_;
@@ -77,15 +80,19 @@ class MotionLevels {
   std::vector<CarriedLevel> levels_;
   std::array<double, kMaxJoints> began_{};
   double rest_from_s_ = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t row_ = 0, ended_ = 0;  // of the rest before this motion; where the last one ended
   bool moving_ = false;
 };
 
-std::vector<std::vector<CarriedLevel>> well_known(std::vector<std::vector<CarriedLevel>> logs) {
+/// Levels known worse tell nothing.
+double most_std(const std::vector<std::vector<CarriedLevel>>& logs) {
   std::vector<double> stds;
   for (const auto& log : logs)
     for (const CarriedLevel& level : log) stds.push_back(level.std);
-  if (stds.empty()) return {};
-  const double most = kMostStd * upper_median(stds);
+  return stds.empty() ? 0.0 : kMostStd * upper_median(stds);
+}
+
+std::vector<std::vector<CarriedLevel>> well_known(std::vector<std::vector<CarriedLevel>> logs, double most) {
   for (auto& log : logs) std::erase_if(log, [&](const CarriedLevel& level) { return level.std > most; });
   return logs;
 }
@@ -139,26 +146,40 @@ std::vector<CarriedLevel> carried_levels(const MotionModel& model, const Healthy
   return tip < 0 ? std::vector<CarriedLevel>{} : MotionLevels(model, excerpt, tip).run();
 }
 
-double mass_that_comes_and_goes(const std::vector<std::vector<CarriedLevel>>& logs) {
-  const std::vector<std::vector<CarriedLevel>> levels = well_known(logs);
+ShownPiece piece_that_comes_and_goes(const std::vector<std::vector<CarriedLevel>>& logs) {
+  ShownPiece piece;
+  piece.most_std = most_std(logs);
+  const std::vector<std::vector<CarriedLevel>> levels = well_known(logs, piece.most_std);
   std::vector<double> kg;
   for (const auto& log : levels)
     for (const CarriedLevel& level : log) kg.push_back(level.kg);
-  if (static_cast<int>(kg.size()) < kFewestMotions) return 0.0;
-  const double border = parting(kg);
+  if (static_cast<int>(kg.size()) < kFewestMotions) return piece;
+  piece.border_kg = parting(kg);
   Group low, high;
-  int changes = 0;
   for (const auto& log : levels)
-    for (std::size_t i = 0; i < log.size(); ++i) {
-      (log[i].kg > border ? high : low).add(log[i]);
-      changes += i > 0 && (log[i].kg > border) != (log[i - 1].kg > border);
-    }
-  const auto fewest = static_cast<std::size_t>(kSmallestGroup * static_cast<double>(kg.size()));
-  if (changes < kFewestChanges || std::min(low.kg.size(), high.kg.size()) < std::max<std::size_t>(fewest, 2))
-    return 0.0;
-  if (differ_by_direction(low, high)) return 0.0;
+    for (const CarriedLevel& level : log) (level.kg > piece.border_kg ? high : low).add(level);
+  int changes = 0;
+  for (const auto& log : levels) changes += static_cast<int>(changes_between(log, piece).size());
+  const double fewest = std::max(kSmallestGroup * static_cast<double>(kg.size()), 2.0);
+  if (changes < kFewestChanges || static_cast<double>(std::min(low.kg.size(), high.kg.size())) < fewest)
+    return piece;
+  if (differ_by_direction(low, high)) return piece;
   const double mass = upper_median(high.kg) - upper_median(low.kg);
-  return mass > kFarApart * std::max(low.scatter(), high.scatter()) ? mass : 0.0;
+  if (mass > kFarApart * std::max(low.scatter(), high.scatter())) piece.kg = mass;
+  return piece;
+}
+
+std::vector<WorkPieceChange> changes_between(const std::vector<CarriedLevel>& levels,
+                                             const ShownPiece& piece) {
+  std::vector<WorkPieceChange> changes;
+  std::optional<bool> carried;
+  for (const CarriedLevel& level : levels) {
+    if (level.std > piece.most_std) continue;
+    const bool carries = level.kg > piece.border_kg;
+    if (carried && carries != *carried) changes.push_back({level.row, carries ? piece.kg : -piece.kg});
+    carried = carries;
+  }
+  return changes;
 }
 
 }  // namespace faultline

@@ -81,15 +81,14 @@ void learn_family(MotionModel& model, std::vector<HealthyExcerpt>& pieces, const
   const std::vector<SlowState> before = slow_states(model, normal);
   if (learn_tails(model, pieces, matching.threads)) match_noise(model, pieces, matching);
   model.work_pieces_kg = normal.work_pieces_kg;
-  learn_work_pieces(model, before, pieces, matching.threads);
-  if (!model.work_pieces_kg.empty()) {  // what they shook was taken for noise
-    model.slow = before;
-    allow_work_pieces(model);
-    const bool settles = normal.work_pieces_kg.empty();
-    if (settles) settle_work_piece(model, pieces, matching.threads);
-    match_noise(model, pieces, matching);
-    if (settles) settle_work_piece(model, pieces, matching.threads);
-  }
+  const ToldBy told = learn_work_pieces(model, before, pieces, matching.threads);
+  if (told == ToldBy::nothing) return;
+  model.slow = before;  // what they shook was taken for noise
+  allow_work_pieces(model);
+  const bool settles = told != ToldBy::statement;
+  if (settles) settle_work_piece(model, told, pieces, matching.threads);
+  match_noise(model, pieces, matching);
+  if (settles) settle_work_piece(model, told, pieces, matching.threads);
 }
 
 }  // namespace

@@ -59,12 +59,16 @@ double usual_mass(const std::vector<double>& changes, double least) {
   return most && mass > least ? mass : 0.0;
 }
 
-/// What motions from rest to rest show; 0 for none.
-double mass_by_motions(const MotionModel& model, const std::vector<HealthyExcerpt>& excerpts, int threads) {
+/// What motions from rest to rest show; 0 for none. Notes in the excerpts when it came and went.
+double mass_by_motions(const MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
   std::vector<std::vector<CarriedLevel>> levels(excerpts.size());
   parallel_for(static_cast<int>(excerpts.size()), threads,
                [&](int i) { levels[i] = carried_levels(model, excerpts[i]); });
-  return mass_that_comes_and_goes(levels);
+  const ShownPiece piece = piece_that_comes_and_goes(levels);
+  if (!(piece.kg > 0.0)) return 0.0;
+  for (std::size_t i = 0; i < excerpts.size(); ++i)
+    excerpts[i].work_piece_changes = changes_between(levels[i], piece);
+  return piece.kg;
 }
 
 /// What changes of the load within a motion show; 0 for none.
@@ -145,28 +149,31 @@ void allow_work_pieces(MotionModel& model) {
     if (slow.kind == SlowKind::tip_mass) slow.day_std = std::max(slow.day_std, doubt);
 }
 
-void learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
-                       std::vector<HealthyExcerpt>& excerpts, int threads) {
+ToldBy learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
+                         std::vector<HealthyExcerpt>& excerpts, int threads) {
+  ToldBy told = ToldBy::statement;
   if (model.work_pieces_kg.empty()) {
     MotionModel open_minded = model;
     open_minded.slow = unmatched;
+    told = ToldBy::motions;
     double mass = mass_by_motions(open_minded, excerpts, threads);
-    if (mass > 0.0)
-      model.slow = unmatched;
-    else
+    if (mass <= 0.0) {
+      told = ToldBy::changes;
       mass = mass_by_changes(model, excerpts, threads);
-    if (mass <= 0.0) return;
+    }
+    if (mass <= 0.0) return ToldBy::nothing;
     model.work_pieces_kg = {mass};
     model.work_piece_doubt = kDoubtOfChanges;
   }
   allow_work_pieces(model);
-  note_changes(model, excerpts, threads);
+  if (told != ToldBy::motions) note_changes(model, excerpts, threads);
+  return told;
 }
 
-void settle_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads) {
+void settle_work_piece(MotionModel& model, ToldBy told, std::vector<HealthyExcerpt>& excerpts, int threads) {
   take_levels(model, excerpts, threads);
   allow_work_pieces(model);
-  note_changes(model, excerpts, threads);
+  if (told != ToldBy::motions) note_changes(model, excerpts, threads);
 }
 
 }  // namespace faultline

@@ -8,17 +8,25 @@
 
 namespace faultline {
 
-/// Finds the work piece that healthy excerpts show to come and go: motions that carry it and motions that do
-/// not, or else changes of the tip's mass within a motion that no other explanation fits, several times and
-/// by the same mass; those that the model has already are taken as declared. Sets MotionModel::work_pieces_kg
-/// and notes in each excerpt when they came and went. `unmatched` are the slow states before anything was
-/// matched. Nothing changes where there is none.
-void learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
-                       std::vector<HealthyExcerpt>& excerpts, int threads);
+/// What tells of a work piece, and when it came and went.
+enum class ToldBy {
+  nothing,
+  statement,  ///< declared
+  motions,    ///< some carry it and some do not
+  changes,    ///< of the tip's mass within a motion, which no other explanation fits
+};
 
-/// Finds the mass of the model's only work piece again, from whole stretches with and without it. With noise
-/// that was matched before it was known, much of what it weighs passes for a torque that the model misses.
-void settle_work_piece(MotionModel& model, std::vector<HealthyExcerpt>& excerpts, int threads);
+/// Finds the work piece that healthy excerpts show to come and go several times; those that the model has
+/// already are taken as declared. Sets MotionModel::work_pieces_kg and notes in each excerpt when they came
+/// and went. `unmatched` are the slow states before anything was matched: matched to logs whose piece nobody
+/// knew, they take most of what it weighs for a torque that the model misses. Nothing changes where there is
+/// none.
+ToldBy learn_work_pieces(MotionModel& model, const std::vector<SlowState>& unmatched,
+                         std::vector<HealthyExcerpt>& excerpts, int threads);
+
+/// Finds the mass of the model's only work piece again, from whole stretches with and without it, and when it
+/// came and went where motions do not tell.
+void settle_work_piece(MotionModel& model, ToldBy told, std::vector<HealthyExcerpt>& excerpts, int threads);
 
 /// When work pieces of the model came and went in a healthy log, and what the filter makes of the tip's mass
 /// at its start.

@@ -101,6 +101,11 @@ class EpisodeDetector::Impl {
     episodes.push_back(std::move(found.evidence));
     EpisodeEvidence& episode = episodes.back();
     episode.end_s = now_s;
+    if (found.is_over) {
+      episode.end_s = episode.isolated_s;
+      top().watch->go_on_healed(found.best.onset);
+      return;
+    }
     if (describe(hypothesis.label.kind).passes) {
       episode.end_s = std::min(now_s, std::max(found.best.onset_s + found.best.duration_s, episode.alarm_s));
       top().watch->go_on_after(found.best);

@@ -98,23 +98,32 @@ void Watch::test_now() {
 std::optional<HypothesisTest::Conclusion> Watch::conclude() {
   rearm_row_ = sample().row + kRearm;
   std::optional<HypothesisTest::Conclusion> named;
-  if (const RunningHypothesis* no_fault = test_->no_fault()) {
+  const bool is_over = test_->alarmed() && !test_->passes() && test_->return_to_peak();
+  const RunningHypothesis* no_fault = test_->no_fault();
+  if (no_fault && !is_over) {
     go_on_from(test_->refined(*no_fault));
   } else if (!test_->alarmed()) {
     largest_ratio_ = std::max(largest_ratio_, test_->largest_ratio());
-  } else if (!test_->passes()) {
+  } else if (no_fault || !test_->passes()) {
     ++rejected_alarms_;
   } else if (options_.only_measure) {
     measure();
   } else {
-    HypothesisTest::Conclusion found = test_->conclude();
-    if (is_healthy(bank_.hypotheses()[found.best.hypothesis]))
-      go_on_from(found.best);
-    else
-      named = std::move(found);
+    named = name(is_over);
   }
   test_.reset();
   return named;
+}
+
+std::optional<HypothesisTest::Conclusion> Watch::name(bool is_over) {
+  HypothesisTest::Conclusion found = test_->conclude();
+  found.is_over = is_over;
+  if (!is_healthy(bank_.hypotheses()[found.best.hypothesis])) return found;
+  if (is_over)
+    ++rejected_alarms_;
+  else
+    go_on_from(found.best);
+  return std::nullopt;
 }
 
 void Watch::measure() {
@@ -136,6 +145,11 @@ void Watch::go_on_from(const RunningHypothesis& no_fault) {
   trigger_.forget();
   work_piece_changes_.push_back({history_[no_fault.onset].row, hypothesis.work_piece_kg});
   bank_.work_piece_changed(hypothesis.work_piece_kg);
+}
+
+void Watch::go_on_healed(std::int64_t onset) {
+  follower_.stand_by(history_[std::max(onset - 1, history_.first())].posterior, sample().posterior);
+  begin_anew();
 }
 
 void Watch::go_on_after(const RunningHypothesis& passed) {

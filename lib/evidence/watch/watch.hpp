@@ -39,6 +39,9 @@ class Watch {
   void move_with(const GaussianState& motion);
   /// Rows so far were another's to judge: tests do not look back at them.
   void begin_anew();
+  /// A fault that began at that sample was over before it was named: goes on with the motion of now and what
+  /// was known before it.
+  void go_on_healed(std::int64_t onset);
   /// The fault was over by itself: goes on from its state.
   void go_on_after(const RunningHypothesis& passed);
 
@@ -78,6 +81,8 @@ class Watch {
     return !test_->alarmed() && statistic_ > kOutgrown * std::max(looked_into_, options_.trigger);
   }
   std::optional<HypothesisTest::Conclusion> conclude();
+  /// None where it is a change of the work piece all the same.
+  std::optional<HypothesisTest::Conclusion> name(bool is_over);
   void measure();
   void go_on_from(const RunningHypothesis& no_fault);
 
