@@ -18,8 +18,11 @@ double calibrated(const Decision& decision, const ConfidenceCalibration& calibra
 
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
   DescribedEpisode described = describe_episode(observed, model);
-  DecisionBasis basis{
-      std::move(described.evidence), std::move(described.episode), {}, observed.evidence.usual};
+  DecisionBasis basis{std::move(described.evidence),
+                      std::move(described.episode),
+                      {},
+                      observed.evidence.usual,
+                      observed.evidence.end_s - observed.evidence.onset_s};
   basis.votes = votes_on(basis.episode, cases);
   Decision decision = decide(basis);
   decision.confidence = calibrated(decision, model.confidence);

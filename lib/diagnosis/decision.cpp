@@ -9,6 +9,7 @@ namespace {
 
 constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
 constexpr double kSureOfUnknown = 0.9;  // that no known fault leaves so much
+constexpr double kLongestPush_s = 5.0;  // what disturbs for longer is no hit
 
 Decision abstained(DecisionReason reason) {
   return {kUnknownFault, 0.0, DecidedBy::abstained, reason, kUnknownFault};
@@ -94,6 +95,11 @@ Decision unless_refuted(const Decision& decision, const DecisionBasis& basis) {
   return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::all_refuted, decision.voted};
 }
 
+Decision unless_it_lasts(const Decision& decision, double lasts_s) {
+  if (!describe(decision.label.kind).passes || !(lasts_s > kLongestPush_s)) return decision;
+  return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::push_lasts, decision.label};
+}
+
 }  // namespace
 
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
@@ -105,7 +111,7 @@ Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
   decision.label = named_by_size(decision.label, basis.evidence);
   const bool unnamed = decision.label.kind == FaultKind::unknown;
   if (unnamed && !basis.evidence.empty()) decision = by_likelihood(decision, basis, options);
-  return unless_refuted(decision, basis);
+  return unless_it_lasts(unless_refuted(decision, basis), basis.lasts_s);
 }
 
 }  // namespace faultline

@@ -27,6 +27,7 @@ enum class DecisionReason {
   likelihood_names,  ///< neither networks nor cases name a fault, the likelihood does
   others_refuted,    ///< what networks and cases say leaves far more than noise, the likeliest fault does not
   all_refuted,       ///< unknown: every known fault leaves far more than noise
+  push_lasts,        ///< unknown: what looks like a push goes on for longer than pushes do
 };
 
 /// What an episode is, decided once; all texts follow from it.

@@ -14,6 +14,7 @@ struct DecisionBasis {
   Episode episode;                      ///< features, and the opinions of both networks
   Votes votes;                          ///< of similar cases
   Surprise usual{};                     ///< what the robot before the fault left unexplained
+  double lasts_s = 0.0;                 ///< from onset to end
 };
 
 }  // namespace faultline

@@ -50,6 +50,8 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
       return fmt::format(
           "every known fault leaves far more of the motion unexplained than noise does, {} too",
           words(decision.voted));
+    case DecisionReason::push_lasts:
+      return fmt::format("it begins as {}, but goes on for {:.2g} s", words(decision.voted), basis.lasts_s);
     case DecisionReason::likelihood_names:
       return "neither networks nor cases settle it; this fault explains the log best";
   }

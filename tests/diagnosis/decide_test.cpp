@@ -175,5 +175,17 @@ TEST(Votes, SharesSumToOneAndDoNotDependOnTheRun) {
   for (std::size_t i = 0; i < a.shares.size(); ++i) EXPECT_EQ(a.shares[i].share, b.shares[i].share);
 }
 
+TEST(Decide, APushThatGoesOnForLongIsUnknown) {
+  const FaultLabel push{FaultKind::collision, 1};
+  DecisionBasis basis;
+  basis.episode = episode_at(2, 0, {push, 0.9}, {push, 0.9});
+  basis.lasts_s = 0.4;
+  EXPECT_EQ(decide(basis).label, push);
+  basis.lasts_s = 26.0;
+  const Decision decision = decide(basis);
+  EXPECT_EQ(decision.label, kUnknown);
+  EXPECT_EQ(reason_in_words(decision, basis), "it begins as collision at joint 1, but goes on for 26 s");
+}
+
 }  // namespace
 }  // namespace faultline
