@@ -28,7 +28,7 @@ constexpr double kRanAway = 300.0;       // nats: no row that a filter still fol
 constexpr int kFewestConfirm = 16;       // samples
 constexpr int kUsualRows = 512;          // before the onset, for what is usually left unexplained
 constexpr double kOver_s = 0.25;         // of calm after a push, which tells it from what goes on
-constexpr double kOverThreshold = 2.0;   // thresholds that an alarm reached which nothing explains in the end
+constexpr double kOverThreshold = 4.0;   // thresholds that an alarm reached which nothing explains in the end
 constexpr double kHigher = 1.1;          // times the last peak: less is no other
 constexpr double kShortestCheck_s = 0.05;  // of an alarm that turns out to be no fault
 
@@ -117,6 +117,7 @@ void HypothesisTest::note_peak() {
                       history_[now_].time - history_[alarm_].time >= kShortestCheck_s;
   if (!stands || best_counted_ < std::max(kOverThreshold * options_.threshold, kHigher * peak_counted_))
     return;
+  if (best_counted_ < largest_ratio_) return;  // what a wild value said wanes from the row after it
   at_peak_ = running_;
   peak_ = now_;
   peak_counted_ = best_counted_;

@@ -115,14 +115,28 @@ std::optional<HypothesisTest::Conclusion> Watch::conclude() {
   return named;
 }
 
+/// Whether what was explained until it collapsed is a fault that ended: a push tells its own end, and the
+/// code of a joint that rests repeats by itself.
+bool Watch::has_ended(const RunningHypothesis& best) const {
+  const FaultLabel& label = bank_.hypotheses()[best.hypothesis].label;
+  if (is_healthy(bank_.hypotheses()[best.hypothesis]) || describe(label.kind).passes ||
+      label.kind == FaultKind::unknown)
+    return false;
+  if (label.kind != FaultKind::stuck_encoder) return true;
+  const int j = label.joint - 1;
+  const double at_onset = history_[std::max(best.onset, history_.first())].posterior.mean[j];
+  return std::abs(best.state.mean[j] - at_onset) > kMoved * robot_.model.q_std[j];
+}
+
 std::optional<HypothesisTest::Conclusion> Watch::name(bool is_over) {
   HypothesisTest::Conclusion found = test_->conclude();
   found.is_over = is_over;
-  if (!is_healthy(bank_.hypotheses()[found.best.hypothesis])) return found;
-  if (is_over)
+  if (is_over && !has_ended(found.best)) {
     ++rejected_alarms_;
-  else
-    go_on_from(found.best);
+    return std::nullopt;
+  }
+  if (!is_healthy(bank_.hypotheses()[found.best.hypothesis])) return found;
+  go_on_from(found.best);
   return std::nullopt;
 }
 

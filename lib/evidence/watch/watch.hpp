@@ -71,6 +71,7 @@ class Watch {
   static constexpr double kNewSuspicion =
       1.3;                                  // times the statistic that was looked into makes it news again
   static constexpr double kOutgrown = 3.0;  // times it: another thing has begun meanwhile
+  static constexpr double kMoved = 30.0;    // times the noise of its reading: a joint that does not rest
   static constexpr double kCalm = 0.7;      // of the trigger: below it the range seen is healthy
 
   void watch();
@@ -81,7 +82,8 @@ class Watch {
     return !test_->alarmed() && statistic_ > kOutgrown * std::max(looked_into_, options_.trigger);
   }
   std::optional<HypothesisTest::Conclusion> conclude();
-  /// None where it is a change of the work piece all the same.
+  bool has_ended(const RunningHypothesis& best) const;
+  /// None where it is no fault all the same.
   std::optional<HypothesisTest::Conclusion> name(bool is_over);
   void measure();
   void go_on_from(const RunningHypothesis& no_fault);

@@ -85,6 +85,15 @@ TEST(EpisodeDetector, ALogThatBeginsInTheMiddleOfAMoveIsSilent) {
   }
 }
 
+TEST(EpisodeDetector, AFaultThatEndsWhileItIsTestedIsNamedWithItsEnd) {
+  const double length_s = 0.25;  // a test takes longer
+  const auto episodes = detected(faulty_log(FaultKind::stuck_encoder, 2, 0.0, length_s));
+  ASSERT_EQ(episodes.size(), 1u);
+  EXPECT_EQ(label_text(named(episodes[0])), label_text({FaultKind::stuck_encoder, 2}));
+  EXPECT_NEAR(episodes[0].onset_s, kOnset_s, 0.05);
+  EXPECT_NEAR(episodes[0].end_s, kOnset_s + length_s, 0.15);
+}
+
 /// A fault and how late its alarm may come.
 struct Expected {
   FaultLabel label;
