@@ -62,11 +62,10 @@ std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimat
   return items;
 }
 
-std::string beyond_normal(const std::vector<ConditionItem>& condition, double ranges,
-                          double friction_ranges) {
+std::string beyond_normal(const std::vector<ConditionItem>& condition, double ranges) {
   std::string text;
   for (const ConditionItem& item : condition)
-    if (item.is_beyond(item.is_friction() ? friction_ranges : ranges))
+    if (item.is_beyond(ranges))
       text += fmt::format("{}{} ({}, normal within {} {})", text.empty() ? "" : ", ", item.what,
                           condition_value_text(item.value, item.unit), digits_text(item.normal_range, 2),
                           item.unit);

@@ -20,7 +20,6 @@ struct ConditionItem {
   double normal_range = std::numeric_limits<double>::quiet_NaN();  ///< healthy days are within +- so much
   std::string unit;  ///< "%" of what was identified, "N m", "N" or "kg"
 
-  bool is_friction() const { return name.starts_with("friction_"); }
   /// Whether the log tells it better than the normal range does.
   bool is_told() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
   /// Whether the whole interval lies outside the normal range, or so many times it.
@@ -33,10 +32,9 @@ struct ConditionItem {
 std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimates,
                                         const Chain<double>& chain);
 
-/// What is beyond its normal range, or so many times it (friction: so many of its own), such as "friction of
-/// joint 1 (+52 %, normal within 30 %)"; empty if nothing is.
-std::string beyond_normal(const std::vector<ConditionItem>& condition, double ranges = 1.0,
-                          double friction_ranges = 1.0);
+/// What is beyond its normal range, or so many times it, such as "friction of joint 1 (+52 %, normal within
+/// 30 %)"; empty if nothing is.
+std::string beyond_normal(const std::vector<ConditionItem>& condition, double ranges = 1.0);
 
 /// "+5.13 %", in three significant digits.
 std::string condition_value_text(double value, const std::string& unit);

@@ -14,8 +14,7 @@ namespace {
 constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
 constexpr double kLeastPower =
     0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
-// Normal ranges: what is there is no healthy robot any more. Friction rises by many things that are no fault.
-constexpr double kFarBeyond = 1.5, kFrictionFarBeyond = 3.0;
+constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
 constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
 constexpr double kPercent = 100.0;
@@ -56,7 +55,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
         kPercent * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
-  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond, kFrictionFarBeyond);
+  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
   if (far.empty()) return "";
   return fmt::format(
       "no moment was found at which a fault begins, but the robot is not as it was when healthy logs were "

@@ -175,17 +175,5 @@ TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
-TEST(Verdict, AnOffsetFarBeyondItsRangeIsNotCalledHealthyFrictionLater) {
-  Diagnosis diagnosis = of_log(1000, 1000);
-  ConditionItem item = friction_of(1, 65.0, {60.0, 70.0});
-  item.name = "friction_1";
-  diagnosis.condition = {item};
-  settle_verdict(diagnosis, {}, kPeriod_s);
-  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
-  diagnosis.condition[0].name = "torque_offset_1";
-  settle_verdict(diagnosis, {}, kPeriod_s);
-  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
-}
-
 }  // namespace
 }  // namespace faultline
