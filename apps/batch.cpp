@@ -132,7 +132,7 @@ void add_batch(CLI::App& app, Program& program) {
   add_merge(*command, program);
   command->footer(
       "Run the same command again to go on after an interruption.\n"
-      "Exit status: the worst of all logs. 0: no fault, 1: faults, 3: a log cannot be used.\n"
+      "Exit status: the worst of all logs. 0: healthy, 1: faults or no verdict, 3: a log cannot be used.\n"
       "Example: faultline batch runs/ --model robot.model -o out/runs");
   command->callback([arguments, command, &program] {
     if (command->got_subcommand("merge")) return;

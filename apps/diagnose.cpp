@@ -31,7 +31,7 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   TimelineOptions timeline;
   timeline.color = use_color(color, stdout);
   if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline));
-  return diagnosis.verdict == Verdict::faulty ? kFindings : kNothingFound;
+  return diagnosis.verdict == Verdict::healthy ? kNothingFound : kFindings;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void add_diagnose(CLI::App& app, Program& program) {
   add_report_options(*command, arguments->reports);
   add_diagnose_options(*command, arguments->options);
   command->footer(
-      "Exit status 0: healthy or inconclusive, 1: a fault was found.\n"
+      "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict inconclusive).\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_diagnose(*arguments, program.color); };

@@ -75,7 +75,7 @@ std::string folder_of(const BatchRow& row) {
 int status_of(const BatchRow& row) {
   if (row.verdict == "failed") return 4;
   if (row.verdict == "unusable") return 3;
-  return row.faults.empty() ? 0 : 1;
+  return row.faults.empty() && row.verdict != "inconclusive" ? 0 : 1;
 }
 
 }  // namespace faultline

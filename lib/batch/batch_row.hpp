@@ -40,7 +40,7 @@ BatchRow unusable_row(const std::string& name, const std::string& path, const Er
 double residual_level(const BatchRow& row);
 /// The folder part of the log's name; empty without one.
 std::string folder_of(const BatchRow& row);
-/// 0 nothing found, 1 a fault, 3 unusable, 4 failed: the exit status that the log alone would give.
+/// 0 healthy, 1 a fault or no verdict, 3 unusable, 4 failed: the exit status that the log alone would give.
 int status_of(const BatchRow& row);
 
 /// One line of index.ndjson, with its end.

@@ -71,6 +71,9 @@ struct FaultFinding {
   EvidenceTrace trace;  ///< empty where no hypotheses were followed
 };
 
+/// Code of the severe issue of a log that is not what the model takes it for.
+inline constexpr const char* kMisreadLog = "misread_log";
+
 struct LogFacts {
   std::string path;  ///< as given, without leading folders that name a machine
   std::string sha256;

@@ -46,8 +46,17 @@ std::string why_too_wild(const std::vector<JointResidual>& residuals) {
       worst->joint, worst->velocity_peak_s, worst->velocity_peak);
 }
 
+/// What is so wrong with the log that no calm verdict can rest on it; empty if nothing.
+std::string why_too_damaged(const Issues& issues) {
+  for (const Issue& issue : issues.all())
+    if (issue.severity == Severity::severe)
+      return fmt::format("no fault was found, but the log is not sound: {}", issue.message);
+  return "";
+}
+
 /// Why a log in which no fault was found is not called healthy; empty when it can be.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
+  if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
   if (power < kLeastPower)
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
@@ -65,6 +74,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
 
 /// Why the log cannot be judged with this model; empty when it can.
 std::string why_inconclusive(const LogFacts& log, double model_period_s) {
+  if (const Issue* misread = log.issues.find(kMisreadLog)) return misread->message;
   const double ratio = log.sample_period_s / model_period_s;
   if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
     return fmt::format(

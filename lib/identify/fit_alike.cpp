@@ -10,12 +10,12 @@
 #include "lib/identify/extra_stage.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_table.hpp"
+#include "lib/identify/reading/misreading.hpp"
 #include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/torque_fit.hpp"
 #include "lib/identify/verdict/doubtful_parameters.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/verdict/log_agreement.hpp"
-#include "lib/identify/verdict/misreading.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
 

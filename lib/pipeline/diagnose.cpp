@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/core/version.hpp"
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
@@ -13,6 +14,7 @@
 #include "lib/diagnosis/relation_findings.hpp"
 #include "lib/diagnosis/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
+#include "lib/evidence/reading/question_reading.hpp"
 #include "lib/monitor/monitor.hpp"
 
 namespace faultline {
@@ -50,6 +52,15 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
   return spots;
 }
 
+/// A log that was never what the model takes it for gets an issue that says what it is more likely to be.
+void question(LogSource& log, const Model& model, Issues& issues) {
+  const ReadingDoubt doubt = question_reading(log, model.motion, model.sample_period_s);
+  if (doubt.is_empty()) return;
+  issues.add(make_issue(
+      kMisreadLog, Severity::severe,
+      fmt::format("the log does not fit this model; it looks as if {}; {}", doubt.what, doubt.cure)));
+}
+
 /// A joint that was not judged may be anything.
 void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
@@ -62,9 +73,12 @@ void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagn
 
 Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
                    const DiagnoseOptions& options) {
+  Issues doubts;
+  if (model.has_mechanics()) question(log, model, doubts);
   const MonitoredLog run = monitor(log, model, options);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
+  diagnosis.log.issues.merge(doubts);
   if (run.log.is_tracked)
     diagnosis.log.judgeable_rows =
         std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));

@@ -78,7 +78,7 @@ TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
   const std::string base = read_file(cases);
   std::vector<std::string> arguments = {"diagnose", folder_.write("log.csv", kLog), "--model", model};
   const ProgramRun few = run_program(arguments);
-  EXPECT_EQ(few.status, 0) << few.err;
+  EXPECT_EQ(few.status, 1) << few.err;
   EXPECT_NE(few.out.find("No verdict"), std::string::npos) << "four rows prove nothing: " << few.out;
 
   for (const double share : {0.1, 0.5, 0.99})
@@ -89,7 +89,7 @@ TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
     arguments[1] = folder_.write("other.csv", log);
     return run_program(arguments);
   };
-  EXPECT_EQ(diagnose_log("t,q1,dq1,tau1\n0,0,1,2\n").status, 0) << "one row is inconclusive";
+  EXPECT_EQ(diagnose_log("t,q1,dq1,tau1\n0,0,1,2\n").status, 1) << "one row is inconclusive";
   expect_one_sentence(diagnose_log("t,q1,q2,tau1,tau2\n0,0,1,2,3\n1,0,1,2,3\n"), 3,
                       {"other.csv", "another robot", "2 joints"});
   expect_one_sentence(diagnose_log("t,q1,dq1\n0,0,1\n1,0,1\n"), 3, {"other.csv", "no torque"});

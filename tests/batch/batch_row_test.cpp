@@ -95,6 +95,8 @@ TEST(BatchRow, StatusAndFolder) {
   BatchRow row;
   row.verdict = "healthy";
   EXPECT_EQ(status_of(row), 0);
+  row.verdict = "inconclusive";
+  EXPECT_EQ(status_of(row), 1) << "not healthy";
   row.verdict = "unusable";
   EXPECT_EQ(status_of(row), 3);
   row.verdict = "failed";

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/core/make_issue.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
 
 namespace faultline {
@@ -85,6 +86,27 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
     EXPECT_NE(diagnosis.verdict_reason, "");
     EXPECT_TRUE(diagnosis.faults.empty());
     EXPECT_TRUE(diagnosis.condition.empty());
+  }
+}
+
+TEST(Verdict, ALogThatIsMisreadHasNoFaultAndSaysWhy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.log.issues.add(make_issue(kMisreadLog, Severity::severe, "it looks as if q2 is in degrees"));
+  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_EQ(diagnosis.verdict_reason, "it looks as if q2 is in degrees");
+  EXPECT_TRUE(diagnosis.faults.empty());
+}
+
+TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {
+  for (const bool with_fault : {false, true}) {
+    Diagnosis diagnosis = of_log(1000, 1000);
+    diagnosis.log.issues.add(make_issue("unit_implausible", Severity::severe, "q1 looks like degrees"));
+    std::vector<FaultFinding> faults;
+    if (with_fault) faults.push_back(fault(FaultKind::locked, 1, 1.0));
+    settle_verdict(diagnosis, faults, kPeriod_s);
+    EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::faulty : Verdict::inconclusive);
+    EXPECT_EQ(diagnosis.verdict_reason.find("q1 looks like degrees") != std::string::npos, !with_fault);
   }
 }
 
