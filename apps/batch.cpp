@@ -81,8 +81,7 @@ int run_command(BatchArguments arguments, ColorChoice color) {
     result = run_batch(logs, open, model, cases, arguments.folder, options);
   }
   const int done = result.summary.all.logs - result.diagnosed;
-  if (done > 0)
-    fmt::print(stderr, "faultline: {} of {} logs were done before\n", done, result.summary.all.logs);
+  if (done > 0) tell(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
   return report(result.summary, arguments.folder, arguments.json);
 }
 

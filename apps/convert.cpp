@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "formats/open_log.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -43,16 +46,15 @@ void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
   }
 }
 
-void tell(const LogSource& source, const ConvertArguments& arguments) {
+void tell_losses(const LogSource& source, const ConvertArguments& arguments) {
   for (const Issue& issue : source.issues().all())
-    std::fprintf(stderr, "faultline: %s: %s %s%s: %s\n", arguments.log.c_str(), to_string(issue.severity),
-                 issue.code.c_str(),
-                 issue.count > 1 ? (" (" + std::to_string(issue.count) + " times)").c_str() : "",
-                 issue.message.c_str());
+    tell(fmt::format("{}: {} {}{}: {}", arguments.log, to_string(issue.severity), issue.code,
+                     issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "", issue.message));
   if (arguments.out == "-") return;
   const auto& log = source.identity();
-  print(arguments.out + ": " + std::to_string(log.rows_read - source.issues().rows_dropped()) + " of " +
-        std::to_string(log.rows_read) + " rows of " + arguments.log + "\n");
+  print(printable(fmt::format("{}: {} of {} rows of {}", arguments.out,
+                              log.rows_read - source.issues().rows_dropped(), log.rows_read, arguments.log)) +
+        "\n");
 }
 
 int convert(const ConvertArguments& arguments, ColorChoice color) {
@@ -66,7 +68,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
     copy_rows(*source, *writer, bar.callback());
   }
   writer->commit();
-  tell(*source, arguments);
+  tell_losses(*source, arguments);
   return kNothingFound;
 }
 

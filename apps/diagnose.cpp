@@ -30,7 +30,7 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
   TimelineOptions timeline;
   timeline.color = use_color(color, stdout);
-  if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline));
+  if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
   return diagnosis.verdict == Verdict::healthy ? kNothingFound : kFindings;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/exit_status.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 
+#include "apps/terminal.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
@@ -25,7 +25,7 @@ int status_of(ErrorCode code) {
 }
 
 int fail(int status, const std::string& sentence) {
-  std::fprintf(stderr, "faultline: %s\n", sentence.c_str());
+  tell(sentence);
   return status;
 }
 

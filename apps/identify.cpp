@@ -18,6 +18,7 @@
 #include "apps/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/html/identification/identification_page.hpp"
 #include "lib/identify/excitation/suggest_motion.hpp"
 #include "lib/identify/identification_json.hpp"
@@ -81,7 +82,7 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
   ProgressBar bar(color);
   const Identification id = identify(logs, robot, arguments.options, bar.callback());
   if (!arguments.output.empty()) write_file(arguments.output, robot_text_for(arguments.output, id.robot));
-  if (!arguments.json.empty()) write_file(arguments.json, to_json(id).dump(2) + "\n");
+  if (!arguments.json.empty()) write_file(arguments.json, json_text(to_json(id)));
   if (!arguments.html.empty()) write_file(arguments.html, render_identification_html(id));
   if (!arguments.pictures.empty()) write_pictures(id, arguments.pictures);
   const std::string suggested = arguments.suggest.empty() ? "" : suggest(id, arguments);

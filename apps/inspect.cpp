@@ -10,6 +10,7 @@
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -44,11 +45,11 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
     nlohmann::ordered_json json{{"schema", "faultline/inspection/1"},
                                 {"logs", nlohmann::ordered_json::array()}};
     for (const Inspection& inspection : inspections) json["logs"].push_back(inspection_json(inspection));
-    write_file(arguments.json, json.dump(2) + "\n");
+    write_file(arguments.json, json_text(json));
   }
+  const bool in_color = use_color(color, stdout);
   if (arguments.json != "-")
-    for (const Inspection& inspection : inspections)
-      print(inspection_text(inspection, use_color(color, stdout)));
+    for (const Inspection& inspection : inspections) print(inspection_text(inspection, in_color), in_color);
   return status;
 }
 

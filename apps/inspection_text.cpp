@@ -17,7 +17,7 @@ constexpr std::size_t kShownExtra = 12;
 
 std::string head_line(const Inspection& inspection, bool color) {
   const TimeAxis& time = inspection.quality.time;
-  std::string line = painted(inspection.log.path, Paint::bold, color) +
+  std::string line = painted(brief(inspection.log.path), Paint::bold, color) +
                      fmt::format("  {}, {} rows", inspection.log.format, inspection.log.rows_read);
   if (inspection.rows_used != inspection.log.rows_read)
     line += fmt::format(" ({} used)", inspection.rows_used);
@@ -33,9 +33,10 @@ std::string channel_line(const InspectedChannel& channel) {
   const ChannelSummary& summary = channel.summary;
   const std::string range = summary.values == 0 ? fmt::format("{:>12} {:>12}", "-", "-")
                                                 : fmt::format("{:12.6g} {:12.6g}", summary.min, summary.max);
-  std::string line = fmt::format("  {:<10} {} {:<14}", summary.name, range, channel.unit);
+  std::string line = fmt::format("  {:<10} {} {:<14}", shortened(summary.name, kLongestName), range,
+                                 shortened(channel.unit, kLongestName));
   if (!channel.column.empty() && channel.column != summary.name)
-    line += fmt::format(" from \"{}\"", channel.column);
+    line += fmt::format(" from \"{}\"", shortened(channel.column, kLongestName));
   if (summary.missing > 0) line += fmt::format(" {} missing", summary.missing);
   if (summary.constant()) line += " constant";
   line.erase(line.find_last_not_of(' ') + 1);
@@ -70,7 +71,7 @@ std::string issue_line(const Issue& issue, bool color) {
   std::string line =
       "  " + painted(fmt::format("{:<8}", to_string(issue.severity)), paint_of(issue.severity), color);
   line += issue.code;
-  if (!issue.channel.empty()) line += " " + issue.channel;
+  if (!issue.channel.empty()) line += " " + shortened(issue.channel, kLongestName);
   if (issue.count > 1) line += fmt::format(", {} times", issue.count);
   if (issue.first_row > 0) line += fmt::format(", first in row {}", issue.first_row);
   if (std::isfinite(issue.first_time_s)) line += fmt::format(" at {:.10g} s", issue.first_time_s);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/fault/label_text.hpp"
@@ -145,7 +146,7 @@ std::string mechanics_text(const Learned& learned) {
 
 std::string learned_text(const Learned& learned, const std::string& model_path,
                          const std::string& case_base_path) {
-  return fmt::format("Learned \"{}\" from {} at {:.4g} Hz.\n", learned.model.name,
+  return fmt::format("Learned \"{}\" from {} at {:.4g} Hz.\n", shortened(learned.model.name, kLongestName),
                      counted(std::ssize(learned.model.sources), "log"), 1.0 / learned.model.sample_period_s) +
          mechanics_text(learned) + relations_text(learned.model) +
          fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
@@ -164,7 +165,7 @@ std::string learned_json(const Learned& learned) {
   for (const char* key : {"sample_period_s", "sources", "validation", "evidence", "relations"})
     if (model.contains(key)) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace faultline

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -43,7 +44,7 @@ void ProgressBar::show(const std::string& what, double share) {
   if (now < next_) return;
   next_ = now + kRefresh;
   shown_ = true;
-  std::fprintf(stderr, "\r\x1b[K%s %s", bar(share, color_).c_str(), what.c_str());
+  std::fprintf(stderr, "\r\x1b[K%s %s", bar(share, color_).c_str(), shortened(what, kLongestName).c_str());
 }
 
 }  // namespace faultline

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -29,12 +30,15 @@ bool use_color(ColorChoice choice, std::FILE* stream) {
   return is_terminal(stream) && !environment_forbids_color();
 }
 
-void print(std::string_view text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+void print(std::string_view text, bool color) {
+  const std::string safe = outgoing(text, color);
+  const bool written = std::fwrite(safe.data(), 1, safe.size(), stdout) == safe.size();
   if (written && std::fflush(stdout) == 0) return;
   throw Error(ErrorCode::output, "standard output",
               std::string("cannot be written (") + std::strerror(errno) + "); the result is incomplete");
 }
+
+void tell(std::string_view sentence) { std::fprintf(stderr, "faultline: %s\n", brief(sentence).c_str()); }
 
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);

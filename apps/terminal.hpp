@@ -14,8 +14,12 @@ enum class ColorChoice { automatic, always, never };
 bool use_color(ColorChoice choice, std::FILE* stream);
 bool is_terminal(std::FILE* stream);
 
-/// Writes a result to standard output at once. Throws Error(output) when it cannot be written.
-void print(std::string_view text);
+/// Writes a result to standard output at once, as outgoing() lets it pass: with the codes of painted() only
+/// when `color`. Throws Error(output) when it cannot be written.
+void print(std::string_view text, bool color = false);
+
+/// Writes "faultline: " and the sentence, brief(), to standard error.
+void tell(std::string_view sentence);
 
 /// Before anything else: a reader that goes away and a file size limit become write errors instead of
 /// signals, and closed standard streams cannot be mistaken for files opened later.

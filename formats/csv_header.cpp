@@ -2,6 +2,7 @@
 #include "formats/csv_header.hpp"
 
 #include "formats/csv_fields.hpp"
+#include "lib/core/csv_cell.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
@@ -103,11 +104,17 @@ void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vect
   if (starts_with_stamp(rows[0])) names[0] = "sec", names[1] = "nanosec";
 }
 
+/// Without the apostrophe that keeps a spreadsheet from running a name, see inert_text().
+std::string without_apostrophe(const std::string& name) {
+  const bool inert = name[0] == '\'' && begins_like_formula(std::string_view(name).substr(1));
+  return inert ? name.substr(1) : name;
+}
+
 void make_columns(const Header& header, int fields, const CsvLine* row, CsvDialect& dialect) {
   const auto& [names, units] = header;
   dialect.fields = fields;
   for (int i = 0; i < fields; ++i) {
-    const std::string name = i < static_cast<int>(names.size()) ? names[i] : "";
+    const std::string name = i < static_cast<int>(names.size()) ? without_apostrophe(names[i]) : "";
     const bool missing = !row || read_cell(row->fields[i], dialect.decimal).kind == CellKind::missing;
     if (name.empty() && i == fields - 1 && missing && fields > 1)
       continue;  // a separator at the end of each row

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "lib/core/text.hpp"
+
 namespace faultline {
 namespace {
 
@@ -41,7 +43,7 @@ void CsvIssues::add_text(const CsvPlace& place, int column, int field, std::stri
   }
   issues_.add({"not_a_number", name, Severity::warning,
                fmt::format("{}, column {} \"{}\": \"{}\" is no number; taken as missing", words(place),
-                           field + 1, name, std::string(cell.substr(0, 40))),
+                           field + 1, shortened(name, kLongestName), shortened(cell, kLongestName)),
                place.row + 1});
 }
 

@@ -12,6 +12,7 @@
 #include "formats/csv_row.hpp"
 #include "formats/line_buffer.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -61,7 +62,7 @@ void CsvReader::refuse_duplicates() const {
     if (!fresh)
       throw Error(ErrorCode::input, bytes_->path(),
                   fmt::format("has two columns named \"{}\", the {}. and the {}.; give each its own name",
-                              before->first, before->second, field));
+                              shortened(before->first, kLongestName), before->second, field));
   }
 }
 

@@ -9,15 +9,17 @@
 
 #include "formats/channel_list.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/csv_cell.hpp"
 
 namespace faultline {
 namespace {
 
-std::string quoted_when_needed(const std::string& name) {
-  if (name.find_first_of(",;\"\t\n\r|# ") == std::string::npos) return name;
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? '\'' : (c == '\n' || c == '\r' ? ' ' : c);
-  return text + "\"";
+std::string quoted_when_needed(const std::string& text) {
+  const std::string name = inert_text(text);
+  if (name.find_first_of(",;\"|# ") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? '\'' : c;
+  return quoted + "\"";
 }
 
 class CsvWriter : public LogWriter {

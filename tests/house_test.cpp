@@ -118,4 +118,19 @@ TEST(House, NumbersThatDecideHaveNames) {
   EXPECT_GT(checked, 50);
 }
 
+/// Text leaves the program at one place, which keeps names and cells of others from commanding a terminal.
+TEST(House, OnlyTheGateWritesToStreams) {
+  static const std::regex writing(
+      R"(\b(fprintf|printf|fputs|puts|fwrite|fputc|putchar)\(|fmt::print\(|std::c(out|err))");
+  const std::vector<std::string> gates{"apps/terminal.cpp", "apps/progress.cpp", "lib/core/atomic_file.cpp"};
+  for (const fs::path& path : sources({"lib", "formats", "apps"})) {
+    const std::string name = fs::relative(path, kRoot).string();
+    if (std::find(gates.begin(), gates.end(), name) != gates.end()) continue;
+    const std::vector<std::string> lines = lines_of(path);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      EXPECT_FALSE(std::regex_search(code_of(lines[i]), writing))
+          << place(path, i) << ": use tell() or print()";
+  }
+}
+
 }  // namespace

@@ -53,8 +53,7 @@ Case new_case(const CasesArguments& arguments, const CaseBase& base) {
     c.decision = *label;
     c.episode.features.assign(base.metric().features.size(), std::numeric_limits<double>::quiet_NaN());
     c.origin = "recorded by hand";
-    std::fputs("faultline: the case has no measured features, so no diagnosis will find it similar\n",
-               stderr);
+    tell("the case has no measured features, so no diagnosis will find it similar");
   } else
     throw Error(ErrorCode::usage, "faultline cases add", "needs a diagnosis (JSON report) or --fault KIND");
   c.what_was_done = arguments.done;

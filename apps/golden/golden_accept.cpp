@@ -65,7 +65,8 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
   const GoldenRun run = golden_run(arguments, set, subject, color);
   const GoldenCheck check = check_golden(set, run);
   const GoldenCheck part = only(check, named_items(arguments, check));
-  print(render_check_text(part, use_color(color, stdout)));
+  const bool in_color = use_color(color, stdout);
+  print(render_check_text(part, in_color), in_color);
   if (!arguments.all && arguments.names.empty()) {
     print(part.same() ? "There is nothing to accept.\n"
                       : "Nothing was changed. Name the logs to accept, or give --all.\n");

@@ -26,8 +26,8 @@ int run_check(const GoldenArguments& arguments, ColorChoice color) {
   if (!arguments.json.empty()) write_file(arguments.json, render_check_json(check, run));
   if (!arguments.junit.empty())
     write_file(arguments.junit, render_check_junit(check, suite_name(arguments.folder)));
-  if (arguments.json != "-" && arguments.junit != "-")
-    print(render_check_text(check, use_color(color, stdout)));
+  const bool in_color = use_color(color, stdout);
+  if (arguments.json != "-" && arguments.junit != "-") print(render_check_text(check, in_color), in_color);
   return golden_status(check);
 }
 

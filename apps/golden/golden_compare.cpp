@@ -34,7 +34,8 @@ int run_compare(const CompareArguments& arguments, ColorChoice color) {
                                : golden_run(arguments, set, load_golden_model(arguments.folder, set), color);
   const GoldenCheck check = compare_runs(set, first, second);
   if (!arguments.json.empty()) write_file(arguments.json, render_check_json(check, second));
-  if (arguments.json != "-") print(render_check_text(check, use_color(color, stdout)));
+  const bool in_color = use_color(color, stdout);
+  if (arguments.json != "-") print(render_check_text(check, in_color), in_color);
   return golden_status(check);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/distributions.hpp"
+#include "lib/core/text.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -56,7 +57,7 @@ BatchRow unusable_row(const std::string& name, const std::string& path, const Er
   row.log = valid_utf8(name);
   row.verdict = error.code() == ErrorCode::internal ? "failed" : "unusable";
   const std::string place = place_inside(error.where(), path);
-  row.reason = valid_utf8(place.empty() ? error.message() : place + ": " + error.message());
+  row.reason = brief(place.empty() ? error.message() : place + ": " + error.message());
   return row;
 }
 

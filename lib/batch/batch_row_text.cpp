@@ -7,6 +7,7 @@
 #include "lib/batch/batch_row.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -65,7 +66,7 @@ std::string to_json_line(const BatchRow& row) {
       {"residual_peak", numbers_or_null(row.residual_peak)},
       {"condition", parameters_json(row.condition)},
       {"parameters", parameters_json(row.parameters)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return inert_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 BatchRow row_from_json(const std::string& line) {

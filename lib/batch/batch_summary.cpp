@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/json_values.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
 
@@ -103,7 +104,7 @@ std::string to_json(const BatchSummary& summary) {
                      {"all", counts_json(summary.all)},
                      {"faults", kinds_json(summary)},
                      {"folders", folders}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string to_text(const BatchSummary& summary) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "lib/core/error.hpp"
 
+#include <utility>
+
+#include "lib/core/text.hpp"
+
 namespace faultline {
 
 Error::Error(ErrorCode code, std::string where, std::string message)
-    : std::runtime_error(where.empty() ? message : where + ": " + message),
+    : std::runtime_error(brief(where.empty() ? message : where + ": " + message)),
       code_(code),
       where_(std::move(where)),
-      message_(std::move(message)) {}
+      message_(brief(message)) {}
 
 }  // namespace faultline

@@ -2,6 +2,9 @@
 #include "lib/core/issue.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "lib/core/text.hpp"
 
 namespace faultline {
 
@@ -20,13 +23,14 @@ const char* to_string(Severity severity) {
 void Issues::add(Issue issue) {
   issue.count = std::max<std::int64_t>(issue.count, 1);
   for (Issue& known : issues_) {
-    if (known.code == issue.code && known.channel == issue.channel) {
+    if (known.channel == issue.channel && known.code == issue.code) {
       known.count += issue.count;
       known.rows_dropped += issue.rows_dropped;
       known.severity = std::max(known.severity, issue.severity);
       return;
     }
   }
+  issue.message = brief(issue.message);
   issues_.push_back(std::move(issue));
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "lib/core/csv_cell.hpp"
-#include "lib/core/utf8.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -12,7 +11,7 @@ namespace {
 
 std::string row(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csv_cell(valid_utf8(cells[i]));
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csv_cell(cells[i]);
   return line + "\n";
 }
 

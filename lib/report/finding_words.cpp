@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 
@@ -39,7 +40,7 @@ std::string evidence_line(const EvidenceItem& e) {
 }
 
 std::string issue_line(const Issue& issue) {
-  std::string where = issue.channel.empty() ? "" : " in " + issue.channel;
+  std::string where = issue.channel.empty() ? "" : " in " + shortened(issue.channel, kLongestName);
   if (issue.first_row > 0) where += fmt::format(", first in row {}", issue.first_row);
   const std::string dropped =
       issue.rows_dropped > 0 ? fmt::format(", {} rows left out", issue.rows_dropped) : "";

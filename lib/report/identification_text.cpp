@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/robot/axis_units.hpp"
 
 namespace faultline {
@@ -129,8 +130,8 @@ std::vector<std::string> excitation_lines(const Identification& id) {
 }
 
 std::string identification_text(const Identification& id) {
-  std::string text =
-      fmt::format("{}: {} by {}; {}\n", id.robot.name, to_string(id.status), to_string(id.method), id.reason);
+  std::string text = fmt::format("{}: {} by {}; {}\n", shortened(id.robot.name, kLongestName),
+                                 to_string(id.status), to_string(id.method), id.reason);
   text += "base parameters and friction [95 % interval]\n";
   for (const auto& e : id.base_parameters) text += row(e);
   text += "masses and lengths\n";
@@ -141,7 +142,8 @@ std::string identification_text(const Identification& id) {
     for (const std::string& line : lines) text += "  " + line + "\n";
   }
   for (const auto& log : id.logs)
-    text += fmt::format("log {}: {} rows, sample period {:.6g} s\n", log.path, log.rows, log.sample_period_s);
+    text += fmt::format("log {}: {} rows, sample period {:.6g} s\n", brief(log.path), log.rows,
+                        log.sample_period_s);
   for (const auto& issue : id.issues.all())
     text += fmt::format("{}: {} ({} times)\n", to_string(issue.severity), issue.message, issue.count);
   return text;

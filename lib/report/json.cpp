@@ -5,6 +5,7 @@
 
 #include "lib/core/issue_json.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 
 namespace faultline {
 namespace {
@@ -119,7 +120,7 @@ std::string render_json(const Diagnosis& diagnosis) {
                      {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
                      {"cannot_see", list_of<Json>(diagnosis.cannot_see,
                                                   [](const std::string& text) { return Json(text); })}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace faultline

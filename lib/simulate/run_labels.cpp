@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "lib/core/csv_cell.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
@@ -13,11 +14,11 @@ std::string labels_header() {
 }
 
 std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
-  const std::string start = spec.name + "." + file.format;
+  const std::string start = csv_cell(spec.name + "." + file.format);
   const std::string end = fmt::format("{},{},{},{},{}\n", spec.seed, spec.simulation.sample_period_s,
                                       spec.simulation.control_period_s,
                                       run.log.rows() ? run.log.time.back() : 0.0, to_string(run.end));
-  const std::string& robot = file.robot.name;
+  const std::string robot = csv_cell(file.robot.name);
   if (run.truth.empty()) return fmt::format("{},none,0,,,{},,,,{}", start, robot, end);
   std::string lines;
   for (const FaultEvent& fault : run.truth) {

@@ -55,6 +55,15 @@ TEST(BatchRow, ComesBackFromItsJsonLineAsItWas) {
   EXPECT_EQ(read.parameters[0].value, 2.5);
 }
 
+TEST(BatchRow, ItsTableLineIsNoFormulaAndCommandsNoTerminal) {
+  BatchRow row = faulty_row();
+  row.log = "=cmd|'/c calc'!A0\x1b[2J.csv";
+  row.reason = "@SUM(1)\x1b]0;x\x07";
+  const std::string line = to_csv_line(row);
+  EXPECT_TRUE(line.starts_with("'=cmd|'/c calc'!A0?[2J.csv,")) << line;
+  EXPECT_NE(line.find(",'@SUM(1)?]0;x?,"), std::string::npos) << line;
+}
+
 TEST(BatchRow, WithoutADiagnosisComesBackToo) {
   const BatchRow row =
       unusable_row("runs/a.csv", "/data/runs/a.csv", Error(ErrorCode::input, "/data/runs/a.csv", "is empty"));

@@ -14,6 +14,21 @@ TEST(CsvCell, IsQuotedOnlyWhereItMustBe) {
   EXPECT_EQ(csv_cell("say \"no\"\n"), "\"say \"\"no\"\"\n\"");
 }
 
+TEST(CsvCell, NoSpreadsheetRunsItAndNoTerminalObeysIt) {
+  EXPECT_EQ(csv_cell("=cmd|'/c calc'!A0"), "'=cmd|'/c calc'!A0");
+  EXPECT_EQ(csv_cell("@SUM(A1)"), "'@SUM(A1)");
+  EXPECT_EQ(csv_cell("-2+3+cmd|' '!A0"), "'-2+3+cmd|' '!A0");
+  EXPECT_EQ(csv_cell("+run,1"), "\"'+run,1\"");
+  EXPECT_EQ(csv_cell("a;=1+1"), "\"a;=1+1\"");
+  EXPECT_EQ(csv_cell("a;b"), "a;b");
+  EXPECT_EQ(csv_cell("\x1b[2Jrun.csv"), "?[2Jrun.csv");
+}
+
+TEST(CsvCell, NegativeNumbersStayNumbers) {
+  EXPECT_EQ(csv_cell(std::string("-0.25")), "-0.25");
+  EXPECT_EQ(csv_cell(std::string("+1e-3")), "+1e-3");
+}
+
 TEST(CsvCell, NumbersKeepEveryBitAndNoNumberIsEmpty) {
   EXPECT_EQ(csv_cell(0.1), "0.1");
   EXPECT_EQ(csv_cell(1.0 / 3.0), "0.3333333333333333");
