@@ -34,8 +34,18 @@ ByteSource::ByteSource(std::string path) : path_(std::move(path)) {
     ::close(file_);
     fail(path_, "is a directory, a log file was expected");
   }
-  head_.resize(kHeadBytes);
-  std::size_t got = 0;
+  read_head(kHeadBytes);
+}
+
+bool ByteSource::extend_head() {
+  const std::size_t before = head_.size();
+  read_head(2 * before);
+  return head_.size() > before;
+}
+
+void ByteSource::read_head(std::size_t bytes) {
+  std::size_t got = head_.size();
+  head_.resize(bytes);
   for (std::size_t more;
        got < head_.size() && (more = read_some(head_.data() + got, head_.size() - got)) > 0;)
     got += more;

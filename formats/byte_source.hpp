@@ -18,8 +18,11 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
 
   const std::string& path() const { return path_; }
-  /// The first bytes of the file, up to 64 KiB, whatever was read before.
+  /// The first bytes of the file, up to 64 KiB unless extended, whatever was read before.
   std::string_view head() const { return head_; }
+  /// Doubles the head, as far as the file goes; false at its end. Only before the first read(); views of the
+  /// head end here.
+  bool extend_head();
   /// Copies up to `size` of the next bytes to `to`; 0 at the end of the file.
   std::size_t read(char* to, std::size_t size);
   void rewind();
@@ -28,6 +31,7 @@ class ByteSource {
   double share_read() const;
 
  private:
+  void read_head(std::size_t bytes);
   std::size_t read_some(char* to, std::size_t size);
 
   std::string path_;

@@ -58,6 +58,8 @@ CsvDialect find_dialect(std::string_view head) {
       has_rows ? static_cast<std::size_t>(row - lines.begin()) : behind_first_line(lines, fields);
   const std::span<const CsvLine> all(lines);
   find_columns(all.first(data), has_rows ? all.subspan(data) : all.last(0), fields, dialect);
+  for (const CsvLine& line : all.subspan(data))
+    if (is_data(line, fields)) dialect.last_cells.add(line.fields.back(), dialect.decimal);
   dialect.data_begin = data < lines.size() ? lines[data].begin : (lines.empty() ? 0 : lines.back().end);
   dialect.lines_before = static_cast<std::int64_t>(data);
   return dialect;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/last_cells.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -21,6 +22,7 @@ struct CsvDialect {
   bool names_in_rows = false;     ///< each value has its name in the column before it
   std::vector<int> value_fields;  ///< field of each column
   int fields = 0;                 ///< of a whole row
+  LastCells last_cells{};         ///< how the last cells of the first rows are written
 };
 
 /// Finds the dialect from the first bytes of a file: the separator and decimal sign that make most cells

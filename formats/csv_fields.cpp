@@ -67,8 +67,9 @@ void split_fields(std::string_view line, char separator, std::vector<std::string
   std::size_t begin = 0;
   for (std::size_t i = 0; i <= line.size(); ++i) {
     if (i < line.size() && line[i] == '"') quoted = !quoted;
-    const bool cut =
-        i == line.size() || (!quoted && (line[i] == separator || (separator == ' ' && line[i] == '\t')));
+    const bool full = fields.size() == static_cast<std::size_t>(kMostFields);
+    const bool cut = i == line.size() ||
+                     (!quoted && !full && (line[i] == separator || (separator == ' ' && line[i] == '\t')));
     if (!cut) continue;
     fields.push_back(without_quotes(line.substr(begin, i - begin)));
     if (separator == ' ')

@@ -17,8 +17,12 @@ struct Cell {
 /// "true" and "false" are 1 and 0.
 Cell read_cell(std::string_view text, char decimal);
 
+/// More columns than a log has; a text with more is refused, so that no small file takes much memory.
+inline constexpr int kMostFields = 1 << 14;
+
 /// Cuts a line at its separators into `fields`, without quotes and blanks around each. A separator between
-/// double quotes does not cut. The separator ' ' means any run of blanks.
+/// double quotes does not cut. The separator ' ' means any run of blanks. What is behind kMostFields fields
+/// is one more, uncut.
 void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 std::string_view without_blanks(std::string_view text);

@@ -21,6 +21,8 @@ std::string words(const CsvPlace& place) {
 void CsvIssues::start() {
   issues_ = {};
   text_cells_.assign(dialect_.columns.size(), 0);
+  has_text_.assign(dialect_.columns.size(), false);
+  more_rows_.clear();
   if (dialect_.preamble_lines > 0)
     issues_.add({"preamble_skipped", "", Severity::note, "lines before the table were left out", 0, kNan,
                  dialect_.preamble_lines});
@@ -37,27 +39,45 @@ void CsvIssues::start() {
 
 void CsvIssues::add_text(const CsvPlace& place, int column, int field, std::string_view cell) {
   const std::string& name = dialect_.columns[column].name;
-  if (issues_.find("not_a_number", name)) {
+  if (has_text_[column]) {
     ++text_cells_[column];
     return;
   }
+  has_text_[column] = true;
   issues_.add({"not_a_number", name, Severity::warning,
                fmt::format("{}, column {} \"{}\": \"{}\" is no number; taken as missing", words(place),
                            field + 1, shortened(name, kLongestName), shortened(cell, kLongestName)),
                place.row + 1});
 }
 
-void CsvIssues::add_row(const CsvPlace& place, const char* code, const std::string& what, bool dropped) {
-  issues_.add(
-      {code, "", Severity::warning, words(place) + " " + what, place.row + 1, kNan, 1, dropped ? 1 : 0});
+bool CsvIssues::count_row(std::string_view code, bool dropped) {
+  for (MoreRows& more : more_rows_) {
+    if (more.code != code) continue;
+    ++more.count;
+    more.dropped += dropped;
+    return true;
+  }
+  return false;
 }
 
-void CsvIssues::flush_text_counts() {
+void CsvIssues::add_first_row(const CsvPlace& place, const char* code, const std::string& what, bool dropped,
+                              Severity severity) {
+  issues_.add({code, "", severity, words(place) + " " + what, place.row + 1, kNan, 1, dropped ? 1 : 0});
+  more_rows_.push_back({code});
+}
+
+const Issues& CsvIssues::all() const {
   for (std::size_t i = 0; i < text_cells_.size(); ++i) {
     if (text_cells_[i] == 0) continue;
-    issues_.add({"not_a_number", dialect_.columns[i].name, Severity::warning, "", 0, kNan, text_cells_[i]});
+    issues_.add({"not_a_number", dialect_.columns[i].name, Severity::note, "", 0, kNan, text_cells_[i]});
     text_cells_[i] = 0;
   }
+  for (MoreRows& more : more_rows_) {
+    if (more.count == 0) continue;
+    issues_.add({more.code, "", Severity::note, "", 0, kNan, more.count, more.dropped});
+    more.count = more.dropped = 0;
+  }
+  return issues_;
 }
 
 }  // namespace faultline

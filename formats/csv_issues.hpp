@@ -27,15 +27,33 @@ class CsvIssues {
   /// A cell of the dialect's column `column` (its field is `field`, from 0) that is neither number nor
   /// missing.
   void add_text(const CsvPlace& place, int column, int field, std::string_view cell);
-  void add_row(const CsvPlace& place, const char* code, const std::string& what, bool dropped);
-  /// Cells of text are counted apart while rows are read; puts their counts into all().
-  void flush_text_counts();
-  const Issues& all() const { return issues_; }
+  /// A row of which `what()` tells what is wrong; asked only for the first one of a code.
+  template <typename What>
+  void add_row(const CsvPlace& place, const char* code, What what, bool dropped,
+               Severity severity = Severity::warning) {
+    if (count_row(code, dropped)) return;
+    add_first_row(place, code, what(), dropped, severity);
+  }
+  const Issues& all() const;
 
  private:
+  /// More rows of a code that issues_ knows, not yet counted there.
+  struct MoreRows {
+    std::string code;
+    std::int64_t count = 0, dropped = 0;
+  };
+
+  /// Counts one more row when the code is known.
+  bool count_row(std::string_view code, bool dropped);
+  void add_first_row(const CsvPlace& place, const char* code, const std::string& what, bool dropped,
+                     Severity severity);
+
   const CsvDialect& dialect_;
-  Issues issues_;
-  std::vector<std::int64_t> text_cells_;  ///< of each column, not yet in issues_ but known to it
+  std::vector<bool> has_text_;  ///< of each column, whether issues_ knows of cells of text
+  // Counted apart while rows are read, so that many columns or rows in trouble take no long search each.
+  mutable Issues issues_;
+  mutable std::vector<std::int64_t> text_cells_;  ///< of each column, not yet in issues_
+  mutable std::vector<MoreRows> more_rows_;
 };
 
 }  // namespace faultline

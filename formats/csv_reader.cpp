@@ -8,6 +8,7 @@
 #include <map>
 
 #include "formats/csv_dialect.hpp"
+#include "formats/csv_fields.hpp"
 #include "formats/csv_issues.hpp"
 #include "formats/csv_row.hpp"
 #include "formats/line_buffer.hpp"
@@ -16,6 +17,32 @@
 
 namespace faultline {
 namespace {
+
+/// Values of a block at most, whatever its columns: 8 MiB.
+constexpr int kBlockValues = 1 << 20;
+/// Fields that may be missing at the ends of rows before it is asked whether most are.
+constexpr std::int64_t kMostAbsent = 1 << 26;
+constexpr double kMostAbsentShare = 0.9;
+
+std::size_t longest_line(std::string_view text) {
+  std::size_t longest = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    longest = std::max(longest, end - begin);
+    begin = end + 1;
+  }
+  return longest;
+}
+
+/// A head of the file with room for some of its longest lines, so that a long header is whole and has rows
+/// below.
+std::string_view whole_lines_head(ByteSource& bytes) {
+  constexpr std::size_t kLines = 4;
+  while (bytes.head().size() < kLines * longest_line(bytes.head()) && bytes.head().size() < kLongestLine &&
+         bytes.extend_head()) {
+  }
+  return bytes.head();
+}
 
 class CsvReader : public RawReader {
  public:
@@ -30,7 +57,10 @@ class CsvReader : public RawReader {
   double share_read() const override { return bytes_->share_read(); }
 
  private:
+  void refuse_many_columns() const;
   void refuse_duplicates() const;
+  void refuse_mostly_absent() const;
+  const char* read_line(const char* p, const char* end, int row, CsvRow& verdict);
   void start();
 
   std::unique_ptr<ByteSource> bytes_;
@@ -44,14 +74,36 @@ class CsvReader : public RawReader {
 
 CsvReader::CsvReader(std::unique_ptr<ByteSource> bytes)
     : bytes_(std::move(bytes)),
-      dialect_(find_dialect(bytes_->head())),
+      dialect_(find_dialect(whole_lines_head(*bytes_))),
       lines_(*bytes_),
       issues_(dialect_),
       rows_(dialect_, issues_) {
   identity_.path = bytes_->path();
   identity_.format = "csv";
+  refuse_many_columns();
   refuse_duplicates();
   start();
+}
+
+void CsvReader::refuse_many_columns() const {
+  if (dialect_.fields > kMostFields)
+    throw Error(
+        ErrorCode::input, bytes_->path(),
+        fmt::format("has more than {} columns, which no log has; write one line a sample, and only the "
+                    "columns of the joints",
+                    kMostFields));
+}
+
+/// Rows that hold a small part of their fields each would make much of a small file.
+void CsvReader::refuse_mostly_absent() const {
+  const double all = static_cast<double>(at_.row) * dialect_.fields;
+  if (rows_.absent_fields() < kMostAbsent ||
+      static_cast<double>(rows_.absent_fields()) < kMostAbsentShare * all)
+    return;
+  throw Error(
+      ErrorCode::input, bytes_->path(),
+      fmt::format("has rows that lack most of the {} columns of its header; write all fields of each row",
+                  dialect_.fields));
 }
 
 void CsvReader::refuse_duplicates() const {
@@ -82,11 +134,24 @@ void CsvReader::rewind() {
   bytes_->rewind();
   lines_.clear();
   issues_.start();
+  rows_.forget_absent_fields();
   identity_.rows_read = 0;
   start();
 }
 
+/// Reads the line at `p` and returns what is behind it.
+const char* CsvReader::read_line(const char* p, const char* end, int row, CsvRow& verdict) {
+  verdict = CsvRow::keep;
+  const bool open = lines_.last_line_was_open();  // then it is the only one there
+  if (const char* after = open ? nullptr : rows_.read_plain(p, end, row)) return after;
+  const char* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+  const std::string_view line(p, static_cast<std::size_t>(newline - p));
+  verdict = open ? rows_.read_open(line, lines_.lines_before(), at_, row) : rows_.read_any(line, at_, row);
+  return newline + 1;
+}
+
 bool CsvReader::next(RawBlock& block, int max_rows) {
+  max_rows = std::min(max_rows, std::max(1, kBlockValues / std::max(1, dialect_.fields)));
   rows_.begin_block(block, max_rows);
   block.first_row = at_.row;
   int row = 0;
@@ -95,16 +160,8 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
     const char* const end = lines_.end_of_lines();
     bool stop = false;
     while (row < max_rows && p < end && !stop) {
-      const char* after = rows_.read_plain(p, end, row);
       CsvRow verdict = CsvRow::keep;
-      if (!after) {
-        const char* newline =
-            static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
-        after = newline + 1;
-        verdict = rows_.read_any({p, static_cast<std::size_t>(newline - p)},
-                                 lines_.last_line_was_open() && after == end, at_, row);
-      }
-      p = after;
+      p = read_line(p, end, row, verdict);
       ++at_.line;
       at_.row += verdict != CsvRow::skip;
       row += verdict == CsvRow::keep;
@@ -116,7 +173,7 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
     lines_.advance_to(p);
     if (stop) break;
   }
-  issues_.flush_text_counts();
+  refuse_mostly_absent();
   identity_.rows_read = at_.row;
   identity_.sha256 = bytes_->sha256();
   block.rows = row;

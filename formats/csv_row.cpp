@@ -4,15 +4,18 @@
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "formats/csv_fields.hpp"
 #include "formats/csv_header.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characters that are shown
 
 }  // namespace
 
@@ -60,35 +63,92 @@ const char* CsvRowReader::read_plain(const char* p, const char* end, int row) {
   return *p == '\n' ? p + 1 : nullptr;
 }
 
-CsvRow CsvRowReader::read_any(std::string_view line, bool open_end, const CsvPlace& at, int row) {
+CsvRow CsvRowReader::read_any(std::string_view line, const CsvPlace& at, int row) {
+  return read_line(line, at, row, nullptr);
+}
+
+CsvRow CsvRowReader::read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row) {
+  LastCells usual = dialect_.last_cells;
+  for (std::size_t begin = 0; begin < before.size();) {
+    const std::size_t end = std::min(before.find('\n', begin), before.size());
+    const std::string_view other = before.substr(begin, end - begin);
+    begin = end + 1;
+    if (is_comment_or_blank(other)) continue;
+    split_fields(other, dialect_.separator, fields_);
+    if (static_cast<int>(fields_.size()) == dialect_.fields && !repeats_header(dialect_, fields_))
+      usual.add(fields_.back(), dialect_.decimal);
+  }
+  return read_line(line, at, row, &usual);
+}
+
+/// `usual` says how last cells are written where the file ended in the line; null elsewhere.
+CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual) {
   if (is_comment_or_blank(line)) return CsvRow::skip;
   split_fields(line, dialect_.separator, fields_);
   if (repeats_header(dialect_, fields_)) {
-    issues_.add_row(at, "header_repeated",
-                    "repeats the header; the line was left out, as where files were joined", false);
+    issues_.add_row(
+        at, "header_repeated",
+        [] { return "repeats the header; the line was left out, as where files were joined"; }, false);
     return CsvRow::skip;
   }
-  const CsvRow verdict = judge_length(line, open_end, at);
+  CsvRow verdict = usual ? judge_end(line, at, *usual) : CsvRow::keep;
+  if (verdict == CsvRow::keep) verdict = judge_length(line, at);
   if (verdict == CsvRow::keep) read_cells(at, row);
   return verdict;
 }
 
-CsvRow CsvRowReader::judge_length(std::string_view line, bool open_end, const CsvPlace& at) {
-  const int have = static_cast<int>(fields_.size());
-  const std::string start = fmt::format("has {} fields where {} are expected: \"{}\"", have, dialect_.fields,
-                                        std::string(line.substr(0, 60)));
-  if (have < dialect_.fields && open_end) {
-    issues_.add_row(at, "truncated_last_line", start + "; the file was cut here and the row was left out",
-                    true);
+std::string CsvRowReader::field_count(std::string_view line) const {
+  return fmt::format("has {} fields where {} are expected: \"{}\"", fields_.size(), dialect_.fields,
+                     shortened(line.substr(0, kQuotedBytes), kLongestName));
+}
+
+CsvRow CsvRowReader::judge_end(std::string_view line, const CsvPlace& at, const LastCells& usual) {
+  if (static_cast<int>(fields_.size()) < dialect_.fields) {
+    issues_.add_row(
+        at, "truncated_last_line",
+        [&] { return field_count(line) + "; the file was cut here and the row was left out"; }, true);
     return CsvRow::drop;
   }
-  if (have < dialect_.fields)
-    issues_.add_row(at, "ragged_row", start + "; the fields at its end are taken as missing", false);
+  if (static_cast<int>(fields_.size()) > dialect_.fields) return CsvRow::keep;
+  const std::string cell = shortened(fields_.back(), kLongestName);
+  if (!line.ends_with('\r') && usual.is_shorter(fields_.back(), dialect_.decimal)) {
+    issues_.add_row(
+        at, "truncated_last_line",
+        [&] {
+          return fmt::format(
+              "ends the file without a line break, and its last value \"{}\" is shorter than others of its "
+              "column; it may be cut, so the row was left out. If it is whole, end the file with a line break",
+              cell);
+        },
+        true);
+    return CsvRow::drop;
+  }
+  issues_.add_row(
+      at, "last_line_open",
+      [&] {
+        return fmt::format(
+            "ends the file without a line break; its last value \"{}\" has the usual length and was used",
+            cell);
+      },
+      false, Severity::note);
+  return CsvRow::keep;
+}
+
+CsvRow CsvRowReader::judge_length(std::string_view line, const CsvPlace& at) {
+  const int have = static_cast<int>(fields_.size());
+  if (have < dialect_.fields) {
+    absent_fields_ += dialect_.fields - have;
+    issues_.add_row(
+        at, "ragged_row", [&] { return field_count(line) + "; the fields at its end are taken as missing"; },
+        false);
+  }
   bool surplus = false;
   for (int i = dialect_.fields; i < have; ++i) surplus = surplus || !fields_[i].empty();
   if (!surplus) return CsvRow::keep;
-  issues_.add_row(at, "row_too_long", start + "; which value is which is not sure, so the row was left out",
-                  true);
+  issues_.add_row(
+      at, "row_too_long",
+      [&] { return field_count(line) + "; which value is which is not sure, so the row was left out"; },
+      true);
   return CsvRow::drop;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,11 +27,19 @@ class CsvRowReader {
   /// Reads a line of nothing but numbers and separators into row `row` of the block and returns what is
   /// behind it; null when it is anything else and must be read with care. `end` is behind a newline.
   const char* read_plain(const char* p, const char* end, int row);
-  /// Reads any line, without its newline; `open_end` tells that the file ended in it.
-  CsvRow read_any(std::string_view line, bool open_end, const CsvPlace& at, int row);
+  /// Reads any line, without its newline.
+  CsvRow read_any(std::string_view line, const CsvPlace& at, int row);
+  /// The same for a last line in which the file ended; `before` are whole lines before it.
+  CsvRow read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row);
+  /// Fields that rows lacked at their ends so far.
+  std::int64_t absent_fields() const { return absent_fields_; }
+  void forget_absent_fields() { absent_fields_ = 0; }
 
  private:
-  CsvRow judge_length(std::string_view line, bool open_end, const CsvPlace& at);
+  CsvRow read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual);
+  CsvRow judge_length(std::string_view line, const CsvPlace& at);
+  CsvRow judge_end(std::string_view line, const CsvPlace& at, const LastCells& usual);
+  std::string field_count(std::string_view line) const;
   void read_cells(const CsvPlace& at, int row);
 
   const CsvDialect& dialect_;
@@ -38,6 +47,7 @@ class CsvRowReader {
   std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted
   std::vector<double*> field_values_;  ///< of the block that is being filled; null for a field not wanted
   std::vector<std::string_view> fields_;
+  std::int64_t absent_fields_ = 0;
 };
 
 }  // namespace faultline

@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 18;
-constexpr std::size_t kLongestLine = 1 << 24;
+constexpr std::size_t kKeptBefore = 1 << 12;
 
 }  // namespace
 
@@ -17,6 +17,7 @@ bool LineBuffer::fill() {
   while (begin_ == lines_end_) {
     if (at_end_) return false;
     if (begin_ > 0) {
+      keep_before();
       std::memmove(text_.data(), text_.data() + begin_, end_ - begin_);
       end_ -= begin_;
       begin_ = lines_end_ = 0;
@@ -40,7 +41,14 @@ bool LineBuffer::fill() {
   return true;
 }
 
+void LineBuffer::keep_before() {
+  const std::size_t from = begin_ > kKeptBefore ? begin_ - kKeptBefore : 0;
+  before_.assign(text_.data() + from, begin_ - from);
+  if (from > 0) before_.erase(0, before_.find('\n') + 1);  // its first line is not whole
+}
+
 void LineBuffer::clear() {
+  before_.clear();
   begin_ = lines_end_ = end_ = 0;
   at_end_ = last_line_was_open_ = false;
 }

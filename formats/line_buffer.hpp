@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/byte_source.hpp"
 
 namespace faultline {
+
+inline constexpr std::size_t kLongestLine = 1 << 24;  ///< bytes
 
 /// Whole lines of a text file in a window of bounded size. A file whose last line has no newline gets one.
 class LineBuffer {
@@ -17,15 +21,20 @@ class LineBuffer {
   const char* end_of_lines() const { return text_.data() + lines_end_; }
   void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text_.data()); }
   /// Reads on until a whole line is there; false at the end of the file. Pointers into the buffer end here.
-  /// Throws Error(input) for a line longer than 16 MiB.
+  /// Throws Error(input) for a line longer than kLongestLine.
   bool fill();
   /// True when the line that ends the present lines is the last of the file and had no newline.
   bool last_line_was_open() const { return last_line_was_open_; }
+  /// Whole lines just before that one, a few KiB at most.
+  std::string_view lines_before() const { return before_; }
   void clear();
 
  private:
+  void keep_before();
+
   ByteSource& bytes_;
   std::vector<char> text_;
+  std::string before_;  ///< the last lines that fill() dropped
   std::size_t begin_ = 0;
   std::size_t lines_end_ = 0;
   std::size_t end_ = 0;

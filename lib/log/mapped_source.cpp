@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
@@ -26,7 +29,6 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
   std::vector<bool> wanted;
   for (const int uses : uses_) wanted.push_back(uses > 0);
   reader_->want(wanted);
-  gather_issues();
 }
 
 void MappedSource::rewind() {
@@ -36,10 +38,17 @@ void MappedSource::rewind() {
   rows_kept_ = 0;
   at_end_ = false;
   cleaning_issues_ = {};
-  gather_issues();
+  gathered_ = false;
+}
+
+const Issues& MappedSource::issues() const {
+  if (!gathered_) gather_issues();
+  gathered_ = true;
+  return issues_;
 }
 
 bool MappedSource::next(Log& segment) {
+  gathered_ = false;
   while (!at_end_) {
     if (!fill(segment)) break;
     const int rows = segment.rows();
@@ -47,12 +56,8 @@ bool MappedSource::next(Log& segment) {
     waiting_file_row_ = segment_first_row_ + rows - 1;
     segment.first_row = rows_kept_;
     rows_kept_ += segment.rows();
-    if (segment.rows() > 0) {
-      gather_issues();
-      return true;
-    }
+    if (segment.rows() > 0) return true;
   }
-  gather_issues();
   refuse_no_rows();
   return false;
 }
@@ -65,7 +70,7 @@ void MappedSource::refuse_no_rows() const {
   throw Error(
       ErrorCode::input, log.path,
       fmt::format("none of its {} rows has a usable time (seconds as a number, increasing); first: {}",
-                  log.rows_read, issues_.empty() ? "" : issues_.all().front().message));
+                  log.rows_read, issues().empty() ? "" : issues().all().front().message));
 }
 
 /// The next block, with the waiting row in front; after the last block that row alone.
@@ -138,14 +143,19 @@ void MappedSource::take(const ChannelSource& source, std::vector<double>& values
 
 /// All issues so far in the order of their first rows, whatever the size of the segments; the reader's under
 /// the names of the channels their columns became.
-void MappedSource::gather_issues() {
+void MappedSource::gather_issues() const {
+  const std::vector<RawColumn>& columns = reader_->columns();
+  std::unordered_map<std::string_view, Channel> channel_of;
+  std::unordered_set<std::string_view> extra;
+  for (const ChannelSource& source : matching_.channels)
+    if (source.column >= 0) channel_of.emplace(columns[source.column].name, source.channel);
+  for (const int column : matching_.extra) extra.insert(columns[column].name);
   std::vector<Issue> all = matching_.issues.all();
   for (Issue issue : reader_->issues().all()) {
-    for (const ChannelSource& source : matching_.channels)
-      if (source.column >= 0 && issue.channel == reader_->columns()[source.column].name)
-        issue.channel = to_string(source.channel);
-    for (const int extra : matching_.extra)
-      if (issue.channel == reader_->columns()[extra].name) issue.severity = Severity::note;
+    if (const auto channel = channel_of.find(issue.channel); channel != channel_of.end())
+      issue.channel = to_string(channel->second);
+    else if (extra.count(issue.channel))
+      issue.severity = Severity::note;
     all.push_back(issue);
   }
   for (const Issue& issue : cleaning_issues_.all()) all.push_back(issue);

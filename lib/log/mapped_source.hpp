@@ -26,7 +26,7 @@ class MappedSource : public LogSource {
   bool next(Log& segment) override;
   void rewind() override;
   const LogIdentity& identity() const override { return reader_->identity(); }
-  const Issues& issues() const override { return issues_; }
+  const Issues& issues() const override;
   double share_read() const override { return reader_->share_read(); }
   const Matching& matching() const { return matching_; }
 
@@ -36,7 +36,7 @@ class MappedSource : public LogSource {
   void put_waiting_row_first(Log& segment);
   void take(const ChannelSource& source, std::vector<double>& values);
   std::vector<double>& channel_of(Log& log, Channel channel) const;
-  void gather_issues();
+  void gather_issues() const;
   void refuse_no_rows() const;
 
   std::unique_ptr<RawReader> reader_;
@@ -51,7 +51,8 @@ class MappedSource : public LogSource {
   std::int64_t rows_kept_ = 0;
   bool at_end_ = false;
   Issues cleaning_issues_;
-  Issues issues_;
+  mutable Issues issues_;          ///< gathered when asked for
+  mutable bool gathered_ = false;  ///< whether issues_ holds all so far
 };
 
 }  // namespace faultline
