@@ -87,7 +87,9 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
   inspection.joint_log = true;
   inspection.joints = source.matching().joints;
   inspection.log = source.identity();
-  inspection.quality = quality_of(state);
+  QualityOptions options;
+  if (robot && robot->joints() == inspection.joints) options.slides = sliding_joints(robot->chain);
+  inspection.quality = quality_of(state, options);
   inspection.issues = source.issues();
   inspection.issues.merge(inspection.quality.issues);
   judge_dropped_rows(inspection);

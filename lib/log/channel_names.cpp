@@ -75,7 +75,9 @@ bool is_something_else(const std::string& word) {
                       "ext",     "external", "gravity",   "noise",       "std",          "threshold",
                       "output",  "multi",    "temp",      "temperature", "voltage",      "sec",
                       "nanosec", "stamp",    "cartesian", "wrench",      "ft",           "ee",
-                      "jerk",    "removed",  "scaling",   "factor",      "pid"});
+                      "jerk",    "removed",  "scaling",   "factor",      "pid"}) ||
+         among(word, {"cart", "gripper", "flange", "world", "override", "x", "y", "z", "rx", "ry", "rz",
+                      "roll", "pitch", "yaw"});
 }
 
 std::optional<Quantity> quantity_of(const std::string& word) {

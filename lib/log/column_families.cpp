@@ -8,12 +8,12 @@
 namespace faultline {
 namespace {
 
-/// The first of the highest rank among the families that are meant and have joints; null for none.
+/// The first of the highest rank among the families that are meant; null for none.
 template <typename IsMeant, typename Rank>
 const ColumnFamily* best_of(const std::vector<ColumnFamily>& families, IsMeant is_meant, Rank rank) {
   const ColumnFamily* best = nullptr;
   for (const ColumnFamily& family : families)
-    if (is_meant(family) && family.joints() > 0 && (!best || rank(family) > rank(*best))) best = &family;
+    if (is_meant(family) && (!best || rank(family) > rank(*best))) best = &family;
   return best;
 }
 
@@ -38,20 +38,21 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
   return families;
 }
 
-const ColumnFamily* best_family(const std::vector<ColumnFamily>& families, Quantity quantity) {
+const ColumnFamily* best_family(const std::vector<ColumnFamily>& families, Quantity quantity,
+                                const IsUsable& usable) {
   return best_of(
-      families, [&](const ColumnFamily& family) { return family.quantity == quantity; },
+      families, [&](const ColumnFamily& family) { return family.quantity == quantity && usable(family); },
       [](const ColumnFamily& family) {
-        return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.joints());
+        return std::tuple(family.fitness >= 100, family.numbered, family.fitness, family.columns());
       });
 }
 
-const ColumnFamily* best_torque(const std::vector<ColumnFamily>& families) {
+const ColumnFamily* best_torque(const std::vector<ColumnFamily>& families, const IsUsable& usable) {
   return best_of(
-      families, [](const ColumnFamily& family) { return is_torque(family.quantity); },
+      families, [&](const ColumnFamily& family) { return is_torque(family.quantity) && usable(family); },
       [](const ColumnFamily& family) {
         const bool canonical = family.quantity == Quantity::tau && family.fitness >= 100;
-        return std::tuple(canonical, family.numbered, family.as_torque, family.joints());
+        return std::tuple(canonical, family.numbered, family.as_torque, family.columns());
       });
 }
 
@@ -61,8 +62,9 @@ std::optional<TimePair> find_time_pair(const std::vector<std::string>& names) {
       const std::string& name = names[i];
       const std::string prefix =
           name.substr(0, name.size() - std::min(name.size(), std::string(whole).size()));
+      if (prefix + whole != name) continue;
       const auto nanoseconds = std::find(names.begin(), names.end(), prefix + part);
-      if (prefix + whole != name || nanoseconds == names.end()) continue;
+      if (nanoseconds == names.end()) continue;
       if (prefix.find("time_from_start") != std::string::npos) continue;
       return TimePair{static_cast<int>(i), static_cast<int>(nanoseconds - names.begin())};
     }

@@ -5,13 +5,17 @@
 #include <set>
 
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/log/column_families.hpp"
+#include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kMostJoints = 64;
+
+std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
 
 class Matcher {
  public:
@@ -35,7 +39,7 @@ class Matcher {
  private:
   [[noreturn]] void fail_missing(const std::string& channel, const char* meaning) const {
     std::string found;
-    for (std::size_t i = 0; i < names_.size() && i < 20; ++i) found += (i ? ", \"" : "\"") + names_[i] + "\"";
+    for (std::size_t i = 0; i < names_.size() && i < 20; ++i) found += (i ? ", " : "") + quoted(names_[i]);
     if (names_.size() > 20) found += " and " + std::to_string(names_.size() - 20) + " more";
     throw Error(
         ErrorCode::input, path_,
@@ -57,8 +61,8 @@ class Matcher {
   double unit_factor(const std::string& unit, const std::string& channel) const {
     if (const auto factor = si_factor(unit)) return *factor;
     throw Error(ErrorCode::usage, "[log.columns] " + channel,
-                "the unit \"" + unit +
-                    "\" is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
+                "the unit " + quoted(unit) +
+                    " is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
   }
 
   void add(Channel channel, int column) {
@@ -76,10 +80,12 @@ class Matcher {
       factor = *known;
     } else {
       note("unit_unknown", name, Severity::warning,
-           "column \"" + names_[column] + "\" has the unit \"" + header_unit +
+           "column \"" + shortened(names_[column], kLongestName) + "\" has the unit \"" +
+               shortened(header_unit, kLongestName) +
                "\", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " +
                name);
     }
+    refuse_misfit(column >= 0 ? columns_[column] : RawColumn{kRowNumberName, ""}, spec, channel, path_);
     matching_.channels.push_back({channel, column, -1, spec.sign * spec.scale * factor, spec.offset});
     taken_.insert(channel);
     used_.insert(column);
@@ -122,6 +128,22 @@ class Matcher {
       return !used_.count(column) || canonical_channel(names_[column]).has_value();
     };
     families_ = column_families(names_, is_free);
+    misfits_ = take_misfits(families_, columns_, map_);
+  }
+
+  /// A position or torque that is there, but in another dimension, is asked about; others are left out and
+  /// told.
+  void judge_misfits(Quantity quantity) {
+    for (const ColumnFamily& family : misfits_) {
+      const bool meant = quantity == Quantity::tau ? is_torque(family.quantity)
+                                                   : !is_torque(quantity) && family.quantity == quantity;
+      const int column = family.column_of.begin()->second;
+      if (!meant || used_.count(column)) continue;
+      if ((quantity == Quantity::q || quantity == Quantity::tau) && !taken_.count({quantity, 1}))
+        refuse_misfit(columns_[column], {}, {quantity, 1}, path_);
+      note("unit_of_other_dimension", to_string({family.quantity, 1}), Severity::note,
+           not_taken_sentence(columns_[column], family.quantity));
+    }
   }
 
   /// A quantity that the robot file names for one joint is named there for all.
@@ -143,11 +165,19 @@ class Matcher {
         add({quantity, j}, column);
   }
 
+  int first_of(const ColumnFamily& family) const { return family.first(first_position_, matching_.joints); }
+
   const ColumnFamily* family_of(Quantity quantity) const {
     if (named_in_map(quantity)) return nullptr;
-    if (quantity == Quantity::tau) return best_torque(families_);
+    const auto usable = [&](const ColumnFamily& family) {
+      if (quantity == Quantity::q) return family.joints(family.first()) > 0;
+      const int first = first_of(family);
+      const auto at = family.column_of.lower_bound(first);
+      return at != family.column_of.end() && at->first < first + matching_.joints;
+    };
+    if (quantity == Quantity::tau) return best_torque(families_, usable);
     if (is_torque(quantity) && quantity == meaning_of_tau()) return nullptr;
-    return best_family(families_, quantity);
+    return best_family(families_, quantity, usable);
   }
 
   /// Whether the name of the torque that was taken says commanded or measured; tau where it says neither.
@@ -162,13 +192,28 @@ class Matcher {
     if (named_in_map(quantity)) match_usual_names(quantity);
     const ColumnFamily* family = family_of(quantity);
     if (family) {
-      const int joints =
-          quantity == Quantity::q ? family->joints() : std::min(family->joints(), matching_.joints);
-      for (int j = 0; j < joints; ++j) add({quantity, j + 1}, family->column_of.at(family->first() + j));
-      if (joints > 0) note_rivals(quantity, *family);
+      if (quantity == Quantity::q) first_position_ = family->first();
+      const int first = first_of(*family);
+      const int joints = quantity == Quantity::q ? family->joints(first) : matching_.joints;
+      for (int j = 0; j < joints; ++j)
+        if (const auto column = family->column_of.find(first + j); column != family->column_of.end())
+          add({quantity, j + 1}, column->second);
+      note_rivals(quantity, *family);
     }
-    if (quantity == Quantity::q)
-      while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
+    judge_misfits(quantity);
+    if (quantity != Quantity::q) return;
+    while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
+    if (family) note_later_positions(*family);
+  }
+
+  /// Positions behind a joint that has none.
+  void note_later_positions(const ColumnFamily& family) {
+    const auto later = family.column_of.upper_bound(first_of(family) + matching_.joints);
+    if (!family.numbered || later == family.column_of.end() || later->first > kMostJoints) return;
+    note("channel_missing", to_string({Quantity::q, matching_.joints + 1}), Severity::severe,
+         "no column for the position of joint " + std::to_string(matching_.joints + 1) +
+             ", though there is \"" + shortened(names_[later->second], kLongestName) +
+             "\"; only the joints before it are read");
   }
 
   void note_rivals(Quantity quantity, const ColumnFamily& chosen) {
@@ -177,12 +222,14 @@ class Matcher {
     for (const ColumnFamily& family : families_) {
       const bool rival = family.quantity == quantity || family.quantity == chosen.quantity;
       if (!rival || &family == &chosen) continue;
-      rivals += (rivals.empty() ? "\"" : ", \"") + names_[family.column_of.begin()->second] + "\"";
+      rivals += (rivals.empty() ? "\"" : ", \"") +
+                shortened(names_[family.column_of.begin()->second], kLongestName) + "\"";
     }
     if (rivals.empty()) return;
     const std::string channel = to_string({quantity, 1});
     note("channel_ambiguous", channel, Severity::note,
-         "\"" + names_[chosen.column_of.begin()->second] + "\" was taken as " + channel + "; " + rivals +
+         "\"" + shortened(names_[chosen.column_of.begin()->second], kLongestName) + "\" was taken as " +
+             channel + "; " + rivals +
              " could be meant as well. To choose, name it in the robot file: [log.columns] " + channel);
   }
 
@@ -221,6 +268,8 @@ class Matcher {
   const std::string& path_;
   std::vector<std::string> names_;
   std::vector<ColumnFamily> families_;
+  std::vector<ColumnFamily> misfits_;  ///< whose units say that they are no such quantity
+  int first_position_ = 1;             ///< the number of the first position, 0 or 1
   std::set<Channel> taken_;
   std::set<int> used_;
   Matching matching_;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lib/log/channel_names.hpp"
+#include "lib/log/issues/quality_issues.hpp"
 #include "lib/log/log_channels.hpp"
-#include "lib/log/quality_issues.hpp"
 
 namespace faultline {
 namespace {
@@ -61,8 +61,8 @@ LogQuality quality_of(const QualityState& state, const QualityOptions& options) 
   for (const ChannelSummary& channel : state.channels) judge_channel(channel, options, quality.issues);
   for (std::size_t j = 0; j < state.velocity.size(); ++j) {
     quality.velocity.push_back(state.velocity[j].result());
-    judge_velocity(quality.velocity.back(), static_cast<int>(j) + 1, quality.issues);
   }
+  judge_velocities(quality.velocity, quality.time, options, quality.issues);
   return quality;
 }
 

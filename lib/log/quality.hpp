@@ -35,6 +35,7 @@ struct QualityOptions {
       20.0;               ///< a position that spans more, or lies beyond 5 times this, is hardly rad or m
   double fastest = 50.0;  ///< a velocity beyond it is hardly in rad/s or m/s
   double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
+  std::vector<bool> slides{};     ///< of each joint, whether it slides (its unit is m); empty when not known
   double saturated_share = 0.01;  ///< of a torque's values at its largest or smallest one, at least 20
 };
 
@@ -44,7 +45,8 @@ struct LogQuality {
   std::vector<ChannelSummary> channels;     ///< t left out; canonical ones first
   std::vector<VelocityAgreement> velocity;  ///< of each joint; empty without velocities
   Issues issues;  ///< time_gap, time_jitter, missing_values, constant_channel, saturated_channel,
-                  ///< velocity_contradicts_position, unit_implausible
+                  ///< velocity_contradicts_position, sample_period_contradicts_motion,
+                  ///< unit_implausible
 };
 
 /// What the look carries from segment to segment.

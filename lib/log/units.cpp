@@ -12,46 +12,50 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-using Factors = std::map<std::string, double, std::less<>>;
+using Units = std::map<std::string, Unit, std::less<>>;
 
-/// Each unit as plain() writes it.
-Factors known_units() {
-  Factors factors;
-  const auto add = [&](double factor, std::initializer_list<const char*> names) {
-    for (const char* name : names) factors.emplace(name, factor);
+/// Each unit as plain() writes it; "Grad" and "U/min" are German.
+Units known_units() {
+  Units units;
+  const auto add = [&](Dimension dimension, double factor, std::initializer_list<const char*> names) {
+    for (const char* name : names) units.emplace(name, Unit{factor, dimension});
   };
-  add(1.0, {"", "-", "1"});
-  add(1.0, {"s", "sec", "secs", "second", "seconds"});
-  add(1e-3, {"ms", "msec", "millisec", "milliseconds"});
-  add(1e-6, {"us", "µs", "usec", "microseconds"});
-  add(1e-9, {"ns", "nsec", "nanosec", "nanoseconds"});
-  add(60.0, {"min"});
-  add(1.0, {"rad", "radian", "radians"});
-  add(1e-3, {"mrad"});
-  add(kDegree, {"deg", "degree", "degrees", "°"});
-  add(kTurn, {"rev", "turn", "turns"});
-  add(1.0, {"m", "meter", "metre"});
-  add(1e-3, {"mm"});
-  add(1e-2, {"cm"});
-  add(1e-6, {"um", "µm"});
-  add(0.0254, {"inch"});
-  add(1.0, {"rad/s", "rad/sec"});
-  add(kDegree, {"deg/s", "deg/sec", "°/s"});
-  add(kTurn / 60.0, {"rpm", "rev/min"});
-  add(kTurn, {"rev/s"});
-  add(1.0, {"m/s"});
-  add(1e-3, {"mm/s", "mm/sec"});
-  add(1e-2, {"cm/s"});
-  add(1.0, {"nm", "n·m"});
-  add(1e-3, {"mnm"});
-  add(1e3, {"knm"});
-  add(1e-2, {"ncm"});
-  add(1.0, {"n"});
-  add(1e-3, {"mn"});
-  add(1e3, {"kn"});
-  add(1.0, {"a", "v"});
-  add(1e-3, {"ma", "mv"});
-  return factors;
+  add(Dimension::none, 1.0, {"", "-", "1"});
+  add(Dimension::time, 1.0, {"s", "sec", "secs", "sek", "second", "seconds"});
+  add(Dimension::time, 1e-3, {"ms", "msec", "millisec", "milliseconds"});
+  add(Dimension::time, 1e-6, {"us", "µs", "usec", "microseconds"});
+  add(Dimension::time, 1e-9, {"ns", "nsec", "nanosec", "nanoseconds"});
+  add(Dimension::time, 60.0, {"min"});
+  add(Dimension::angle, 1.0, {"rad", "radian", "radians"});
+  add(Dimension::angle, 1e-3, {"mrad"});
+  add(Dimension::angle, kDegree, {"deg", "degree", "degrees", "°", "grad"});
+  add(Dimension::angle, kTurn, {"rev", "turn", "turns"});
+  add(Dimension::length, 1.0, {"m", "meter", "metre"});
+  add(Dimension::length, 1e-3, {"mm"});
+  add(Dimension::length, 1e-2, {"cm"});
+  add(Dimension::length, 1e-6, {"um", "µm"});
+  add(Dimension::length, 0.0254, {"inch"});
+  add(Dimension::angular_speed, 1.0, {"rad/s", "rad/sec"});
+  add(Dimension::angular_speed, 1e-3, {"mrad/s"});
+  add(Dimension::angular_speed, kDegree, {"deg/s", "deg/sec", "°/s", "°/sec", "grad/s", "degrees/s"});
+  add(Dimension::angular_speed, kTurn / 60.0, {"rpm", "rev/min", "1/min", "u/min"});
+  add(Dimension::angular_speed, kTurn, {"rev/s"});
+  add(Dimension::speed, 1.0, {"m/s"});
+  add(Dimension::speed, 1e-3, {"mm/s", "mm/sec"});
+  add(Dimension::speed, 1e-2, {"cm/s"});
+  add(Dimension::torque, 1.0, {"nm", "n·m"});
+  add(Dimension::torque, 1e-3, {"mnm"});
+  add(Dimension::torque, 1e3, {"knm"});
+  add(Dimension::torque, 1e-2, {"ncm"});
+  add(Dimension::force, 1.0, {"n"});
+  add(Dimension::force, 1e-3, {"mn"});
+  add(Dimension::force, 1e3, {"kn"});
+  add(Dimension::current, 1.0, {"a"});
+  add(Dimension::current, 1e-3, {"ma"});
+  add(Dimension::voltage, 1.0, {"v"});
+  add(Dimension::voltage, 1e-3, {"mv"});
+  add(Dimension::share, 1e-2, {"%", "percent"});
+  return units;
 }
 
 /// Lower case without blanks and product signs, "N m" and "N*m" becoming "nm".
@@ -79,11 +83,17 @@ std::string trimmed(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> si_factor(std::string_view unit) {
-  static const Factors factors = known_units();
-  const auto found = factors.find(plain(unit));
-  if (found == factors.end()) return std::nullopt;
+std::optional<Unit> known_unit(std::string_view unit) {
+  static const Units units = known_units();
+  const auto found = units.find(plain(unit));
+  if (found == units.end()) return std::nullopt;
   return found->second;
+}
+
+std::optional<double> si_factor(std::string_view unit) {
+  const auto known = known_unit(unit);
+  if (!known) return std::nullopt;
+  return known->factor;
 }
 
 NameAndUnit split_unit(std::string_view text) {

@@ -7,6 +7,29 @@
 
 namespace faultline {
 
+/// What a unit measures; `none` for no unit, which may be any.
+enum class Dimension {
+  none,
+  time,
+  angle,
+  length,
+  angular_speed,
+  speed,
+  torque,
+  force,
+  current,
+  voltage,
+  share
+};
+
+struct Unit {
+  double factor = 1.0;  ///< to SI
+  Dimension dimension = Dimension::none;
+};
+
+/// Nullopt for a unit that is not known.
+std::optional<Unit> known_unit(std::string_view unit);
+
 /// The factor from `unit` to SI (rad, m, s, N m, N, A and their rates): "deg" gives pi/180, "" and "-"
 /// give 1. Capitals matter only for prefixes ("mm"); nullopt for a unit that is not known.
 std::optional<double> si_factor(std::string_view unit);

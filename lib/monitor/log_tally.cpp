@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lib/core/error.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -71,7 +72,9 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
 }
 
 LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms) {
-  const LogQuality quality = quality_of(tally.quality);
+  QualityOptions options;
+  options.slides = sliding_joints(model.robot.chain);
+  const LogQuality quality = quality_of(tally.quality, options);
   LogFacts facts;
   facts.path = shown_path(log.identity().path);
   facts.sha256 = log.identity().sha256;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "lib/robot/chain.hpp"
 
 /// Units of what a joint of that kind has.
@@ -11,6 +13,13 @@ constexpr const char* velocity_unit(AxisKind kind) { return kind == AxisKind::re
 constexpr const char* torque_unit(AxisKind kind) { return kind == AxisKind::revolute ? "N m" : "N"; }
 constexpr const char* viscous_unit(AxisKind kind) {
   return kind == AxisKind::revolute ? "N m s/rad" : "N s/m";
+}
+
+/// Of each joint, whether it slides.
+inline std::vector<bool> sliding_joints(const Chain<double>& chain) {
+  std::vector<bool> slides;
+  for (const auto& joint : chain.geometry) slides.push_back(joint.kind == AxisKind::prismatic);
+  return slides;
 }
 
 }  // namespace faultline

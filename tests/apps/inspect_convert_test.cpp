@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
@@ -68,6 +69,42 @@ TEST(Inspect, RobotFileGivesUnitsAndColumns) {
   EXPECT_DOUBLE_EQ(found.at("channels").at(0).at("max"), 0.04);
   EXPECT_EQ(found.at("channels").at(1).at("unit"), "N");
   EXPECT_EQ(found.at("channels").at(1).at("max"), 70.0);
+}
+
+TEST(Inspect, VelocitiesItSaysWillBeDerivedAreDerived) {
+  const TemporaryFolder folder;
+  const std::string golden = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden/";
+  const std::string log = read_file(golden + "logs/locked_1.csv");
+  const auto without = [&](const std::string& prefix) {
+    std::istringstream lines(log);
+    std::string text, line, cell;
+    std::vector<bool> left_out;
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      std::string row;
+      for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
+        if (text.empty()) left_out.push_back(cell.starts_with(prefix));
+        if (!left_out[i]) row += (row.empty() ? "" : ",") + cell;
+      }
+      text += row + "\n";
+    }
+    return text;
+  };
+  const std::string path = folder.write("run.csv", without("dq"));
+  EXPECT_NE(run_program({"inspect", path}).out.find("it will be derived"), std::string::npos);
+  const ProgramRun run = run_program(
+      {"diagnose", path, "--model", golden + "model-54d23e09.json", "--cases", golden + "cases-6f5469ce.db"});
+  EXPECT_EQ(run.status, 1) << run.err;
+}
+
+TEST(Inspect, TheRobotSaysWhichAxisSlides) {
+  const TemporaryFolder folder;
+  std::string text = "t,q1,q2\n";
+  for (int i = 0; i < 50; ++i) text += std::to_string(0.01 * i) + ",0.5," + std::to_string(4.0 * i) + "\n";
+  const std::string log = folder.write("run.csv", text);
+  const ProgramRun run =
+      run_program({"inspect", log, "--robot", folder.write("robot.toml", "axes = \"RP\"\n")});
+  EXPECT_NE(run.out.find("q2 = {unit = \"mm\"}"), std::string::npos) << run.out;
 }
 
 TEST(Convert, CsvToNativeAndBackIsExact) {

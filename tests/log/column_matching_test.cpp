@@ -101,6 +101,75 @@ TEST(ColumnMatching, AJointWithoutAColumnIsTold) {
   EXPECT_NE(match_columns(columns, {}, "log").issues.find("channel_missing", "tau2"), nullptr);
 }
 
+TEST(ColumnMatching, AJointWithoutAColumnHidesNoOther) {
+  EXPECT_EQ(
+      matched({"t", "q1", "q2", "q3", "tau1", "tau3"}),
+      (Names{{"t", "t"}, {"q1", "q1"}, {"q2", "q2"}, {"q3", "q3"}, {"tau1", "tau1"}, {"tau3", "tau3"}}));
+  EXPECT_EQ(matched({"t", "q1", "q2", "dq2"}),
+            (Names{{"t", "t"}, {"q1", "q1"}, {"q2", "q2"}, {"dq2", "dq2"}}));
+  EXPECT_EQ(matched({"time", "pos_0", "pos_1", "pos_2", "vel_1", "vel_2"}), (Names{{"t", "time"},
+                                                                                   {"q1", "pos_0"},
+                                                                                   {"q2", "pos_1"},
+                                                                                   {"q3", "pos_2"},
+                                                                                   {"dq2", "vel_1"},
+                                                                                   {"dq3", "vel_2"}}))
+      << "numbers from 0 mean the same joints in every quantity";
+  EXPECT_EQ(matched({"time", "pos_0", "pos_1", "vel_1", "vel_2"}),
+            (Names{{"t", "time"}, {"q1", "pos_0"}, {"q2", "pos_1"}, {"dq1", "vel_1"}, {"dq2", "vel_2"}}))
+      << "unless they do not fit";
+}
+
+TEST(ColumnMatching, APositionThatIsMissingInTheMiddleIsTold) {
+  const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"q3", ""}};
+  const Matching matching = match_columns(columns, {}, "log");
+  EXPECT_EQ(matching.joints, 1);
+  ASSERT_NE(matching.issues.find("channel_missing", "q2"), nullptr);
+  EXPECT_EQ(matching.issues.find("channel_missing", "q2")->severity, Severity::severe);
+}
+
+TEST(ColumnMatching, CartesianAndGripperColumnsAreNoJoints) {
+  EXPECT_EQ(
+      matched({"time", "CartPos_X", "CartPos_Y", "CartPos_Z", "JointPos_1", "JointPos_2", "GripperForce_%"}),
+      (Names{{"t", "time"}, {"q1", "JointPos_1"}, {"q2", "JointPos_2"}}));
+  EXPECT_THROW(matched({"time", "CartPos_X", "CartPos_Y"}), Error);
+}
+
+/// The matching of t, q1 and one more column.
+Matching matching_with(const RawColumn& column, const ColumnMap& map = {}) {
+  return match_columns({{"t", ""}, {"q1", ""}, column}, map, "log");
+}
+
+TEST(ColumnMatching, ACurrentIsNoTorqueWithoutAScale) {
+  for (const RawColumn& column :
+       {RawColumn{"tau1", "A"}, {"effort_1", "mA"}, {"torque_1", "%"}, {"tau1", "V"}}) {
+    try {
+      matching_with(column);
+      FAIL() << column.name;
+    } catch (const Error& error) {
+      for (const char* word : {"tau1", "scale", "N m"})
+        EXPECT_NE(error.message().find(word), std::string::npos) << error.message();
+      EXPECT_NE(error.message().find(column.name), std::string::npos);
+    }
+  }
+  const Matching scaled = matching_with({"tau1", "mA"}, {{"tau1", {.scale = 35.0}}});
+  EXPECT_DOUBLE_EQ(scaled.channels.back().gain, 0.035);
+  EXPECT_DOUBLE_EQ(matching_with({"i1", "A"}, {{"tau1", {.name = "i1", .scale = 35.0}}}).channels.back().gain,
+                   35.0);
+  EXPECT_DOUBLE_EQ(matching_with({"tau1", "A"}, {{"tau1", {.unit = "N m"}}}).channels.back().gain, 1.0);
+  EXPECT_THROW(matching_with({"i1", ""}, {{"tau1", {.name = "i1", .unit = "A"}}}), Error);
+}
+
+TEST(ColumnMatching, WhatIsMeasuredInAnotherDimensionIsNotTaken) {
+  const Matching speed = matching_with({"Speed", "%"});
+  EXPECT_EQ(speed.channels.size(), 2u);
+  EXPECT_NE(speed.issues.find("unit_of_other_dimension", "dq1"), nullptr);
+  const Matching both =
+      match_columns({{"t", ""}, {"q1", ""}, {"target_torque_1", "N m"}, {"actual_torque_1", "A"}}, {}, "log");
+  EXPECT_EQ(both.channels.size(), 3u);
+  EXPECT_THROW(match_columns({{"t", "deg"}, {"q1", ""}}, {}, "log"), Error);
+  EXPECT_THROW(match_columns({{"t", ""}, {"q1", "V"}}, {}, "log"), Error);
+}
+
 TEST(ColumnMatching, SeveralCandidatesAreTold) {
   const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"tau_con1", ""}, {"tau_ctrl1", ""}};
   const Matching matching = match_columns(columns, {}, "log");
@@ -121,6 +190,10 @@ TEST(ColumnMatching, AChannelThatDoesNotExistIsAUsageError) {
 TEST(Units, KnownAndUnknown) {
   EXPECT_DOUBLE_EQ(si_factor("deg").value(), std::numbers::pi / 180.0);
   EXPECT_DOUBLE_EQ(si_factor("rpm").value(), std::numbers::pi / 30.0);
+  EXPECT_DOUBLE_EQ(si_factor("Grad").value(), std::numbers::pi / 180.0) << "German for degree";
+  EXPECT_DOUBLE_EQ(si_factor("Grad/s").value(), std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(si_factor("U/min").value(), std::numbers::pi / 30.0);
+  EXPECT_EQ(known_unit("A")->dimension, Dimension::current);
   EXPECT_EQ(si_factor("N m"), 1.0);
   EXPECT_EQ(si_factor("ms"), 1e-3);
   EXPECT_EQ(si_factor(""), 1.0);

@@ -112,6 +112,62 @@ TEST(Quality, VelocityOfAnotherJointIsFound) {
   expect_issue(quality_in(log), "velocity_contradicts_position", "dq1", "does not follow");
 }
 
+/// Two joints that move, the second at another rate.
+Log log_of_two() {
+  Log log = clean_log();
+  log.q.push_back({}), log.dq.push_back({}), log.tau.push_back(log.tau[0]);
+  for (const double t : log.time) {
+    log.q[1].push_back(0.3 * std::sin(3.0 * t));
+    log.dq[1].push_back(0.9 * std::cos(3.0 * t));
+  }
+  return log;
+}
+
+TEST(Quality, OneFactorForAllJointsIsTheSamplePeriod) {
+  Log log = log_of_two();
+  for (double& t : log.time) t *= 0.5;
+  const LogQuality quality = quality_in(log);
+  expect_issue(quality, "sample_period_contradicts_motion", "t", "0.01 s, not 0.005 s");
+  expect_issue(quality, "sample_period_contradicts_motion", "t", "[log.columns] t");
+  expect_issue(quality, "velocity_contradicts_position", "dq2", "sample period");
+}
+
+TEST(Quality, TimeInMillisecondsIsNoVelocityInMillimetres) {
+  Log log = log_of_two();
+  for (double& t : log.time) t *= 1000.0;
+  expect_issue(quality_in(log), "sample_period_contradicts_motion", "t", "in ms");
+  log = clean_log();
+  for (double& t : log.time) t *= 1000.0;
+  expect_issue(quality_in(log), "velocity_contradicts_position", "dq1", "the time seems to be in ms");
+}
+
+TEST(Quality, TwoJointsThatDisagreeDifferentlyAreNoMatterOfTime) {
+  Log log = log_of_two();
+  for (double& dq : log.dq[0]) dq *= 2.0;
+  for (double& dq : log.dq[1]) dq *= 3.0;
+  EXPECT_EQ(quality_in(log).issues.find("sample_period_contradicts_motion", "t"), nullptr);
+  log = log_of_two();
+  for (auto& dq : log.dq)
+    for (double& value : dq) value *= 180.0 / M_PI;
+  EXPECT_EQ(quality_in(log).issues.find("sample_period_contradicts_motion", "t"), nullptr);
+  expect_issue(quality_in(log), "velocity_contradicts_position", "dq2", "deg/s");
+}
+
+TEST(Quality, ASlidingAxisIsInMillimetresATurningOneInDegrees) {
+  Log log = clean_log();
+  for (double& q : log.q[0]) q *= 1000.0;
+  QualityState state;
+  assess(log, state);
+  QualityOptions options;
+  options.slides = {true};
+  expect_issue(quality_of(state, options), "unit_implausible", "q1", "unit = \"mm\"");
+  EXPECT_EQ(quality_of(state, options).issues.find("unit_implausible", "q1")->message.find("deg"),
+            std::string::npos);
+  options.slides = {false};
+  expect_issue(quality_of(state, options), "unit_implausible", "q1", "unit = \"deg\"");
+  expect_issue(quality_of(state), "unit_implausible", "q1", "mm (a sliding one)");
+}
+
 TEST(Quality, AJointAtRestIsNotJudgedByItsNoise) {
   Log log = clean_log();
   Random random(3);

@@ -5,10 +5,11 @@
 
 namespace faultline {
 
-/// Adds to `issues` what is wrong with the time axis, with one channel, or between a velocity and its
-/// position.
+/// Adds to `issues` what is wrong with the time axis, with one channel, or between velocities and their
+/// positions.
 void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& issues);
 void judge_channel(const ChannelSummary& channel, const QualityOptions& options, Issues& issues);
-void judge_velocity(const VelocityAgreement& agreement, int joint, Issues& issues);
+void judge_velocities(const std::vector<VelocityAgreement>& agreements, const TimeAxis& time,
+                      const QualityOptions& options, Issues& issues);
 
 }  // namespace faultline

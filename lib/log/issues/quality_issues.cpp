@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/quality_issues.hpp"
+#include "lib/log/issues/quality_issues.hpp"
 
 #include <fmt/format.h>
 
@@ -58,39 +58,59 @@ void judge_saturated(const ChannelSummary& channel, const QualityOptions& option
   }
 }
 
+enum class Axis { unknown, turns, slides };
+
+Axis axis_of(const ChannelSummary& channel, const QualityOptions& options) {
+  const auto known = canonical_channel(channel.name);
+  const std::size_t joint = known ? static_cast<std::size_t>(known->joint) : 0;
+  if (joint == 0 || joint > options.slides.size()) return Axis::unknown;
+  return options.slides[joint - 1] ? Axis::slides : Axis::turns;
+}
+
+/// What a channel is in, what it may be in instead, and the unit to name as an example.
+struct UnitWords {
+  const char* si;
+  const char* likely;
+  const char* unit;
+};
+
+UnitWords position_words(Axis axis) {
+  if (axis == Axis::slides) return {"m", "mm", "mm"};
+  if (axis == Axis::turns) return {"rad", "deg", "deg"};
+  return {"rad or m", "deg (a turning axis) or mm (a sliding one)", "deg"};
+}
+
+UnitWords velocity_words(Axis axis) {
+  if (axis == Axis::slides) return {"m/s", "mm/s", "mm/s"};
+  if (axis == Axis::turns) return {"rad/s", "deg/s or rpm", "deg/s"};
+  return {"rad/s or m/s", "deg/s or rpm (a turning axis) or mm/s (a sliding one)", "deg/s"};
+}
+
 void judge_span(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
   if (!channel.canonical || (!starts_with(channel.name, "q") && !starts_with(channel.name, "q_ref"))) return;
   if (channel.values == 0) return;
   const double largest = std::max(std::abs(channel.min), std::abs(channel.max));
   if (channel.max - channel.min < options.position_span && largest < 5.0 * options.position_span) return;
+  const UnitWords words = position_words(axis_of(channel, options));
   issues.add(
       {"unit_implausible", channel.name, Severity::severe,
        fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in rad or m; if it is deg or mm, say so in the "
-           "header, \"{} [deg]\", or the robot file: [log.columns] {} = {{unit = \"deg\"}}",
-           channel.min, channel.max, channel.name, channel.name)});
+           "lies between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, say so in the header, \"{} [{}]\", "
+           "or the robot file: [log.columns] {} = {{unit = \"{}\"}}",
+           channel.min, channel.max, words.si, words.likely, channel.name, words.unit, channel.name,
+           words.unit)});
 }
 
 void judge_speed(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "dq") || channel.values == 0) return;
   if (std::max(std::abs(channel.min), std::abs(channel.max)) < options.fastest) return;
+  const UnitWords words = velocity_words(axis_of(channel, options));
   issues.add(
       {"unit_implausible", channel.name, Severity::warning,
        fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in rad/s or m/s; if it is deg/s, rpm or mm/s, "
-           "say so in the header or the robot file: [log.columns] {} = {{unit = \"deg/s\"}}",
-           channel.min, channel.max, channel.name)});
-}
-
-const char* guess_of(double factor) {
-  auto near = [&](double value) { return std::abs(factor / value - 1.0) < 0.1; };
-  if (factor < 0.0) return "the sign of one of them is wrong";
-  if (near(57.2958)) return "the position seems to be in degrees, the velocity in rad/s";
-  if (near(0.0174533)) return "the velocity seems to be in deg/s, the position in rad";
-  if (near(1000.0)) return "the position seems to be in mm, the velocity in m/s, or the time in ms";
-  if (near(0.001)) return "the velocity seems to be in mm/s, the position in m";
-  if (near(0.104720)) return "the velocity seems to be in rpm, the position in rad";
-  return "their units or a gear ratio differ";
+           "lies between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, say so in the header or the robot "
+           "file: [log.columns] {} = {{unit = \"{}\"}}",
+           channel.min, channel.max, words.si, words.likely, channel.name, words.unit)});
 }
 
 }  // namespace
@@ -126,24 +146,6 @@ void judge_channel(const ChannelSummary& channel, const QualityOptions& options,
   judge_saturated(channel, options, issues);
   judge_span(channel, options, issues);
   judge_speed(channel, options, issues);
-}
-
-void judge_velocity(const VelocityAgreement& agreement, int joint, Issues& issues) {
-  const std::string channel = to_string({Quantity::dq, joint});
-  if (agreement.verdict == VelocityVerdict::scaled)
-    issues.add(
-        {"velocity_contradicts_position", channel, Severity::severe,
-         fmt::format(
-             "the position changes {:.4g} times as fast as the velocity says: {}; correct it in the robot "
-             "file: [log.columns] {}",
-             agreement.factor, guess_of(agreement.factor), channel)});
-  if (agreement.verdict == VelocityVerdict::contradicts)
-    issues.add(
-        {"velocity_contradicts_position", channel, Severity::warning,
-         fmt::format(
-             "the velocity does not follow the position (correlation {:.2f}); one of them is of another "
-             "joint, or was stuck",
-             agreement.correlation)});
 }
 
 }  // namespace faultline
