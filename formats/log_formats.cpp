@@ -6,8 +6,8 @@
 
 #include "formats/csv_reader.hpp"
 #include "formats/csv_writer.hpp"
-#include "formats/native_reader.hpp"
-#include "formats/native_writer.hpp"
+#include "formats/native/native_reader.hpp"
+#include "formats/native/native_writer.hpp"
 
 namespace faultline {
 

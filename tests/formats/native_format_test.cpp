@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/native_layout.hpp"
+#include "formats/native/native_layout.hpp"
 #include "formats/open_log.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -15,15 +15,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 10000;  // two whole chunks and a shorter one
+constexpr int kRows = 10000;  // many chunks and a shorter one
 
-Log sample_log() {
+Log sample_log(int rows = kRows) {
   Log log;
   log.q.resize(2);
   log.tau.resize(2);
   log.extra.resize(1);
   log.extra[0] = {"motor temperature", "K", {}};
-  for (int i = 0; i < kRows; ++i) {
+  for (int i = 0; i < rows; ++i) {
     log.time.push_back(0.001 * i);
     for (int j = 0; j < 2; ++j) {
       log.q[j].push_back(std::sin(0.01 * i + j) / 3.0);
@@ -35,7 +35,10 @@ Log sample_log() {
 }
 
 constexpr std::size_t kChannels = 6;
-constexpr std::size_t kChunkBytes = sizeof(NativeChunkHeader) + kChunkRows * kChannels * sizeof(double);
+
+/// Rows of the first chunk and bytes that it takes.
+const int kFirst = static_cast<int>(native_chunk_rows(0));
+const std::size_t kChunkBytes = sizeof(NativeChunkHeader) + kFirst * kChannels * sizeof(double);
 
 struct ReadLog {
   Log log;
@@ -70,6 +73,9 @@ class NativeFormat : public testing::Test {
   }
 
   ReadLog read_damaged(const std::string& bytes) { return read(folder_.write("damaged.flog", bytes)); }
+  std::string without(std::size_t begin, std::size_t count) const {
+    return std::string(bytes_).erase(begin, count);
+  }
   std::string why_refused(const std::string& bytes) {
     try {
       read_damaged(bytes);
@@ -135,34 +141,60 @@ TEST_F(NativeFormat, ColumnMapDoesNotApply) {
 TEST_F(NativeFormat, ChecksumMismatchSkipsTheChunk) {
   bytes_[list_ + kChunkBytes + 100] ^= 1;
   const auto [log, identity, issues] = read_damaged(bytes_);
-  EXPECT_EQ(log.rows(), kRows - 4096);
-  EXPECT_EQ(log.time[4096], 0.001 * 8192);
+  EXPECT_EQ(log.rows(), kRows - kFirst);
+  EXPECT_EQ(log.time[kFirst], 0.001 * (2 * kFirst));
   ASSERT_NE(issues.find("chunk_damaged"), nullptr);
-  EXPECT_EQ(issues.find("chunk_damaged")->rows_dropped, 4096);
+  EXPECT_EQ(issues.find("chunk_damaged")->rows_dropped, kFirst);
   EXPECT_EQ(issues.find("chunk_damaged")->severity, Severity::severe);
-  EXPECT_EQ(issues.find("chunk_damaged")->first_row, 4097);
+  EXPECT_EQ(issues.find("chunk_damaged")->first_row, kFirst + 1);
   EXPECT_EQ(identity.rows_read, kRows);
 }
 
 TEST_F(NativeFormat, DamagedChunkHeaderIsPassedOverToTheNextChunk) {
   bytes_[list_ + 5] ^= 1;
   const auto [log, identity, issues] = read_damaged(bytes_);
-  EXPECT_EQ(log.rows(), kRows - 4096);
-  EXPECT_EQ(issues.rows_dropped(), 4096);
+  EXPECT_EQ(log.rows(), kRows - kFirst);
+  EXPECT_EQ(issues.rows_dropped(), kFirst);
+  EXPECT_EQ(identity.rows_read, kRows);
+}
+
+TEST_F(NativeFormat, MissingBytesCostTheirChunkAlone) {
+  const std::size_t second = list_ + kChunkBytes;
+  for (const std::size_t missing : {1, 31, 33, 100}) {
+    const auto [log, identity, issues] = read_damaged(without(second + 50, missing));
+    EXPECT_EQ(log.rows(), kRows - kFirst) << missing;
+    EXPECT_EQ(issues.rows_dropped(), kFirst) << missing;
+    EXPECT_EQ(issues.find("file_truncated"), nullptr) << missing;
+  }
+}
+
+TEST_F(NativeFormat, MissingBytesInTheLastChunkKeepTheEndMark) {
+  const auto [log, identity, issues] = read_damaged(without(bytes_.size() - 500, 100));
+  ASSERT_NE(issues.find("chunk_damaged"), nullptr);
+  EXPECT_EQ(issues.find("file_truncated"), nullptr);
+  EXPECT_LE(issues.rows_dropped(), 256);
+  EXPECT_EQ(identity.rows_read, kRows);
+}
+
+TEST_F(NativeFormat, AWholeChunkThatIsMissingIsTold) {
+  const auto [log, identity, issues] = read_damaged(without(list_, kChunkBytes));
+  EXPECT_EQ(log.rows(), kRows - kFirst);
+  ASSERT_NE(issues.find("chunk_damaged"), nullptr);
+  EXPECT_NE(issues.find("chunk_damaged")->message.find("chunks are missing"), std::string::npos);
   EXPECT_EQ(identity.rows_read, kRows);
 }
 
 TEST_F(NativeFormat, TruncatedTailKeepsWholeChunks) {
-  const auto [log, identity, issues] = read_damaged(bytes_.substr(0, list_ + kChunkBytes + 1000));
-  EXPECT_EQ(log.rows(), 4096);
+  const auto [log, identity, issues] = read_damaged(bytes_.substr(0, list_ + kChunkBytes + 200));
+  EXPECT_EQ(log.rows(), kFirst);
   ASSERT_NE(issues.find("file_truncated"), nullptr);
-  EXPECT_EQ(issues.find("file_truncated")->rows_dropped, 4096);
-  EXPECT_NE(issues.find("file_truncated")->message.find("4096"), std::string::npos);
+  EXPECT_EQ(issues.find("file_truncated")->rows_dropped, kFirst);
+  EXPECT_NE(issues.find("file_truncated")->message.find("its 8 rows"), std::string::npos);
 }
 
 TEST_F(NativeFormat, TruncationBetweenChunksIsNoticed) {
   const auto [log, identity, issues] = read_damaged(bytes_.substr(0, list_ + kChunkBytes));
-  EXPECT_EQ(log.rows(), 4096);
+  EXPECT_EQ(log.rows(), kFirst);
   EXPECT_NE(issues.find("file_truncated"), nullptr);
 }
 
@@ -180,14 +212,37 @@ TEST_F(NativeFormat, BytesAfterTheEndMarkAreReported) {
 }
 
 TEST_F(NativeFormat, NewerVersionIsRefused) {
-  bytes_[8] = 2;
+  bytes_[8] = bytes_[list_ / 2 + 8] = 3;
   const std::string why = why_refused(bytes_);
-  EXPECT_NE(why.find("version 2"), std::string::npos) << why;
+  EXPECT_NE(why.find("version 3"), std::string::npos) << why;
   EXPECT_NE(why.find("newer faultline"), std::string::npos) << why;
 }
 
-TEST_F(NativeFormat, DamagedFileHeaderIsRefused) {
+TEST_F(NativeFormat, OneDamagedFileHeaderIsReadFromItsCopy) {
+  for (const std::size_t place :
+       {std::size_t{0}, std::size_t{8}, std::size_t{14}, std::size_t{20}, list_ - 30}) {
+    std::string bytes = bytes_;
+    bytes[place] ^= 1;
+    const auto [log, identity, issues] = read_damaged(bytes);
+    EXPECT_EQ(log.rows(), kRows) << place;
+    EXPECT_TRUE(same_bits(log.q[1], sample_log().q[1])) << place;
+    ASSERT_NE(issues.find("header_damaged"), nullptr) << place;
+    EXPECT_EQ(issues.all().size(), 1u) << place;
+  }
+}
+
+TEST_F(NativeFormat, BytesMissingInAFileHeaderLoseNoRow) {
+  for (const std::size_t place : {std::size_t{4}, std::size_t{30}, list_ / 2 + 2, list_ - 40})
+    for (const std::size_t missing : {1, 33}) {
+      const auto [log, identity, issues] = read_damaged(without(place, missing));
+      EXPECT_EQ(log.rows(), kRows) << place;
+      EXPECT_NE(issues.find("header_damaged"), nullptr) << place;
+    }
+}
+
+TEST_F(NativeFormat, DamageInBothFileHeadersIsRefused) {
   bytes_[20] ^= 1;
+  bytes_[list_ / 2 + 20] ^= 1;
   EXPECT_NE(why_refused(bytes_).find("damaged header"), std::string::npos);
   bytes_[14] = '\x7f';
   EXPECT_NE(why_refused(bytes_).find("damaged header"), std::string::npos);

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
+#include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/log/log_channels.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/simulate/spec_file.hpp"
 
@@ -23,12 +26,28 @@ std::string made_by_program(const std::string& robot) {
   return folder + "/";
 }
 
+/// The same channels and numbers, bit for bit; the binary samples are of an earlier version of the format.
+void expect_same_rows(const std::string& made, const std::string& kept) {
+  Log mine = read_all(*open_log(made)), theirs = read_all(*open_log(kept));
+  ASSERT_GT(theirs.rows(), 0) << kept;
+  EXPECT_EQ(mine.extra.size(), theirs.extra.size()) << kept;
+  EXPECT_EQ(mine.joints(), theirs.joints()) << kept;
+  for_each_column(mine, theirs, [&](const std::vector<double>& a, const std::vector<double>& b) {
+    EXPECT_TRUE(a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0)
+        << kept;
+  });
+}
+
 void expect_same_logs(const std::string& robot) {
   const std::string folder = made_by_program(robot);
   const SimulationFile file = load_simulation_file(kSamples + robot + "/spec.toml");
   for (const RunSpec& run : file.runs) {
     const std::string name = run.name + "." + file.format;
-    EXPECT_TRUE(read_file(folder + name) == read_file(kSamples + robot + "/" + name)) << robot << "/" << name;
+    const std::string kept = kSamples + robot + "/" + name;
+    if (file.format == "flog")
+      expect_same_rows(folder + name, kept);
+    else
+      EXPECT_TRUE(read_file(folder + name) == read_file(kept)) << kept;
   }
   EXPECT_EQ(read_file(folder + "labels.csv"), read_file(kSamples + robot + "/labels.csv"));
   std::filesystem::remove_all(folder);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace faultline {
@@ -15,11 +16,16 @@ inline constexpr std::string_view kNativeMagic{
     "\x89"
     "FLOG\r\n\x1a",
     8};
-inline constexpr std::uint32_t kNativeVersion = 1;
+inline constexpr std::uint32_t kNativeVersion = 2;         ///< written
+inline constexpr std::uint32_t kTwoPrefacesVersion = 2;    ///< from this one on the preface stands twice
 inline constexpr std::uint32_t kChunkMarker = 0x4b4e4843;  ///< "CHNK"
 inline constexpr std::uint32_t kEndMarker = 0x454e4f44;    ///< "DONE"
-inline constexpr std::uint32_t kChunkRows = 4096;          ///< of every chunk but the last
-inline constexpr std::uint32_t kMostChunkRows = 1 << 16;   ///< a reader accepts
+
+// What a reader accepts, and a writer keeps to.
+inline constexpr std::uint32_t kMostChunkRows = 1 << 16;
+inline constexpr std::uint64_t kMostRows = 1ULL << 53;  ///< of a file
+inline constexpr std::uint32_t kLongestList = 1 << 22;  ///< bytes of the channel list
+inline constexpr std::size_t kMostChannels = 1 << 14;
 
 /// What stands before the channel list.
 struct NativePreface {
@@ -42,7 +48,14 @@ static_assert(sizeof(NativeChunkHeader) == 32);
 std::uint64_t native_hash(std::string_view bytes);
 /// Of the fields before `own_hash`.
 std::uint64_t hash_of(const NativeChunkHeader& header);
-/// True when the header is undamaged and of a kind a reader knows.
+/// True when the header is undamaged, of a kind a reader knows, and of rows that exist.
 bool is_sound(const NativeChunkHeader& header);
+
+/// The preface with its hash around a channel list, once.
+std::string native_preface(std::string_view list);
+
+/// Rows of the chunk that begins with row `first_row`, unless the log ends before: few in a short log, so
+/// that damage costs it a small part only.
+std::uint32_t native_chunk_rows(std::uint64_t first_row);
 
 }  // namespace faultline

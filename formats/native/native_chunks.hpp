@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "formats/byte_window.hpp"
+#include "formats/native/native_layout.hpp"
+#include "lib/core/issue.hpp"
+
+namespace faultline {
+
+/// Where the first sound header of a chunk, or the end mark, lies in `bytes` that speaks of no row before
+/// `least_row`; npos for none.
+std::size_t find_native_header(std::string_view bytes, std::uint64_t least_row);
+
+/// The sound chunks of a native log in their order. What damage hides is left out and told in the issues: the
+/// chunks go on at the next header that can be found.
+class NativeChunks {
+ public:
+  NativeChunks(ByteWindow& bytes, std::size_t channels, Issues& issues)
+      : bytes_(bytes), channels_(channels), issues_(issues) {}
+
+  /// Goes on to the next chunk; false after the last one, when the file has been read to its end.
+  bool next();
+  std::int64_t first_row() const { return static_cast<std::int64_t>(next_row_) - rows_; }
+  std::int64_t rows() const { return rows_; }
+  /// Copies `count` values of a channel from row `row` of the chunk on.
+  void copy(std::size_t channel, std::int64_t row, std::int64_t count, double* to) const;
+  std::int64_t rows_lost() const { return rows_lost_; }
+
+ private:
+  bool find_header(NativeChunkHeader& header);
+  bool take(const NativeChunkHeader& header);
+  void pass_damaged(const NativeChunkHeader& header, std::size_t size, bool whole);
+  void lose(const char* code, std::uint64_t rows, const std::string& what);
+  void finish();
+
+  ByteWindow& bytes_;
+  std::size_t channels_;
+  Issues& issues_;
+  std::uint64_t next_row_ = 0;     ///< all before it were handed out or lost
+  std::int64_t rows_ = 0;          ///< in the present chunk
+  std::size_t chunk_bytes_ = 0;    ///< of the present chunk, at the front of the view
+  std::int64_t bytes_hashed_ = 0;  ///< of damaged chunks
+  std::int64_t rows_lost_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace faultline
