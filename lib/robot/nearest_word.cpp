@@ -27,6 +27,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::string best;
   std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string& candidate : known) {
+    const std::size_t shorter = std::min(word.size(), candidate.size());
+    if (std::max(word.size(), candidate.size()) - shorter >= distance) continue;
     const std::size_t d = edit_distance(word, candidate);
     if (d < distance) {
       distance = d;

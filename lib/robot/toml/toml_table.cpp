@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/nearest_word.hpp"
+#include "lib/robot/toml/toml_depth.hpp"
 #include "lib/robot/toml/toml_table_data.hpp"
 
 namespace faultline {
@@ -23,6 +24,9 @@ const toml::table& empty_table() {
 }  // namespace
 
 TomlTable TomlTable::parse(const std::string& text, const std::string& where) {
+  if (const auto place = too_deep(text))
+    throw Error(ErrorCode::usage, fmt::format("{}, line {}, column {}", where, place->line, place->column),
+                fmt::format("nests deeper than {} levels, which no option file does", kMostTomlNesting));
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text));
     return TomlTable(std::make_shared<Data>(Data{root, root.get(), where, "", {}, {}}));

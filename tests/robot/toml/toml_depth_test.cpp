@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/toml/toml_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "lib/simulate/spec_file.hpp"
+
+namespace faultline {
+namespace {
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    robot_from_toml(text, "r.toml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(TomlDepth, KeysOfManyDotsAreRefusedNotFollowed) {
+  const std::string deep = "a" + repeated(".a", 35000);
+  const std::string three = "\"\"\"";
+  for (const std::string& text :
+       {deep + " = 1", "[" + deep + "]", "[[" + deep + "]]", "x = {" + deep + " = 1}",
+        "x = [" + three + "text" + three + "\", {" + deep + " = 1}]", "# 'comment\n" + deep + " = 1",
+        "x = '\\'\n" + deep + " = 1", "a" + repeated(" . \"a\"", 35000) + " = 1",
+        "1" + repeated(".1", 35000) + "=1"})
+    EXPECT_NE(error_of("axes = \"RRP\"\n" + text).find("nests deeper than"), std::string::npos)
+        << text.substr(0, 40);
+}
+
+TEST(TomlDepth, BracketsWithinBracketsAreRefusedNotFollowed) {
+  EXPECT_NE(error_of("x = " + repeated("[", 100000)).find("nests deeper than"), std::string::npos);
+  EXPECT_NE(error_of("x = " + repeated("{a=", 100000)).find("nests deeper than"), std::string::npos);
+}
+
+TEST(TomlDepth, PlaceIsNamed) {
+  const auto place = too_deep("a = 1\n b" + repeated(".b", 17));
+  ASSERT_TRUE(place.has_value());
+  EXPECT_EQ(place->line, 2);
+  EXPECT_EQ(place->column, 3 + 2 * 16);
+}
+
+TEST(TomlDepth, TextCommentsAndManyNumbersAreNotDeep) {
+  const std::string dots = repeated(".", 100), open = repeated("[{", 100);
+  EXPECT_FALSE(too_deep("a = \"" + dots + open + "\\\"" + dots + "\""));
+  EXPECT_FALSE(too_deep("a = '" + dots + open + "'"));
+  EXPECT_FALSE(too_deep("a = \"\"\"\n" + dots + "\n\"" + open + "\"\"\""));
+  EXPECT_FALSE(too_deep("a = 1 # " + dots + open));
+  EXPECT_FALSE(too_deep("a = [" + repeated("1.5, ", 1000) + "]\n" + repeated("b.c = 0.1\n", 100)));
+}
+
+TEST(TomlDepth, SpecsStandBehindTheSameGate) {
+  const std::string deep = "a" + repeated(".a", 35000) + " = 1\n";
+  EXPECT_THROW(simulation_from_toml(deep, "spec.toml", "."), Error);
+}
+
+}  // namespace
+}  // namespace faultline
