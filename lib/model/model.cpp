@@ -7,6 +7,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/core/json/json_depth.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
@@ -147,6 +148,7 @@ std::string model_to_json(const Model& model) {
 }
 
 Model model_from_json(const std::string& text, const std::string& where) {
+  refuse_deep_json(text, where);
   const nlohmann::json json = parse(text, where);
   try {
     Model model = read_members(json, where);
