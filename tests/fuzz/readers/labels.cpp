@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "apps/labels.hpp"
+
+#include "tests/fuzz/readers/feeding.hpp"
+#include "tests/fuzz/readers/readers.hpp"
+
+namespace faultline {
+
+void feed_labels(const std::string& bytes) {
+  const std::string path = file_of("labels.csv", bytes);
+  read_or_refuse([&] {
+    for (const LogLabel& label : read_labels(path)) demand(label.label.joint >= 0, "joints count from 1");
+  });
+}
+
+}  // namespace faultline
