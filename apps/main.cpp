@@ -4,6 +4,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/removed_on_signal.hpp"
 
 namespace faultline {
 namespace {
@@ -70,5 +71,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   faultline::prepare_standard_streams();
+  faultline::remove_files_on_signals();
   return faultline::guarded([&] { return faultline::run(argc, argv); });
 }

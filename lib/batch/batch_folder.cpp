@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/temporary_name.hpp"
 
 namespace faultline {
 namespace {
@@ -32,11 +33,6 @@ std::vector<fs::path> files_in(const std::string& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, error)) files.push_back(entry.path());
   return files;
-}
-
-bool is_left_half_written(const fs::path& file) {
-  static const std::regex pattern(R"(.*\.partial-[0-9]+-[0-9]+)");
-  return std::regex_match(file.filename().string(), pattern);
 }
 
 bool is_result(const fs::path& file) {
@@ -92,7 +88,7 @@ void BatchFolder::mark_unfinished() const { remove_file(finished()); }
 void BatchFolder::clean(const std::set<std::string>& results) const {
   for (const char* part : {"", ".batch", "logs"})
     for (const fs::path& file : files_in(file(part)))
-      if (is_left_half_written(file)) remove_file(file);
+      if (is_temporary_name(file.filename().string())) remove_file(file);
   for (const fs::path& file : files_in(file("logs")))
     if (is_result(file) && !results.count(file.filename().string())) remove_file(file);
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case_file.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/temporary_file.hpp"
 
 namespace faultline {
 namespace {
@@ -178,16 +175,6 @@ CaseBase read_content(SqliteFile& file, const std::string& path) try {
   refuse(path, "is a damaged case base: " + std::string(error.what()));
 }
 
-/// A path beside `path` that is removed, with SQLite's journal, unless it was renamed.
-struct Temporary {
-  std::string path;
-  ~Temporary() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    std::filesystem::remove(path + "-journal", ignored);
-  }
-};
-
 }  // namespace
 
 std::string case_base_path(const std::string& model) { return model + ".cases.db"; }
@@ -199,18 +186,16 @@ CaseBase read_case_base(const std::string& path) {
 }
 
 void write_case_base(const std::string& path, const CaseBase& base) try {
-  const Temporary temporary{path + ".partial-" + std::to_string(::getpid())};
-  std::filesystem::remove(temporary.path);
+  TemporaryFile temporary(path);
   {
-    SqliteFile file(temporary.path, SqliteMode::create);
+    SqliteFile file(temporary.path(), SqliteMode::create);
+    file.text("PRAGMA journal_mode = OFF");  // nobody sees the file before it is whole
     file.run("BEGIN IMMEDIATE");
     file.run(kSchema);
     write_content(file, base);
     file.run("COMMIT");
   }
-  if (std::rename(temporary.path.c_str(), path.c_str()) != 0)
-    throw Error(ErrorCode::output, path,
-                std::string("cannot be renamed into place (") + std::strerror(errno) + ")");
+  temporary.commit();
 } catch (const Error& error) {
   throw Error(
       ErrorCode::output, path,

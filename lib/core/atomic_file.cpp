@@ -7,30 +7,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <sstream>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/output_place.hpp"
 
 namespace faultline {
-
-namespace {
-
-/// A pipe or a device such as /dev/stderr, which is written straight: it must not be replaced by a file.
-bool is_device(const std::string& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-         !std::filesystem::is_directory(status);
-}
-
-/// Differs between threads, processes and machines that write into one folder.
-std::string temporary_name(const std::string& path) {
-  thread_local std::random_device entropy;
-  return path + ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(entropy());
-}
-
-}  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   to_stdout_ = path_ == "-";
@@ -38,26 +20,28 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     file_ = stdout;
     return;
   }
-  if (!is_device(path_)) temporary_ = temporary_name(path_);
-  file_ = std::fopen(temporary_.empty() ? path_.c_str() : temporary_.c_str(), "wb");
+  const OutputPlace place = output_place(path_);
+  if (!place.special) temporary_.emplace(path_);
+  if (place.special && place.descriptor < 0) {
+    file_ = std::fopen(place.path.c_str(), "wb");
+  } else {
+    const int descriptor = ::dup(temporary_ ? temporary_->descriptor() : place.descriptor);
+    file_ = descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb");
+  }
   if (!file_) fail("created");
 }
 
 AtomicFile::~AtomicFile() {
-  if (to_stdout_ || !file_) return;
-  std::fclose(file_);
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  if (!to_stdout_ && file_) std::fclose(file_);
 }
 
 void AtomicFile::fail(const char* doing) {
-  const std::string reason = std::strerror(errno);
+  const int reason = errno;
   if (file_ && !to_stdout_) std::fclose(file_);
   file_ = nullptr;
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
-  throw Error(
-      ErrorCode::output, to_stdout_ ? "standard output" : path_,
-      std::string("cannot be ") + doing + " (" + reason +
-          "); nothing was left under that name. Check that the folder exists, is writable and has room");
+  temporary_.reset();
+  errno = reason;
+  fail_to_write(to_stdout_ ? "standard output" : path_, doing);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -69,9 +53,9 @@ void AtomicFile::commit() {
   if (to_stdout_) return;
   std::FILE* file = file_;
   file_ = nullptr;
-  const bool synced = ::fsync(::fileno(file)) == 0 || errno == EINVAL;
+  const bool synced = temporary_ || ::fsync(::fileno(file)) == 0 || errno == EINVAL;
   if (std::fclose(file) != 0 || !synced) fail("written");
-  if (!temporary_.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renamed into place");
+  if (temporary_) temporary_->commit();
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "lib/core/files/temporary_file.hpp"
+
 namespace faultline {
 
-/// A file that appears under its final name only when commit() succeeds: bytes go to a temporary name beside
-/// it, which is renamed at the end and removed when the object dies uncommitted. The path "-" is standard
-/// output; a pipe or device is written straight. Every failure to write throws Error(output).
+/// A file that appears under its final name only when commit() succeeds: bytes go to a TemporaryFile beside
+/// it. The path "-" is standard output; a pipe, a device or an open file (/dev/stdout) is written straight.
+/// Every failure to write throws Error(output).
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -24,7 +27,7 @@ class AtomicFile {
   [[noreturn]] void fail(const char* doing);
 
   std::string path_;
-  std::string temporary_;
+  std::optional<TemporaryFile> temporary_;
   std::FILE* file_ = nullptr;
   bool to_stdout_ = false;
 };

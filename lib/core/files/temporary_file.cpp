@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "lib/core/files/temporary_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "lib/core/error.hpp"
+#include "lib/core/files/held_signals.hpp"
+#include "lib/core/files/output_place.hpp"
+#include "lib/core/files/temporary_name.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kTries = 100;
+constexpr mode_t kPermissions = 0777;
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// The name in the folder is on the disk, too, where the file system can promise that.
+void sync_folder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+bool sync_file(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL; }
+
+}  // namespace
+
+void fail_to_write(const std::string& path, const char* doing) {
+  const std::string reason = std::strerror(errno);
+  wait_if_ending();
+  throw Error(
+      ErrorCode::output, path,
+      std::string("cannot be ") + doing + " (" + reason +
+          "); nothing was changed under that name. Check that the folder exists, is writable and has room");
+}
+
+TemporaryFile::TemporaryFile(std::string target) : target_(std::move(target)) {
+  place_ = output_place(target_).path;
+  remove_abandoned_files(folder_of(place_));
+  struct stat there {};
+  const bool exists = ::stat(place_.c_str(), &there) == 0;
+  errno = exists && S_ISDIR(there.st_mode) ? EISDIR : 0;
+  if (errno != 0) fail("created");
+  if (exists && ::faccessat(AT_FDCWD, place_.c_str(), W_OK, AT_EACCESS) != 0) fail("replaced");
+  for (int tries = 0; !create(); ++tries)
+    if (errno != EEXIST || tries == kTries) fail("created");
+  if (exists) take_over_mode();
+}
+
+/// False with errno EEXIST when another try may succeed.
+bool TemporaryFile::create() {
+  path_ = temporary_name(place_);
+  {
+    const HeldSignals held;
+    on_signal_ = std::make_unique<RemovedOnSignal>(path_);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  }
+  if (descriptor_ < 0) {
+    const int reason = errno;
+    on_signal_.reset();
+    path_.clear();
+    errno = reason;
+    return false;
+  }
+  struct stat facts {};
+  const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  if (locked && ::fstat(descriptor_, &facts) == 0 && facts.st_nlink > 0) return true;
+  remove();  // another program took it for abandoned before it was locked
+  errno = EEXIST;
+  return false;
+}
+
+void TemporaryFile::take_over_mode() {
+  struct stat there {};
+  if (::stat(place_.c_str(), &there) != 0) return;
+  if (::fchown(descriptor_, there.st_uid, there.st_gid) != 0) errno = 0;  // only root may give files away
+  if (::fchmod(descriptor_, there.st_mode & kPermissions) != 0) fail("given the mode it had");
+}
+
+void TemporaryFile::remove() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+  path_.clear();
+  on_signal_.reset();
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+TemporaryFile::~TemporaryFile() { remove(); }
+
+void TemporaryFile::fail(const char* doing) {
+  const int reason = errno;
+  remove();
+  errno = reason;
+  fail_to_write(target_, doing);
+}
+
+void TemporaryFile::commit() {
+  if (!sync_file(descriptor_)) fail("written");
+  if (std::rename(path_.c_str(), place_.c_str()) != 0) fail("renamed into place");
+  path_.clear();
+  on_signal_.reset();
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  sync_folder(folder_of(place_));
+  if (closed != 0) fail("written");
+}
+
+}  // namespace faultline

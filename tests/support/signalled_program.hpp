@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace faultline {
+
+/// Starts the built program `faultline` and sends it the signal after a while. Whether that ended it; false
+/// when it had ended before.
+bool ended_by(int signal, double seconds, const std::vector<std::string>& arguments);
+
+}  // namespace faultline
