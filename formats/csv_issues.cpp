@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "formats/provenance.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
@@ -65,6 +66,8 @@ void CsvIssues::add_first_row(const CsvPlace& place, const char* code, const std
   issues_.add({code, "", severity, words(place) + " " + what, place.row + 1, kNan, 1, dropped ? 1 : 0});
   more_rows_.push_back({code});
 }
+
+void CsvIssues::add_provenance(std::string_view text) { issues_.add(issue_from_provenance(text)); }
 
 const Issues& CsvIssues::all() const {
   for (std::size_t i = 0; i < text_cells_.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "formats/csv_fields.hpp"
 #include "formats/csv_header.hpp"
+#include "formats/csv_provenance.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
@@ -83,7 +84,10 @@ CsvRow CsvRowReader::read_open(std::string_view line, std::string_view before, c
 
 /// `usual` says how last cells are written where the file ended in the line; null elsewhere.
 CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual) {
-  if (is_comment_or_blank(line)) return CsvRow::skip;
+  if (is_comment_or_blank(line)) {
+    if (line.starts_with(kProvenanceComment)) issues_.add_provenance(line.substr(kProvenanceComment.size()));
+    return CsvRow::skip;
+  }
   split_fields(line, dialect_.separator, fields_);
   if (repeats_header(dialect_, fields_)) {
     issues_.add_row(

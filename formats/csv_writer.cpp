@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "formats/channel_list.hpp"
+#include "formats/csv_provenance.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"
 
@@ -39,6 +40,10 @@ class CsvWriter : public LogWriter {
       text_.push_back('\n');
     }
     file_.write({text_.data(), text_.size()});
+  }
+
+  void note_provenance(const std::string& provenance) override {
+    file_.write(std::string(kProvenanceComment) + provenance + "\n");
   }
 
   void commit() override { file_.commit(); }

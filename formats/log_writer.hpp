@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -12,6 +14,8 @@ class LogWriter {
  public:
   virtual ~LogWriter() = default;
   virtual void write(const Log& segment) = 0;
+  /// Puts what provenance_of() says behind the rows; to be called once at most, after all write().
+  virtual void note_provenance(const std::string& provenance) = 0;
   virtual void commit() = 0;
 };
 

@@ -7,12 +7,14 @@
 #include <cstring>
 #include <limits>
 
+#include "formats/provenance.hpp"
+
 namespace faultline {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kHeaderBytes = sizeof(NativeChunkHeader);
-/// Damaged chunks are searched for the next header while those before hold no more than so many bytes and the
+/// Damaged blocks are searched for the next header while those before hold no more than so many bytes and the
 /// file up to there; else nested ones would take time with the square of their number.
 constexpr std::int64_t kSearchedFreely = 1 << 24;
 
@@ -28,7 +30,7 @@ std::size_t find_native_header(std::string_view bytes, std::uint64_t least_row) 
   for (std::size_t at = 0; at + kHeaderBytes <= bytes.size(); ++at) {
     std::uint32_t marker = 0;
     std::memcpy(&marker, bytes.data() + at, sizeof marker);
-    if (marker != kChunkMarker && marker != kEndMarker) continue;
+    if (!is_known_marker(marker)) continue;
     const NativeChunkHeader header = header_at(bytes, at);
     if (header.first_row >= least_row && is_sound(header)) return at;
   }
@@ -85,10 +87,15 @@ bool NativeChunks::next() {
       finish();
       return false;
     }
-    if (take(header)) return true;
+    if (header.marker == kProvenanceMarker)
+      read_provenance(header);
+    else if (take(header))
+      return true;
   }
   return false;
 }
+
+bool NativeChunks::may_search() const { return bytes_hashed_ <= kSearchedFreely + bytes_.position(); }
 
 bool NativeChunks::take(const NativeChunkHeader& header) {
   const std::size_t size = header.rows * channels_ * sizeof(double);
@@ -109,9 +116,8 @@ void NativeChunks::pass_damaged(const NativeChunkHeader& header, std::size_t siz
   const std::string_view view = bytes_.view();
   const std::size_t reach = std::min(view.size(), size + kHeaderBytes - 1);
   bytes_hashed_ += whole ? static_cast<std::int64_t>(size) : 0;
-  const bool search = bytes_hashed_ <= kSearchedFreely + bytes_.position();
-  const std::size_t found =
-      search ? find_native_header(view.substr(0, reach), next_row_ + header.rows) : std::string_view::npos;
+  const std::size_t found = may_search() ? find_native_header(view.substr(0, reach), next_row_ + header.rows)
+                                         : std::string_view::npos;
   if (whole)
     lose("chunk_damaged", header.rows,
          fmt::format("the checksum of a chunk does not match; its {} rows were left out", header.rows));
@@ -123,6 +129,17 @@ void NativeChunks::pass_damaged(const NativeChunkHeader& header, std::size_t siz
          fmt::format("the file is cut inside a chunk; its {} rows were left out", header.rows));
   bytes_.advance(std::min(found, whole ? size : view.size()));
   if (!whole && found == std::string_view::npos) finish();
+}
+
+/// Where its text is damaged the next header may lie in it, and is looked for from its first byte on.
+void NativeChunks::read_provenance(const NativeChunkHeader& header) {
+  const std::size_t size = header.rows;
+  const bool whole = bytes_.fill(size);
+  const std::string_view text = bytes_.view().substr(0, size);
+  const bool sound = whole && native_hash(text) == header.data_hash;
+  issues_.add(issue_from_provenance(sound ? text : ""));
+  if (whole && !sound) bytes_hashed_ += static_cast<std::int64_t>(size);
+  if (sound || (whole && !may_search())) bytes_.advance(size);
 }
 
 /// Reads what may follow, so that the hash covers the whole file.

@@ -11,8 +11,8 @@
 
 namespace faultline {
 
-/// Where the first sound header of a chunk, or the end mark, lies in `bytes` that speaks of no row before
-/// `least_row`; npos for none.
+/// Where the first sound header of a chunk, of provenance, or the end mark, lies in `bytes` that speaks of no
+/// row before `least_row`; npos for none.
 std::size_t find_native_header(std::string_view bytes, std::uint64_t least_row);
 
 /// The sound chunks of a native log in their order. What damage hides is left out and told in the issues: the
@@ -33,6 +33,8 @@ class NativeChunks {
  private:
   bool find_header(NativeChunkHeader& header);
   bool take(const NativeChunkHeader& header);
+  void read_provenance(const NativeChunkHeader& header);
+  bool may_search() const;
   void pass_damaged(const NativeChunkHeader& header, std::size_t size, bool whole);
   void lose(const char* code, std::uint64_t rows, const std::string& what);
   void finish();
@@ -43,7 +45,7 @@ class NativeChunks {
   std::uint64_t next_row_ = 0;     ///< all before it were handed out or lost
   std::int64_t rows_ = 0;          ///< in the present chunk
   std::size_t chunk_bytes_ = 0;    ///< of the present chunk, at the front of the view
-  std::int64_t bytes_hashed_ = 0;  ///< of damaged chunks
+  std::int64_t bytes_hashed_ = 0;  ///< of damaged chunks and provenance
   std::int64_t rows_lost_ = 0;
   bool finished_ = false;
 };

@@ -25,8 +25,12 @@ std::uint64_t hash_of(const NativeChunkHeader& header) {
   return native_hash({reinterpret_cast<const char*>(&header), offsetof(NativeChunkHeader, own_hash)});
 }
 
+bool is_known_marker(std::uint32_t marker) {
+  return marker == kChunkMarker || marker == kProvenanceMarker || marker == kEndMarker;
+}
+
 bool is_sound(const NativeChunkHeader& header) {
-  const bool known = header.marker == kEndMarker || (header.marker == kChunkMarker && header.rows > 0);
+  const bool known = is_known_marker(header.marker) && (header.marker != kChunkMarker || header.rows > 0);
   return known && header.rows <= kMostChunkRows && header.first_row <= kMostRows - header.rows &&
          header.own_hash == hash_of(header);
 }

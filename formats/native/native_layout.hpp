@@ -16,10 +16,11 @@ inline constexpr std::string_view kNativeMagic{
     "\x89"
     "FLOG\r\n\x1a",
     8};
-inline constexpr std::uint32_t kNativeVersion = 2;         ///< written
-inline constexpr std::uint32_t kTwoPrefacesVersion = 2;    ///< from this one on the preface stands twice
-inline constexpr std::uint32_t kChunkMarker = 0x4b4e4843;  ///< "CHNK"
-inline constexpr std::uint32_t kEndMarker = 0x454e4f44;    ///< "DONE"
+inline constexpr std::uint32_t kNativeVersion = 2;              ///< written
+inline constexpr std::uint32_t kTwoPrefacesVersion = 2;         ///< from this one on the preface stands twice
+inline constexpr std::uint32_t kChunkMarker = 0x4b4e4843;       ///< "CHNK"
+inline constexpr std::uint32_t kProvenanceMarker = 0x564f5250;  ///< "PROV"
+inline constexpr std::uint32_t kEndMarker = 0x454e4f44;         ///< "DONE"
 
 // What a reader accepts, and a writer keeps to.
 inline constexpr std::uint32_t kMostChunkRows = 1 << 16;
@@ -38,13 +39,15 @@ static_assert(sizeof(NativePreface) == 16);
 /// What stands before the numbers of a chunk, and at the end of the file.
 struct NativeChunkHeader {
   std::uint32_t marker = kChunkMarker;
-  std::uint32_t rows = 0;
+  std::uint32_t rows = 0;       ///< of provenance, bytes
   std::uint64_t first_row = 0;  ///< of the chunk, from 0; at the end of the file all rows
   std::uint64_t data_hash = 0;  ///< XXH3 of the numbers
   std::uint64_t own_hash = 0;   ///< XXH3 of the 24 bytes before
 };
 static_assert(sizeof(NativeChunkHeader) == 32);
 
+/// Whether a header of a kind that a reader knows may begin with it.
+bool is_known_marker(std::uint32_t marker);
 std::uint64_t native_hash(std::string_view bytes);
 /// Of the fields before `own_hash`.
 std::uint64_t hash_of(const NativeChunkHeader& header);

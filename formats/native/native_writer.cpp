@@ -42,6 +42,14 @@ class NativeWriter : public LogWriter {
     }
   }
 
+  void note_provenance(const std::string& provenance) override {
+    if (rows_ > 0) end_chunk();
+    reserve(sizeof(NativeChunkHeader));
+    put_header({kProvenanceMarker, static_cast<std::uint32_t>(provenance.size()), rows_written_,
+                native_hash(provenance), 0});
+    put(provenance);
+  }
+
   void commit() override {
     if (rows_ > 0) end_chunk();
     reserve(sizeof(NativeChunkHeader));

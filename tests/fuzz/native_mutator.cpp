@@ -41,7 +41,8 @@ void mend_header(std::uint8_t* data, std::size_t size, std::size_t channels, std
   std::memcpy(&header, data, sizeof header);
   if (random() % 16 == 0) header.rows = static_cast<std::uint32_t>(kOddRows[random() % std::size(kOddRows)]);
   if (random() % 16 == 0) header.first_row = kOddRows[random() % std::size(kOddRows)];
-  const std::size_t bytes = header.rows * channels * sizeof(double);
+  const std::size_t row_bytes = header.marker == kProvenanceMarker ? 1 : channels * sizeof(double);
+  const std::size_t bytes = header.rows * row_bytes;
   if (bytes <= size - sizeof header && random() % 8 != 0)
     header.data_hash = native_hash(view(data + sizeof header, bytes));
   if (random() % 16 != 0) header.own_hash = hash_of(header);
@@ -54,7 +55,7 @@ void mend(std::uint8_t* data, std::size_t size, std::mt19937& random) {
   for (; at + sizeof(NativeChunkHeader) <= size; ++at) {
     std::uint32_t marker = 0;
     std::memcpy(&marker, data + at, sizeof marker);
-    if (marker == kChunkMarker || marker == kEndMarker) mend_header(data + at, size - at, channels, random);
+    if (is_known_marker(marker)) mend_header(data + at, size - at, channels, random);
   }
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "formats/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/open_log.hpp"
+#include "formats/write_log.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/hash.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+Log long_log() {
+  Log log;
+  log.q.resize(1);
+  for (int i = 0; i < 10000; ++i) {
+    log.time.push_back(0.001 * i);
+    log.q[0].push_back(i / 3.0);
+  }
+  return log;
+}
+
+struct ReadLog {
+  Log log;
+  LogIdentity identity;
+  Issues issues;
+};
+
+ReadLog read(const std::string& path) {
+  const auto source = open_log(path);
+  ReadLog result{read_all(*source), {}, {}};
+  result.identity = source->identity();
+  result.issues = source->issues();
+  return result;
+}
+
+/// A native log with a flipped bit in its middle.
+class DamagedLog : public testing::Test {
+ protected:
+  DamagedLog() {
+    write_log(damaged_, long_log());
+    std::string bytes = read_file(damaged_);
+    bytes[bytes.size() / 2] ^= 1;
+    write_file(damaged_, bytes);
+  }
+
+  TemporaryFolder folder_;
+  std::string damaged_ = folder_.file("damaged.flog");
+};
+
+TEST_F(DamagedLog, EachCopyTellsWhatItsOriginalLostAndSoDoCopiesOfIt) {
+  const ReadLog original = read(damaged_);
+  ASSERT_GT(original.issues.rows_dropped(), 0);
+  std::string from = damaged_;
+  for (const char* name : {"copy.csv", "copy.flog", "again.csv"}) {
+    const std::string to = folder_.file(name), before_sha = sha256_of_file(from);
+    const ProgramRun run = run_program({"convert", from, to});
+    EXPECT_EQ(run.status, 1) << run.err;
+    const ReadLog copy = read(to);
+    EXPECT_EQ(copy.log.q[0], original.log.q[0]);
+    EXPECT_EQ(copy.identity.rows_read, copy.log.rows());
+    EXPECT_EQ(copy.identity.sha256, sha256_of_file(to));
+    const Issue* told = copy.issues.find("source_damaged");
+    ASSERT_TRUE(told) << name;
+    EXPECT_EQ(told->severity, Severity::severe);
+    EXPECT_NE(told->message.find(before_sha), std::string::npos) << told->message;
+    EXPECT_NE(told->message.find("left out"), std::string::npos) << told->message;
+    EXPECT_EQ(run_program({"inspect", to}).status, 1);
+    from = to;
+  }
+}
+
+TEST_F(DamagedLog, TheCopyReadsAgainAfterRewinding) {
+  ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
+  const auto source = open_log(folder_.file("copy.flog"));
+  const int rows = read_all(*source).rows();
+  source->rewind();
+  EXPECT_EQ(read_all(*source).rows(), rows);
+  ASSERT_TRUE(source->issues().find("source_damaged"));
+  EXPECT_EQ(source->issues().find("source_damaged")->count, 1);
+}
+
+TEST_F(DamagedLog, ProvenanceThatCannotBeReadIsTold) {
+  ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.csv")}).status, 1);
+  const std::string bytes = read_file(folder_.file("copy.csv"));
+  folder_.write("cut.csv", bytes.substr(0, bytes.size() - 20));
+  const ReadLog copy = read(folder_.file("cut.csv"));
+  ASSERT_TRUE(copy.issues.find("provenance_damaged"));
+  EXPECT_EQ(copy.issues.find("provenance_damaged")->severity, Severity::severe);
+}
+
+TEST(Provenance, AWholeLogHasNone) {
+  const TemporaryFolder folder;
+  write_log(folder.file("a.flog"), long_log());
+  ASSERT_EQ(run_program({"convert", folder.file("a.flog"), folder.file("b.csv")}).status, 0);
+  EXPECT_EQ(read_file(folder.file("b.csv")).find("provenance"), std::string::npos);
+}
+
+TEST(Provenance, ValuesThatWereLostAreTold) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("a.csv", "t,q1\n0,1\n1,2x\n2,3\n");
+  EXPECT_EQ(run_program({"convert", log, folder.file("b.csv")}).status, 1);
+  const ReadLog copy = read(folder.file("b.csv"));
+  ASSERT_TRUE(copy.issues.find("source_damaged"));
+  EXPECT_EQ(copy.issues.find("source_damaged")->severity, Severity::warning);
+}
+
+TEST(Provenance, HostileNamesAndTextsStayOneShortLine) {
+  const TemporaryFolder folder;
+  const std::string bad(70000, '\x1b');
+  const std::string log = folder.write("a\nb.csv", "t,q1\n0,1\n1," + bad + "\n2,3\n");
+  ASSERT_EQ(run_program({"convert", log, folder.file("b.csv")}).status, 1);
+  const std::string text = read_file(folder.file("b.csv"));
+  const std::string line = text.substr(text.find('#'));
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+  EXPECT_LT(line.size(), 60000u);
+  EXPECT_EQ(line.find('\x1b'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace faultline
