@@ -8,6 +8,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
@@ -64,6 +65,29 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
   return summary.status;
 }
 
+/// Of a folder of results that a batch writes.
+void writes_batch(FileUse& files, const std::string& folder) {
+  for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
+    files.writes("-o", folder + "/" + name);
+  files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
+}
+
+void claim_files(const BatchArguments& arguments, const std::vector<BatchLog>& logs) {
+  FileUse files;
+  for (const BatchLog& log : logs) files.reads("the log", log.path);
+  files.reads(arguments);
+  writes_batch(files, arguments.folder);
+  files.writes("--json", arguments.json).claim();
+}
+
+int merge_shards(const std::vector<std::string>& folders, const std::string& into, const std::string& json) {
+  FileUse files;
+  for (const std::string& folder : folders) files.reads_below("the results of a shard", folder);
+  writes_batch(files, into);
+  files.writes("--json", json).claim();
+  return report(merge_batches(folders, into), into, json);
+}
+
 int run_command(BatchArguments arguments, ColorChoice color) {
   BatchOptions& options = arguments.options;
   take_shard(arguments.shard, options);
@@ -71,6 +95,7 @@ int run_command(BatchArguments arguments, ColorChoice color) {
   if (logs.empty())
     throw Error(ErrorCode::input, arguments.paths.front(),
                 "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
+  claim_files(arguments, logs);
   const Model model = load_model(arguments.model);
   const CaseBase cases = read_case_base(arguments.case_base());
   const OpenLog open = [&](const std::string& path) { return open_robot_log(path, model.robot); };
@@ -93,8 +118,7 @@ void add_merge(CLI::App& batch, Program& program) {
   merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
   add_file_option(*merge, "--json", *json, "Write the summary as JSON");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
-  merge->callback(
-      [=, &program] { program.run = [=] { return report(merge_batches(*folders, *into), *into, *json); }; });
+  merge->callback([=, &program] { program.run = [=] { return merge_shards(*folders, *into, *json); }; });
 }
 
 void add_options(CLI::App& command, BatchArguments& arguments) {

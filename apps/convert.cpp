@@ -2,16 +2,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/progress.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
+#include "formats/provenance.hpp"
 #include "formats/write_log.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -30,12 +30,6 @@ std::string written_extensions() {
   for (const LogFormat& format : written_formats()) extensions.push_back(format.extensions.front());
   extensions.front() += " (- for standard output)";
   return either_of(extensions);
-}
-
-void refuse_same_file(const ConvertArguments& arguments) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(arguments.log, arguments.out, ignored))
-    throw Error(ErrorCode::usage, arguments.out, "is the log itself; give the converted log another name");
 }
 
 void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
@@ -58,18 +52,24 @@ void tell_losses(const LogSource& source, const ConvertArguments& arguments) {
 }
 
 int convert(const ConvertArguments& arguments, ColorChoice color) {
+  FileUse()
+      .reads("the log", arguments.log)
+      .reads("the robot file", arguments.robot)
+      .writes("OUT", arguments.out)
+      .claim();
   OpenLogOptions options;
   if (!arguments.robot.empty()) options.columns = load_robot_file(arguments.robot).log.columns;
-  refuse_same_file(arguments);
   const auto source = open_log(arguments.log, options);
   const auto writer = create_log(arguments.out);
   {
     ProgressBar bar(color);
     copy_rows(*source, *writer, bar.callback());
   }
+  const std::string provenance = provenance_of(*source);
+  if (!provenance.empty()) writer->note_provenance(provenance);
   writer->commit();
   tell_losses(*source, arguments);
-  return kNothingFound;
+  return provenance.empty() ? kNothingFound : kFindings;
 }
 
 }  // namespace
@@ -85,6 +85,7 @@ void add_convert(CLI::App& app, Program& program) {
   command->footer(
       "The converted log needs no column mapping any more. Rows without a usable time are left out and "
       "told.\n"
+      "Exit status 1: rows or values were lost; the converted log says so, too.\n"
       "Example: faultline convert run.csv run.flog --robot robot.toml");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return convert(*arguments, program.color); };

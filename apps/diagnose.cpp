@@ -6,6 +6,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/report_options.hpp"
 #include "apps/robot_log.hpp"
@@ -22,7 +23,16 @@ struct DiagnoseArguments : ModelPaths {
   DiagnoseOptions options;
 };
 
+void claim_files(const DiagnoseArguments& arguments) {
+  FileUse files;
+  files.reads("the log", arguments.log).reads(arguments);
+  for (const RequestedReport& report : arguments.reports)
+    files.writes(std::string("--") + report.format->name, report.path);
+  files.claim();
+}
+
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
+  claim_files(arguments);
   const Model model = load_model(arguments.model);
   const CaseBase cases = read_case_base(arguments.case_base());
   const auto log = prefetched(open_robot_log(arguments.log, model.robot));

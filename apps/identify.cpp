@@ -13,6 +13,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
@@ -64,6 +65,15 @@ void write_pictures(const Identification& id, const std::string& folder) {
 }
 
 void check_outputs(const IdentifyArguments& arguments) {
+  FileUse()
+      .reads("the log", arguments.logs)
+      .reads("the robot file", arguments.robot)
+      .writes("-o", arguments.output)
+      .writes("--json", arguments.json)
+      .writes("--html", arguments.html)
+      .writes("--suggest", arguments.suggest)
+      .writes_below("--pictures", arguments.pictures, ".svg")
+      .claim();
   if (!arguments.suggest.empty() && arguments.output == "-")
     throw Error(
         ErrorCode::usage, "--suggest",

@@ -5,6 +5,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/inspection.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
@@ -39,6 +40,11 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
 }
 
 int inspect(const InspectArguments& arguments, ColorChoice color) {
+  FileUse()
+      .reads("the log", arguments.logs)
+      .reads("the robot file", arguments.robot)
+      .writes("--json", arguments.json)
+      .claim();
   int status = kNothingFound;
   const auto inspections = inspect_all(arguments, color, status);
   if (!arguments.json.empty()) {

@@ -9,6 +9,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/labels.hpp"
 #include "apps/learned_text.hpp"
 #include "apps/options.hpp"
@@ -65,6 +66,17 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   return open;
 }
 
+void claim_files(const LearnArguments& arguments) {
+  FileUse()
+      .reads("the log", arguments.logs)
+      .reads("the robot file", arguments.robot)
+      .reads("the labels", arguments.labels)
+      .writes("-o", arguments.model)
+      .writes_case_base("--cases", arguments.case_base())
+      .writes("--json", arguments.json)
+      .claim();
+}
+
 /// Fails before the work begins rather than after it.
 void check_writable(const LearnArguments& arguments) {
   const AtomicFile model(arguments.model), cases(arguments.case_base());
@@ -87,6 +99,7 @@ int show_twin(const LearnArguments& arguments) {
 }
 
 int run_learn(const LearnArguments& arguments, ColorChoice color) {
+  claim_files(arguments);
   const Robot robot = load_robot_file(arguments.robot);
   const OpenLogs logs = open_logs(arguments, robot);
   check_writable(arguments);

@@ -10,6 +10,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/folder.hpp"
 #include "apps/progress.hpp"
 #include "formats/write_log.hpp"
@@ -52,11 +53,27 @@ std::string text_line(const nlohmann::ordered_json& run) {
   return line + (end == "complete" ? "" : "  " + end) + "\n";
 }
 
+std::string log_path(const SimulateArguments& arguments, const SimulationFile& file, const RunSpec& run) {
+  return (std::filesystem::path(arguments.folder) / (run.name + "." + file.format)).string();
+}
+
+std::string labels_path(const SimulateArguments& arguments) {
+  return (std::filesystem::path(arguments.folder) / "labels.csv").string();
+}
+
+void claim_files(const SimulateArguments& arguments, const SimulationFile& file) {
+  FileUse files;
+  files.reads("the spec", arguments.spec).reads("the robot file", file.robot_path);
+  for (const RunSpec& run : file.runs)
+    files.writes("the run " + run.name + ",", log_path(arguments, file, run));
+  files.writes("the labels,", labels_path(arguments)).claim();
+}
+
 int simulate_file(const SimulateArguments& arguments, ColorChoice color) {
   const SimulationFile file =
       load_simulation_file(arguments.spec, {arguments.seed.has_value(), arguments.seed.value_or(1)});
+  claim_files(arguments, file);
   make_folder(arguments.folder);
-  const std::filesystem::path folder(arguments.folder);
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   std::string labels = labels_header();
   {
@@ -67,13 +84,12 @@ int simulate_file(const SimulateArguments& arguments, ColorChoice color) {
       if (progress)
         progress("simulate " + spec.name, static_cast<double>(i) / static_cast<double>(file.runs.size()));
       const SimulatedRun run = simulate(file.robot, spec.simulation, spec.seed);
-      write_log((folder / (spec.name + "." + file.format)).string(),
-                uncoupled(run.log, file.robot.log.coupling));
+      write_log(log_path(arguments, file, spec), uncoupled(run.log, file.robot.log.coupling));
       labels += label_lines(file, spec, run);
       runs.push_back(summary(file, spec, run));
     }
   }
-  write_file((folder / "labels.csv").string(), labels);
+  write_file(labels_path(arguments), labels);
   if (arguments.json) {
     print(nlohmann::ordered_json{
               {"schema", "faultline/simulation/1"}, {"robot", file.robot.name}, {"runs", runs}}

@@ -11,6 +11,7 @@
 
 #include "apps/cases/case_text.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/terminal.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"
@@ -100,6 +101,10 @@ int show_case(const CasesArguments& arguments) {
 }
 
 int add_case(const CasesArguments& arguments) {
+  FileUse()
+      .reads("the report", arguments.diagnosis)
+      .writes_case_base("the case base", arguments.path())
+      .claim();
   return change_and_print(arguments, [&](CaseBase& base) {
     const auto id = base.retain(new_case(arguments, base));
     if (arguments.label()) base.confirm(id, arguments.label());
@@ -122,11 +127,17 @@ int reject_case(const CasesArguments& arguments) {
 }
 
 int export_cases(const CasesArguments& arguments) {
+  FileUse().reads(ModelPaths{arguments.model, arguments.path()}).writes("-o", arguments.file).claim();
   write_file(arguments.file, to_cases_json(read_case_base(arguments.path())));
   return kNothingFound;
 }
 
 int import_cases(const CasesArguments& arguments) {
+  FileUse()
+      .reads("the export", arguments.file)
+      .reads("the model", arguments.model)
+      .writes_case_base("the case base", arguments.path())
+      .claim();
   const CaseBase imported = from_cases_json(read_file(arguments.file), arguments.file);
   const std::string path = arguments.path();
   std::int64_t added = std::ssize(imported.cases());

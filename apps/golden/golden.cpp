@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
 #include "lib/golden/golden_folder.hpp"
@@ -24,6 +25,14 @@ GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, con
   ProgressBar bar(color);
   return replay(replay_logs(arguments.folder, set), subject, open_golden_log,
                 {set.trace_points, arguments.threads}, bar.callback());
+}
+
+void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set) {
+  const std::string what = "the golden folder's", folder = arguments.folder + "/";
+  files.reads(what, golden_file(arguments.folder));
+  for (const GoldenLog& log : set.logs)
+    files.reads(what, folder + log.log.path).reads(what, folder + log.trace.path);
+  files.reads(ModelPaths{folder + set.model.path, folder + set.cases.path}).reads(arguments);
 }
 
 int golden_status(const GoldenCheck& check) {

@@ -32,6 +32,9 @@ ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& 
 /// Replays the folder's logs, with a progress bar.
 GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
                      ColorChoice color);
+class FileUse;
+/// Adds what an action reads: the folder's files as `set` names them, and --model with its case base.
+void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set);
 /// 0 when all is as expected, 1 for a difference, 3 for damage.
 int golden_status(const GoldenCheck& check);
 

@@ -11,6 +11,7 @@
 #include "lib/core/text.hpp"
 #include "lib/golden/accept.hpp"
 #include "lib/golden/check_text.hpp"
+#include "lib/golden/golden_folder.hpp"
 
 namespace faultline {
 namespace {
@@ -75,11 +76,13 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
   const bool new_model = !arguments.model.empty();
   const std::vector<std::string> names = changing(part, new_model);
   if (names.empty()) {
+    remove_left_over(arguments.folder, set);
     print("There is nothing to accept.\n");
     return kNothingFound;
   }
   accept_golden(arguments.folder, set, run, names,
                 new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{});
+  remove_left_over(arguments.folder, load_golden(arguments.folder));
   print(fmt::format("Accepted: {}{}\n", printable(fmt::format("{}", fmt::join(names, ", "))),
                     new_model ? ", and the model" : ""));
   return kNothingFound;

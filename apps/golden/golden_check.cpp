@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "apps/file_use.hpp"
 #include "apps/golden/golden.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/golden/check_junit.hpp"
@@ -20,6 +21,9 @@ std::string suite_name(const std::string& folder) {
 
 int run_check(const GoldenArguments& arguments, ColorChoice color) {
   const GoldenSet set = load_golden(arguments.folder);
+  FileUse files;
+  reads_golden(files, arguments, set);
+  files.writes("--json", arguments.json).writes("--junit", arguments.junit).claim();
   const ModelAndCases subject = golden_subject(arguments, set);
   const GoldenRun run = golden_run(arguments, set, subject, color);
   const GoldenCheck check = check_golden(set, run);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include "apps/file_use.hpp"
 #include "apps/golden/golden.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -28,6 +29,10 @@ GoldenRun side(const std::string& path, const CompareArguments& arguments, const
 
 int run_compare(const CompareArguments& arguments, ColorChoice color) {
   const GoldenSet set = load_golden(arguments.folder);
+  FileUse files;
+  reads_golden(files, arguments, set);
+  for (const std::string& path : arguments.sides) files.reads(ModelPaths{path, ""});
+  files.writes("--json", arguments.json).claim();
   const GoldenRun first = side(arguments.sides[0], arguments, set, color);
   const GoldenRun second = arguments.sides.size() > 1
                                ? side(arguments.sides[1], arguments, set, color)

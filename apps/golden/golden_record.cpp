@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <set>
 
 #include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
 #include "apps/folder.hpp"
 #include "apps/golden/golden.hpp"
 #include "apps/progress.hpp"
+#include "lib/core/files/output_place.hpp"
 #include "lib/core/text.hpp"
 #include "lib/golden/record.hpp"
 
@@ -35,7 +39,22 @@ std::string recorded_text(const Recorded& recorded, const std::string& folder) {
                             recorded.set.logs.size(), printable(golden_file(folder)));
 }
 
+/// A log that lies in the folder's logs/ already stays as it is.
+void claim_files(const RecordArguments& arguments) {
+  FileUse files;
+  files.reads(arguments).writes("-o", golden_file(arguments.folder));
+  std::set<std::string> copies;  // two logs of one name are refused later
+  for (const std::string& log : arguments.logs) {
+    const std::string copy =
+        (std::filesystem::path(arguments.folder) / "logs" / std::filesystem::path(log).filename()).string();
+    files.reads("the log", log);
+    if (copies.insert(copy).second && file_identity(copy) != file_identity(log)) files.writes("-o", copy);
+  }
+  files.claim();
+}
+
 int run_record(const RecordArguments& arguments, ColorChoice color) {
+  claim_files(arguments);
   make_folder(arguments.folder);
   ProgressBar bar(color);
   const Recorded recorded =

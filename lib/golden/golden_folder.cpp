@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <set>
 
 #include "lib/cases/case_file.hpp"
@@ -46,6 +47,17 @@ void write_below(const std::string& folder, const std::string& path, const std::
   std::error_code error;
   fs::create_directories(whole.parent_path(), error);
   write_file(whole.string(), bytes);
+}
+
+/// Whether a file's name ends with a part of the hash of what it holds, as this program names it.
+bool is_named_by_content(const fs::path& file) {
+  static const std::regex pattern(R"((model|cases|.+)-([0-9a-f]{8})\.(json|db|csv))");
+  const std::string name = file.filename().string();
+  std::smatch parts;
+  if (!std::regex_match(name, parts, pattern)) return false;
+  const std::string hash =
+      parts[3] == "db" ? read_case_base(file.string()).sha256() : sha256_of_file(file.string());
+  return short_hash(hash) == parts[2];
 }
 
 std::string written_trace(const std::string& folder, GoldenLog& log) {
@@ -107,6 +119,25 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
   std::error_code error;
   for (const std::string& path : outdated)
     if (!named.count(path)) fs::remove(inside(folder, path), error);
+}
+
+void remove_left_over(const std::string& folder, const GoldenSet& set) {
+  std::set<fs::path> named = {inside(folder, set.model.path), inside(folder, set.cases.path)};
+  for (const GoldenLog& log : set.logs) {
+    named.insert(inside(folder, log.trace.path));
+    named.insert(inside(folder, log.log.path));
+  }
+  for (const std::string& part : {folder, inside(folder, "traces")}) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(part, error)) {
+      try {
+        if (entry.is_regular_file(error) && !named.count(entry.path()) && is_named_by_content(entry.path()))
+          fs::remove(entry.path(), error);
+      } catch (const Error&) {
+        // a file that cannot be read is not ours to remove
+      }
+    }
+  }
 }
 
 void adopt_model(const std::string& folder, const std::string& model, const std::string& cases,

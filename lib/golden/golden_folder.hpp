@@ -29,6 +29,10 @@ std::vector<ReplayLog> replay_logs(const std::string& folder, const GoldenSet& s
 /// files that the set named before and names no more. What `set` says besides is written as it is.
 void save_golden(const std::string& folder, GoldenSet& set, const std::vector<std::string>& outdated = {});
 
+/// Removes traces, models and case bases under names of their content that `set` does not name, which an
+/// interrupted accept_golden() left there.
+void remove_left_over(const std::string& folder, const GoldenSet& set);
+
 /// Copies model and case base into the folder, under names of their content, and names them in `set`.
 void adopt_model(const std::string& folder, const std::string& model, const std::string& cases,
                  const ModelAndCases& subject, GoldenSet& set);

@@ -106,6 +106,8 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
   const TomlTable table = TomlTable::parse(text, where);
   SimulationFile file;
   file.robot = read_robot(table, folder);
+  if (!table.is_table("robot"))
+    file.robot_path = (std::filesystem::path(folder) / table.text("robot")).string();
   if (table.has("format")) file.format = table.choice("format", {"csv", "flog"});
   std::uint64_t seed = read_seed(table, 1);
   if (options.override_seed) seed = options.seed;

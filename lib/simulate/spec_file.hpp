@@ -19,6 +19,7 @@ struct RunSpec {
 /// A simulation spec file (TOML, docs/simulate.md): a robot and the runs it makes.
 struct SimulationFile {
   Robot robot;
+  std::string robot_path;      ///< of the robot file it names; empty: the robot is in the spec
   std::string format = "csv";  ///< extension of the logs: "csv" or "flog"
   std::vector<RunSpec> runs;
 };

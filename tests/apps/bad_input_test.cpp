@@ -162,7 +162,7 @@ TEST_F(BadInput, OutputFormatThatIsUnknown) {
 
 TEST_F(BadInput, OutputThatIsTheLogItself) {
   const std::string log = folder_.write("log.csv", kGood);
-  expect_one_sentence(run_program({"convert", log, log}), 2, {"is the log itself"});
+  expect_one_sentence(run_program({"convert", log, log}), 2, {"OUT", "would overwrite the log", "log.csv"});
   EXPECT_EQ(read_file(log), kGood);
 }
 

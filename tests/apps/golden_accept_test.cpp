@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "lib/cases/case_file.hpp"
+#include "lib/core/hash.hpp"
 #include "tests/apps/golden_copy.hpp"
 
 namespace faultline {
@@ -30,6 +31,21 @@ TEST_F(GoldenAccept, WithoutNamesItShowsAndChangesNothing) {
   EXPECT_TRUE(has(run.out, "+ event locked joint 1")) << run.out;
   EXPECT_TRUE(has(run.out, "Nothing was changed"));
   EXPECT_EQ(golden_.snapshot(), before);
+}
+
+/// As an accept leaves them that was killed before its last step.
+TEST_F(GoldenAccept, RemovesWhatAnInterruptedOneLeftAndNothingElse) {
+  const std::string trace = "time_s,q1\n0,1\n", traces = golden_.path() + "/traces/";
+  const std::string left = traces + "locked_1-" + sha256_hex(trace).substr(0, 8) + ".csv";
+  write_file(left, trace);
+  write_file(traces + "notes-01234567.csv", "mine");
+  EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_EQ(read_file(traces + "notes-01234567.csv"), "mine");
+  write_file(left, trace);
+  EXPECT_TRUE(has(golden_.run("accept", {"--all"}).out, "There is nothing to accept."));
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_EQ(golden_.run("check").status, 0);
 }
 
 TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {

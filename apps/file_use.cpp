@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "apps/file_use.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "lib/cases/case_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/files/output_place.hpp"
+#include "lib/core/files/temporary_file.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a case base that is being changed; SQLite believes what it finds there.
+constexpr const char* kJournals[] = {"-journal", "-wal", "-shm"};
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(output_place(path).path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+bool is_below(const std::string& real, const std::string& real_folder) {
+  return real.starts_with(real_folder + "/");
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& path, const std::string& why) {
+  throw Error(ErrorCode::usage, option + " " + path, why);
+}
+
+}  // namespace
+
+void FileUse::keep(const std::string& what, const std::string& path) {
+  const std::string identity = path.empty() ? "" : file_identity(path);
+  if (!identity.empty()) inputs_.try_emplace(identity, Named{what, path, identity});
+}
+
+FileUse& FileUse::reads(const std::string& what, const std::string& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) keep(what, path);
+  return *this;
+}
+
+FileUse& FileUse::reads(const std::string& what, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) reads(what, path);
+  return *this;
+}
+
+FileUse& FileUse::reads(const ModelPaths& paths) {
+  if (!paths.model.empty()) reads("the model", paths.model);
+  if (paths.model.empty() && paths.cases.empty()) return *this;
+  keep("the case base", paths.case_base());
+  for (const char* journal : kJournals) keep("the case base's journal", paths.case_base() + journal);
+  return *this;
+}
+
+FileUse& FileUse::reads_below(const std::string& what, const std::string& folder) {
+  input_folders_.push_back({what, folder});
+  return *this;
+}
+
+void FileUse::add_output(Named output) {
+  if (output.path.empty()) return;
+  output.identity = output.path == "-" ? output.path : file_identity(output.path);
+  outputs_.push_back(std::move(output));
+}
+
+FileUse& FileUse::writes(const std::string& option, const std::string& path) {
+  add_output({option, path});
+  return *this;
+}
+
+FileUse& FileUse::writes_case_base(const std::string& option, const std::string& path) {
+  add_output({option, path});
+  for (const char* journal : kJournals) add_output({option, path + journal});
+  return *this;
+}
+
+FileUse& FileUse::writes_below(const std::string& option, const std::string& folder,
+                               const std::string& extension) {
+  if (!folder.empty()) output_folders_.push_back({option, folder, "", extension});
+  return *this;
+}
+
+void FileUse::check_output(const Named& output) const {
+  if (output.identity.empty()) return;
+  const auto input = inputs_.find(output.identity);
+  if (input != inputs_.end())
+    refuse(output.what, output.path,
+           "would overwrite " + input->second.what + " " + input->second.path + "; give another name");
+  for (const Named& folder : input_folders_)
+    if (output.path != "-" && is_below(real_path(output.path), real_path(folder.path)))
+      refuse(output.what, output.path,
+             "lies among " + folder.what + " in " + folder.path + "; give another name");
+  for (const Named& other : outputs_) {
+    if (&other == &output) break;
+    if (other.identity == output.identity)
+      refuse(output.what, output.path,
+             "is where " + other.what + " is written; give each result a file of its own");
+  }
+}
+
+void FileUse::check_folder(const Named& folder) const {
+  const std::string real_folder = real_path(folder.path);
+  const auto meant = [&](const std::string& path) {
+    return (folder.extension.empty() || fs::path(path).extension() == folder.extension) &&
+           is_below(real_path(path), real_folder);
+  };
+  for (const auto& [identity, input] : inputs_)
+    if (meant(input.path))
+      refuse(folder.what, folder.path,
+             "is a folder for results, which could overwrite " + input.what + " " + input.path +
+                 " in it; give another folder");
+  for (const Named& output : outputs_)
+    if (output.path != "-" && !output.identity.empty() && meant(output.path))
+      refuse(output.what, output.path,
+             "lies among the files that " + folder.what + " writes; give another name");
+}
+
+/// A shell may have directed it into one of the files.
+void FileUse::check_standard_output() const {
+  struct stat facts {};
+  if (::fstat(STDOUT_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode)) return;
+  const std::string identity = std::to_string(facts.st_dev) + ":" + std::to_string(facts.st_ino);
+  const std::string what = "is directed into ";
+  if (const auto input = inputs_.find(identity); input != inputs_.end())
+    throw Error(ErrorCode::usage, "standard output",
+                what + input->second.what + " " + input->second.path + "; direct it elsewhere");
+  for (const Named& output : outputs_)
+    if (output.identity == identity)
+      throw Error(ErrorCode::usage, "standard output",
+                  what + "the file of " + output.what + "; give " + output.what + " - alone");
+}
+
+void FileUse::claim() const {
+  for (const Named& output : outputs_) check_output(output);
+  for (const Named& folder : output_folders_) check_folder(folder);
+  check_standard_output();
+  for (const Named& output : outputs_)
+    if (output.path != "-" && !output.identity.empty()) remove_abandoned_files(folder_of(output.path));
+  for (const Named& folder : output_folders_) remove_abandoned_files(folder.path);
+}
+
+}  // namespace faultline
