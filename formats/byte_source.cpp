@@ -25,21 +25,54 @@ std::string reason() { return std::strerror(errno); }
 }  // namespace
 
 ByteSource::ByteSource(std::string path) : path_(std::move(path)) {
+  open();
+  try {
+    read_head(kHeadBytes);
+  } catch (...) {
+    close();
+    throw;
+  }
+  if (regular_) close();
+}
+
+ByteSource::~ByteSource() { close(); }
+
+void ByteSource::open() {
   file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0 && errno == ENOENT) fail(path_, "no such file; check the path");
   if (file_ < 0) fail(path_, "cannot be opened for reading (" + reason() + ")");
   struct stat facts {};
-  if (::fstat(file_, &facts) == 0) size_ = facts.st_size;
+  if (::fstat(file_, &facts) != 0) return;
   if (S_ISDIR(facts.st_mode)) {
-    ::close(file_);
+    close();
     fail(path_, "is a directory, a log file was expected");
   }
-  read_head(kHeadBytes);
+  regular_ = S_ISREG(facts.st_mode);
+  stamp_ = {facts.st_dev, facts.st_ino, facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec};
+}
+
+/// Goes on behind the head.
+void ByteSource::open_again() {
+  const Stamp before = stamp_;
+  open();
+  if (!(stamp_ == before)) {
+    close();
+    fail(path_, "was changed or replaced while it was being read; run again when it is complete");
+  }
+  if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
+    fail(path_, "cannot be read to its end (" + reason() + ")");
+}
+
+void ByteSource::close() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
 }
 
 bool ByteSource::extend_head() {
   const std::size_t before = head_.size();
+  if (file_ < 0) open_again();
   read_head(2 * before);
+  if (regular_) close();
   return head_.size() > before;
 }
 
@@ -50,10 +83,6 @@ void ByteSource::read_head(std::size_t bytes) {
        got < head_.size() && (more = read_some(head_.data() + got, head_.size() - got)) > 0;)
     got += more;
   head_.resize(got);
-}
-
-ByteSource::~ByteSource() {
-  if (file_ >= 0) ::close(file_);
 }
 
 std::size_t ByteSource::read_some(char* to, std::size_t size) {
@@ -69,8 +98,11 @@ std::size_t ByteSource::read(char* to, std::size_t size) {
   if (got > 0) {
     std::memcpy(to, head_.data() + head_given_, got);
     head_given_ += got;
-  } else {
+  } else if (!at_end_) {
+    if (file_ < 0) open_again();
     got = read_some(to, size);
+    at_end_ = got == 0 && size > 0;
+    if (at_end_ && regular_) close();
   }
   position_ += static_cast<std::int64_t>(got);
   if (sha256_.empty()) {
@@ -81,15 +113,19 @@ std::size_t ByteSource::read(char* to, std::size_t size) {
 }
 
 void ByteSource::rewind() {
-  if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
+  if (regular_)
+    close();
+  else if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
     fail(path_, "cannot be read a second time (" + reason() + "); give a file, not a pipe");
+  at_end_ = false;
   head_given_ = 0;
   position_ = 0;
   if (sha256_.empty()) hash_ = Sha256();
 }
 
 double ByteSource::share_read() const {
-  return size_ > 0 ? std::min(1.0, static_cast<double>(position_) / static_cast<double>(size_)) : 0.0;
+  return stamp_.size > 0 ? std::min(1.0, static_cast<double>(position_) / static_cast<double>(stamp_.size))
+                         : 0.0;
 }
 
 }  // namespace faultline

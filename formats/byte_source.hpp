@@ -9,7 +9,9 @@
 
 namespace faultline {
 
-/// The bytes of a file from front to back, hashed as they pass. Every failure throws Error(input).
+/// The bytes of a file from front to back, hashed as they pass. A regular file is open only while it is being
+/// read, so that a command may have any number of them; one that is another file by then is refused. Every
+/// failure throws Error(input).
 class ByteSource {
  public:
   explicit ByteSource(std::string path);
@@ -31,12 +33,24 @@ class ByteSource {
   double share_read() const;
 
  private:
+  /// Of the file, to tell whether it is still the same.
+  struct Stamp {
+    std::uint64_t device = 0, inode = 0;
+    std::int64_t size = 0, seconds = 0, nanoseconds = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+
+  void open();
+  void open_again();
+  void close();
   void read_head(std::size_t bytes);
   std::size_t read_some(char* to, std::size_t size);
 
   std::string path_;
   int file_ = -1;
-  std::int64_t size_ = 0;
+  bool regular_ = false;
+  bool at_end_ = false;
+  Stamp stamp_;
   std::int64_t position_ = 0;
   std::string head_;
   std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()

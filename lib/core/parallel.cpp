@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -24,7 +25,11 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work) 
     }
   };
   std::vector<std::thread> helpers;
-  for (int t = 1; t < threads; ++t) helpers.emplace_back(run);
+  try {
+    for (int t = 1; t < threads; ++t) helpers.emplace_back(run);
+  } catch (const std::system_error&) {
+    // no more threads are to be had: those that started do all the work
+  }
   run();
   for (std::thread& helper : helpers) helper.join();
   for (const std::exception_ptr& failure : failures)

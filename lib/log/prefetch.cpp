@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -20,7 +21,7 @@ class PrefetchSource : public LogSource {
   ~PrefetchSource() override { stop(); }
 
   bool next(Log& segment) override {
-    if (!reader_.joinable() && !ended_) reader_ = std::thread([this] { read(); });
+    if (!reader_.joinable() && !ended_ && !start_reader()) return source_->next(segment);
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return ready_ > 0 || ended_; });
     if (ready_ > 0) {
@@ -48,6 +49,16 @@ class PrefetchSource : public LogSource {
   const Issues& issues() const override { return source_->issues(); }
 
  private:
+  /// False when no thread is to be had.
+  bool start_reader() {
+    try {
+      reader_ = std::thread([this] { read(); });
+    } catch (const std::system_error&) {
+      return false;
+    }
+    return true;
+  }
+
   void read() {
     try {
       for (int number = 0;; ++number) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "lib/identify/residual_blocks.hpp"
+#include "lib/identify/shooting/trailing_covariance.hpp"
 
 namespace faultline {
 namespace {
@@ -23,19 +23,14 @@ double total_s(const std::vector<Excerpt>& excerpts) {
 }  // namespace
 
 bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::SPARSE_QR;
-  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  ceres::Problem::EvaluateOptions options;
   options.num_threads = 1;
-  ceres::Covariance covariance(options);
-  const double* block = evaluation.values();
-  const int n = evaluation.free();
-  const std::vector<std::pair<const double*, const double*>> wanted = {{block, block}};
-  if (!covariance.Compute(wanted, &costs)) return false;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
-  covariance.GetCovarianceBlock(block, block, c.data());
-  out = 0.5 * (c + c.transpose());
-  return out.allFinite();
+  for (std::size_t i = 0; i < evaluation.count(); ++i)
+    options.parameter_blocks.push_back(evaluation.state(i));
+  options.parameter_blocks.push_back(evaluation.values());
+  ceres::CRSMatrix jacobian;
+  if (!costs.Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return false;
+  return trailing_covariance(jacobian, jacobian.num_cols - evaluation.free(), out);
 }
 
 Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
