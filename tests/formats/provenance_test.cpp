@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/native/native_layout.hpp"
 #include "formats/open_log.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -92,6 +93,48 @@ TEST_F(DamagedLog, ProvenanceThatCannotBeReadIsTold) {
   const ReadLog copy = read(folder_.file("cut.csv"));
   ASSERT_TRUE(copy.issues.find("provenance_damaged"));
   EXPECT_EQ(copy.issues.find("provenance_damaged")->severity, Severity::severe);
+}
+
+/// Whatever becomes of the block in a native log, all rows are read and the damage is told.
+TEST_F(DamagedLog, AFlippedBitInNativeProvenanceCostsNoRowAndIsTold) {
+  ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
+  const std::string bytes = read_file(folder_.file("copy.flog"));
+  const std::size_t block = bytes.find("PROV"), text = block + sizeof(NativeChunkHeader);
+  ASSERT_NE(block, std::string::npos);
+  const int rows = read(folder_.file("copy.flog")).log.rows();
+  for (const std::size_t at : {block, block + 5, text - 1, text, bytes.size() - 40}) {
+    std::string bad = bytes;
+    bad[at] ^= 1;
+    folder_.write("bad.flog", bad);
+    const ReadLog copy = read(folder_.file("bad.flog"));
+    EXPECT_EQ(copy.log.rows(), rows) << at;
+    EXPECT_EQ(copy.identity.sha256, sha256_of_file(folder_.file("bad.flog"))) << at;
+    ASSERT_TRUE(copy.issues.find("chunk_damaged")) << at;
+    EXPECT_EQ(copy.issues.find("provenance_damaged") != nullptr, at >= text) << at;
+    EXPECT_FALSE(copy.issues.find("file_truncated")) << at;
+  }
+}
+
+TEST_F(DamagedLog, NativeProvenanceThatIsCutIsTold) {
+  ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
+  const std::string bytes = read_file(folder_.file("copy.flog"));
+  folder_.write("cut.flog", bytes.substr(0, bytes.size() - sizeof(NativeChunkHeader) - 20));
+  const ReadLog copy = read(folder_.file("cut.flog"));
+  EXPECT_EQ(copy.log.rows(), read(folder_.file("copy.flog")).log.rows());
+  EXPECT_TRUE(copy.issues.find("provenance_damaged"));
+  EXPECT_TRUE(copy.issues.find("file_truncated"));
+}
+
+/// Chunks that were lost before the block are counted as before any other header.
+TEST_F(DamagedLog, ProvenanceBehindLostChunksTellsTheirRows) {
+  ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
+  std::string bytes = read_file(folder_.file("copy.flog"));
+  const std::size_t last = bytes.rfind("CHNK"), block = bytes.find("PROV");
+  folder_.write("less.flog", bytes.erase(last, block - last));
+  const ReadLog copy = read(folder_.file("less.flog"));
+  EXPECT_GT(copy.issues.rows_dropped(), 0);
+  EXPECT_EQ(copy.identity.rows_read, read(folder_.file("copy.flog")).identity.rows_read);
+  EXPECT_TRUE(copy.issues.find("source_damaged"));
 }
 
 TEST(Provenance, AWholeLogHasNone) {
