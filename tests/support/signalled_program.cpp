@@ -11,9 +11,14 @@
 
 namespace faultline {
 
+void heed_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
+}
+
 bool ended_by(int signal, double seconds, const std::vector<std::string>& arguments) {
   const pid_t child = ::fork();
   if (child == 0) {
+    heed_signals();
     std::vector<char*> argv{const_cast<char*>(FAULTLINE_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);

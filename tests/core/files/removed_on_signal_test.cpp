@@ -12,6 +12,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/random.hpp"
+#include "tests/support/signalled_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -28,6 +29,7 @@ int partial_files(const fs::path& folder) {
 
 /// Writes files without end, on several threads.
 [[noreturn]] void write_for_ever(const TemporaryFolder& folder) {
+  heed_signals();
   remove_files_on_signals();
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
