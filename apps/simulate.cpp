@@ -31,7 +31,7 @@ struct SimulateArguments {
 
 nlohmann::ordered_json summary(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
   nlohmann::ordered_json faults = nlohmann::ordered_json::array();
-  for (const FaultEvent& fault : run.truth)
+  for (const SimulatedFault& fault : run.truth)
     faults.push_back({{"kind", to_string(fault.kind)},
                       {"joint", fault.joint},
                       {"onset_s", fault.onset_s},

@@ -78,6 +78,22 @@ TEST(House, NoFolderIsCrowded) {
   for (const auto& [folder, count] : files) EXPECT_LE(count, kMostFiles) << folder;
 }
 
+/// Two types of one name in one program share their compiled members by chance of the linker.
+TEST(House, OneNameIsOneType) {
+  static const std::regex type(R"(^(struct|class|enum class) (\w+)( final)?( : .*)? \{)");
+  std::map<std::string, std::string> known;
+  for (const fs::path& path : sources({"lib", "formats", "apps"})) {
+    if (path.extension() != ".hpp") continue;
+    const std::vector<std::string> lines = lines_of(path);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::smatch match;
+      if (!std::regex_search(lines[i], match, type)) continue;
+      const auto [before, fresh] = known.emplace(match[2], place(path, i));
+      EXPECT_TRUE(fresh) << match[2] << " in " << before->second << " and " << place(path, i);
+    }
+  }
+}
+
 /// A literal is named where it initialises a constant, a member or a parameter of an options struct.
 bool is_named(const std::string& line) {
   static const std::regex named(

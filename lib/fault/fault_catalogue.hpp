@@ -52,8 +52,8 @@ struct FaultDescription {
   bool hidden_by_measured_torque = false;  ///< a torque measured behind the drive holds it
 
   SizeCourse course = SizeCourse::stays;
-  /// In the order of the filter's state. The last one is FaultEvent::size (lib/simulate), the first of two
-  /// its `viscous`.
+  /// In the order of the filter's state. The last one is SimulatedFault::size (lib/simulate), the first of
+  /// two its `viscous`.
   std::array<FaultSize, kMostSizes> size{};
   int size_count = 0;
   DrawRange twin_length_s{};  ///< of one that passes

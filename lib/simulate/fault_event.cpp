@@ -15,7 +15,7 @@ namespace {
   throw Error(ErrorCode::usage, std::string("fault.") + key, message);
 }
 
-void check_size(const Robot& robot, const FaultEvent& fault) {
+void check_size(const Robot& robot, const SimulatedFault& fault) {
   if (!std::isfinite(fault.size) || !std::isfinite(fault.viscous)) bad("size", "expected a finite number");
   if (fault.kind == FaultKind::torque_loss && !(fault.size > 0.0 && fault.size <= 1.0))
     bad("size",
@@ -32,7 +32,7 @@ void check_size(const Robot& robot, const FaultEvent& fault) {
 
 }  // namespace
 
-void check_fault(const Robot& robot, const FaultEvent& fault) {
+void check_fault(const Robot& robot, const SimulatedFault& fault) {
   if (fault.kind == FaultKind::none) return;
   if (fault.kind == FaultKind::unknown) bad("kind", "\"unknown\" cannot be simulated; name a kind");
   if (describe(fault.kind).place != FaultPlace::tip && (fault.joint < 1 || fault.joint > robot.joints()))
@@ -46,7 +46,7 @@ void check_fault(const Robot& robot, const FaultEvent& fault) {
   check_size(robot, fault);
 }
 
-MachineFault machine_fault(const FaultEvent& fault) {
+MachineFault machine_fault(const SimulatedFault& fault) {
   switch (fault.kind) {
     case FaultKind::none:
     case FaultKind::unknown:
@@ -75,7 +75,7 @@ MachineFault machine_fault(const FaultEvent& fault) {
   return {};
 }
 
-std::string size_unit(const Robot& robot, const FaultEvent& fault) {
+std::string size_unit(const Robot& robot, const SimulatedFault& fault) {
   const std::span<const FaultSize> sizes = describe(fault.kind).sizes();
   if (sizes.empty()) return "";
   const bool at_joint = fault.joint >= 1 && fault.joint <= robot.joints();

@@ -10,7 +10,7 @@
 namespace faultline {
 
 /// A fault that happens during a simulated run.
-struct FaultEvent {
+struct SimulatedFault {
   FaultKind kind = FaultKind::none;
   int joint = 0;         ///< from 1; for payload_change the joint nearest the tip, whatever is given
   double onset_s = 0.0;  ///< the first moment it acts, at any time between samples
@@ -35,12 +35,12 @@ struct MachineFault {
   double reading_drift_per_s = 0.0;  ///< rad/s or m/s, since the onset
   bool reading_sticks = false;       ///< of position and velocity
 };
-MachineFault machine_fault(const FaultEvent& fault);
+MachineFault machine_fault(const SimulatedFault& fault);
 
 /// Throws Error(usage) that says what is wrong when `fault` cannot happen to `robot`.
-void check_fault(const Robot& robot, const FaultEvent& fault);
+void check_fault(const Robot& robot, const SimulatedFault& fault);
 
-/// Unit of `FaultEvent::size` for this fault, "" when it has none.
-std::string size_unit(const Robot& robot, const FaultEvent& fault);
+/// Unit of `SimulatedFault::size` for this fault, "" when it has none.
+std::string size_unit(const Robot& robot, const SimulatedFault& fault);
 
 }  // namespace faultline

@@ -32,8 +32,8 @@ struct MachineSpec {
 class Plant {
  public:
   /// `machine` fits the robot. Throws Error(usage) when the stops do not.
-  Plant(const Robot& robot, const JointStops& stops, const std::vector<FaultEvent>& faults, double max_step_s,
-        const MachineSpec& machine = {});
+  Plant(const Robot& robot, const JointStops& stops, const std::vector<SimulatedFault>& faults,
+        double max_step_s, const MachineSpec& machine = {});
 
   JointVector<double> q, dq;  ///< of the links
 
@@ -73,7 +73,7 @@ class Plant {
   unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }
 
   Chain<double> healthy_;
-  std::vector<FaultEvent> faults_;
+  std::vector<SimulatedFault> faults_;
   std::vector<double> changes_;  ///< onsets and ends, ascending
   std::size_t next_change_ = 0;
   JointVector<double> stop_low_, stop_high_, stop_stiffness_, stop_damping_;

@@ -59,14 +59,14 @@ JointVector<double> usual_torque(const Chain<double>& chain) {
 
 }  // namespace
 
-Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<FaultEvent>& faults,
+Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<SimulatedFault>& faults,
              double max_step_s, const MachineSpec& machine)
     : healthy_(with_motors(robot, machine.gears).chain),
       faults_(faults),
       max_step_(max_step_s),
       dynamics_(healthy_),
       extra_friction_(healthy_, machine.stick_slip, machine.warm_up) {
-  for (const FaultEvent& fault : faults_) {
+  for (const SimulatedFault& fault : faults_) {
     changes_.push_back(fault.onset_s);
     if (std::isfinite(fault.end_s)) changes_.push_back(fault.end_s);
   }
@@ -134,7 +134,7 @@ void Plant::enter(double now) {
   external_ = drive_offset_ = JointVector<double>::Zero(n);
   locked_ = 0;
   altered_ = false;
-  for (const FaultEvent& fault : faults_) {
+  for (const SimulatedFault& fault : faults_) {
     if (now < fault.onset_s || now >= fault.end_s) continue;
     const int i = fault.joint - 1;
     altered_ = true;

@@ -21,7 +21,7 @@ std::string label_lines(const SimulationFile& file, const RunSpec& spec, const S
   const std::string robot = csv_cell(file.robot.name);
   if (run.truth.empty()) return fmt::format("{},none,0,,,{},,,,{}", start, robot, end);
   std::string lines;
-  for (const FaultEvent& fault : run.truth) {
+  for (const SimulatedFault& fault : run.truth) {
     const std::string unit = size_unit(file.robot, fault);
     lines +=
         fmt::format("{},{},{},{},{},{},{},{},{},{}", start, to_string(fault.kind), fault.joint, fault.onset_s,

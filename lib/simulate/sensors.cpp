@@ -9,12 +9,12 @@
 
 namespace faultline {
 
-Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<FaultEvent>& faults, Random random)
+Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random)
     : q_noise_(or_all(noise.q, joints, 0.0)),
       dq_noise_(or_all(noise.dq, joints, 0.0)),
       resolution_(or_all(noise.q_resolution, joints, 0.0)),
       random_(random) {
-  for (const FaultEvent& fault : faults)
+  for (const SimulatedFault& fault : faults)
     if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
   q = dq = JointVector<double>::Zero(joints);
 }
@@ -23,7 +23,7 @@ void Sensors::read(double t, const JointVector<double>& true_q, const JointVecto
   for (int i = 0; i < q.size(); ++i) {
     double position = true_q[i], speed = true_dq[i];
     bool stuck = false;
-    for (const FaultEvent& fault : faults_) {
+    for (const SimulatedFault& fault : faults_) {
       if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
       const MachineFault change = machine_fault(fault);
       position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);

@@ -15,7 +15,7 @@ struct NoiseSpec;
 /// sensors, which therefore go through the feedback.
 class Sensors {
  public:
-  Sensors(int joints, const NoiseSpec& noise, const std::vector<FaultEvent>& faults, Random random);
+  Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random);
 
   /// Reads at time t; `q` and `dq` keep the reading until the next call (a stuck encoder repeats it).
   void read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq);
@@ -24,7 +24,7 @@ class Sensors {
 
  private:
   std::vector<double> q_noise_, dq_noise_, resolution_;
-  std::vector<FaultEvent> faults_;
+  std::vector<SimulatedFault> faults_;
   Random random_;
   bool started_ = false;
 };

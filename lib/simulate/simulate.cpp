@@ -24,15 +24,15 @@ enum Stream : std::uint64_t {
 
 constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s: the simulation diverged
 
-std::vector<FaultEvent> real_faults(const Robot& robot, const SimulationSpec& spec) {
-  std::vector<FaultEvent> faults;
-  for (FaultEvent fault : spec.faults) {
+std::vector<SimulatedFault> real_faults(const Robot& robot, const SimulationSpec& spec) {
+  std::vector<SimulatedFault> faults;
+  for (SimulatedFault fault : spec.faults) {
     if (fault.kind == FaultKind::none) continue;
     if (describe(fault.kind).place == FaultPlace::tip) fault.joint = robot.joints();
     faults.push_back(fault);
   }
   std::stable_sort(faults.begin(), faults.end(),
-                   [](const FaultEvent& a, const FaultEvent& b) { return a.onset_s < b.onset_s; });
+                   [](const SimulatedFault& a, const SimulatedFault& b) { return a.onset_s < b.onset_s; });
   return faults;
 }
 
@@ -75,11 +75,11 @@ EndReason state_of(const Plant& plant, const std::vector<double>& overspeed) {
   return EndReason::complete;
 }
 
-void finish(SimulatedRun& run, int rows, const std::vector<FaultEvent>& faults) {
+void finish(SimulatedRun& run, int rows, const std::vector<SimulatedFault>& faults) {
   if (rows < run.log.rows()) run.log = slice(run.log, 0, rows);
   if (rows == 0) return;
   const double end = run.log.time.back();
-  for (FaultEvent fault : faults) {
+  for (SimulatedFault fault : faults) {
     if (fault.onset_s > end) continue;
     fault.end_s = std::min(fault.end_s, end);
     run.truth.push_back(fault);
@@ -107,13 +107,13 @@ Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uin
 SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {
   check_numbers(robot, spec);
   const int ticks = control_periods_per_sample(spec), joints = robot.joints();
-  const std::vector<FaultEvent> faults = real_faults(robot, spec);
+  const std::vector<SimulatedFault> faults = real_faults(robot, spec);
   const Motion motion = reference_motion(robot, spec, seed);
   const Controller controller(with_motors(robot, spec.machine.gears), spec.controller, spec.control_period_s);
   Sensors sensors(joints, spec.noise, faults, Random::stream(seed, noise_stream));
   Drives drives(joints, spec.drives, Random::stream(seed, drive_stream));
-  std::vector<FaultEvent> changes = faults;
-  for (const FaultEvent& piece :
+  std::vector<SimulatedFault> changes = faults;
+  for (const SimulatedFault& piece :
        carried(spec.work_piece, joints, spec.duration_s, Random::stream(seed, work_piece_stream)))
     changes.push_back(piece);
   Plant plant(robot, spec.stops, changes, spec.max_step_s, spec.machine);

@@ -40,7 +40,7 @@ struct SimulationSpec {
   MachineSpec machine{};            ///< springs and play, friction beyond the model's
   WorkPieceSpec work_piece{};       ///< comes and goes and is no fault
   std::vector<double> overspeed{};  ///< true speed at which the drives trip and the log ends; empty: never
-  std::vector<FaultEvent> faults{};
+  std::vector<SimulatedFault> faults{};
   RecordingSpec recording{};
   bool record_reference = false;  ///< q_ref and dq_ref in the log
 };
@@ -56,7 +56,7 @@ const char* to_string(EndReason reason);
 struct SimulatedRun {
   Log log;
   /// The faults that happened, in order of onset, end_s at most the end of the log; empty: a healthy run.
-  std::vector<FaultEvent> truth;
+  std::vector<SimulatedFault> truth;
   EndReason end = EndReason::complete;
 };
 

@@ -62,7 +62,7 @@ void check_numbers(const Robot& robot, const SimulationSpec& spec) {
   check_warm_up(joints, spec.machine.warm_up);
   check_work_piece(spec.work_piece);
   check_recording(joints, spec.sample_period_s, spec.recording);
-  for (const FaultEvent& fault : spec.faults) check_fault(robot, fault);
+  for (const SimulatedFault& fault : spec.faults) check_fault(robot, fault);
 }
 
 void check_simulation(const Robot& robot, const SimulationSpec& spec) {

@@ -17,8 +17,8 @@
 namespace faultline {
 namespace {
 
-FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
-  FaultEvent fault;
+SimulatedFault read_fault(const TomlTable& table, const Robot& robot) {
+  SimulatedFault fault;
   std::vector<std::string> kinds;
   for (int k = 0; k < kFaultKinds; ++k) kinds.emplace_back(to_string(static_cast<FaultKind>(k)));
   fault.kind = fault_kind_from(table.choice("kind", kinds));
@@ -41,7 +41,7 @@ FaultEvent read_fault(const TomlTable& table, const Robot& robot) {
   return fault;
 }
 
-void read_faults(const TomlTable& table, const Robot& robot, std::vector<FaultEvent>& faults) {
+void read_faults(const TomlTable& table, const Robot& robot, std::vector<SimulatedFault>& faults) {
   if (!table.has("fault")) return;
   faults.clear();
   if (table.is_array("fault"))

@@ -29,12 +29,12 @@ void check_work_piece(const WorkPieceSpec& spec) {
   check_span("work_piece.empty_s", spec.empty_min_s, spec.empty_max_s);
 }
 
-std::vector<FaultEvent> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random) {
-  std::vector<FaultEvent> pieces;
+std::vector<SimulatedFault> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random) {
+  std::vector<SimulatedFault> pieces;
   if (spec.mass == 0.0) return pieces;
   for (double t = random.uniform(spec.empty_min_s, spec.empty_max_s); t < duration_s;
        t += random.uniform(spec.empty_min_s, spec.empty_max_s)) {
-    FaultEvent piece{FaultKind::payload_change, joints, t, 0.0, spec.mass};
+    SimulatedFault piece{FaultKind::payload_change, joints, t, 0.0, spec.mass};
     piece.end_s = t += random.uniform(spec.carried_min_s, spec.carried_max_s);
     pieces.push_back(piece);
   }

@@ -22,6 +22,6 @@ void check_work_piece(const WorkPieceSpec& spec);
 
 /// When a run of that length, which begins with an empty tool, carries it: to the plant the same as a change
 /// of payload. The piece moves with the tip when it is picked up.
-std::vector<FaultEvent> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random);
+std::vector<SimulatedFault> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random);
 
 }  // namespace faultline

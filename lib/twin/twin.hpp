@@ -27,7 +27,7 @@ struct TwinRun {
   FaultLabel label;
   double onset_s = 0.0;
   double end_s = std::numeric_limits<double>::infinity();  ///< of a fault that passes
-  double size = 0.0;                                       ///< FaultEvent::size
+  double size = 0.0;                                       ///< SimulatedFault::size
 };
 
 /// Length of a run: long enough for a few moves after any onset.

@@ -40,10 +40,10 @@ double draw_from(const DrawRange& range, Random& random) {
 }
 
 /// Sizes that a technician would call a fault, against what is usual for the joint.
-FaultEvent draw_fault(const Twin& twin, const FaultLabel& label, double onset_s, Random& random) {
+SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onset_s, Random& random) {
   const TwinFault& ranges = twin.options.faults[static_cast<std::size_t>(label.kind)];
   const FaultDescription& kind = describe(label.kind);
-  FaultEvent fault;
+  SimulatedFault fault;
   fault.kind = label.kind;
   fault.joint = label.joint;
   fault.onset_s = onset_s;
@@ -58,11 +58,11 @@ FaultEvent draw_fault(const Twin& twin, const FaultLabel& label, double onset_s,
 }
 
 /// A contact at the tip pushes another joint as well, less than its own.
-void push_another_joint(const Twin& twin, std::vector<FaultEvent>& faults, Random& random) {
+void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, Random& random) {
   const MotionModel& motion = *twin.motion;
   const int joints = motion.joints();
   if (joints < 2 || random.uniform() > twin.options.second_push_share) return;
-  FaultEvent other = faults.front();
+  SimulatedFault other = faults.front();
   const int first = other.joint - 1;
   const int second = (first + 1 + static_cast<int>(random.below(joints - 1))) % joints;
   const double size = draw_from(twin.options.second_push, random);
@@ -156,9 +156,9 @@ JointStops draw_stops(const Twin& twin, Random& random) {
   return stops;
 }
 
-std::vector<FaultEvent> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
-                                    Random& random) {
-  std::vector<FaultEvent> faults = {draw_fault(twin, label, onset_s, random)};
+std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
+                                        Random& random) {
+  std::vector<SimulatedFault> faults = {draw_fault(twin, label, onset_s, random)};
   if (describe(label.kind).passes) push_another_joint(twin, faults, random);
   return faults;
 }

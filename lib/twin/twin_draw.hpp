@@ -24,7 +24,7 @@ void draw_day(const Twin& twin, Robot& robot, Random& random);
 /// Somewhere outside the range seen in the logs, or none.
 JointStops draw_stops(const Twin& twin, Random& random);
 /// The fault asked for, and of one that passes perhaps a second push.
-std::vector<FaultEvent> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
-                                    Random& random);
+std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
+                                        Random& random);
 
 }  // namespace faultline

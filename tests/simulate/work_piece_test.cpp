@@ -16,10 +16,10 @@ constexpr WorkPieceSpec kPiece{
     .mass = 0.8, .carried_min_s = 0.5, .carried_max_s = 0.9, .empty_min_s = 1.0, .empty_max_s = 1.6};
 
 TEST(WorkPiece, ComesAndGoesWithinItsTimes) {
-  const std::vector<FaultEvent> pieces = carried(kPiece, 3, 200.0, Random(3));
+  const std::vector<SimulatedFault> pieces = carried(kPiece, 3, 200.0, Random(3));
   ASSERT_GT(pieces.size(), 70u);
   double put_down = 0.0, shortest = 1e9, longest = 0.0;
-  for (const FaultEvent& piece : pieces) {
+  for (const SimulatedFault& piece : pieces) {
     EXPECT_EQ(piece.size, 0.8);
     EXPECT_GE(piece.onset_s - put_down, 1.0 - 1e-9);
     EXPECT_LE(piece.onset_s - put_down, 1.6 + 1e-9);

@@ -29,7 +29,7 @@ TwinFault& fault_of(TwinOptions& options, FaultKind kind) {
   return options.faults[static_cast<std::size_t>(kind)];
 }
 
-FaultEvent drawn(const TwinOptions& options, FaultKind kind, std::uint64_t seed = 1) {
+SimulatedFault drawn(const TwinOptions& options, FaultKind kind, std::uint64_t seed = 1) {
   const MotionModel motion = motion_of_two_joints();
   Random random(seed);
   return draw_faults({nullptr, &motion, 0.001, true, options}, {kind, 2}, 3.0, random).front();

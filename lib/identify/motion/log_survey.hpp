@@ -19,8 +19,8 @@ struct LogSurvey {
   RepeatedRows repeated_rows = RepeatedRows::none;
   double repeated_share = 0.0;         ///< of the rows in motion that repeat the one before
   std::vector<char> dq_is_difference;  ///< by joint: its dq is computed from q and tells nothing of its own
-  std::vector<VelocityAgreement> velocity;  ///< by joint
-  std::vector<MotionNoise> noise;           ///< by joint, from where it moves most
+  std::vector<DerivativeAgreement> velocity;  ///< by joint
+  std::vector<MotionNoise> noise;             ///< by joint, from where it moves most
   TorqueLimits torque_limits;
 
   /// Whether the joint's dq, where recorded, is a measurement of its own.

@@ -18,11 +18,11 @@ bool is_near(double factor, double known) { return std::abs(std::log(std::abs(fa
 
 }  // namespace
 
-bool VelocityAgreement::disagrees() const {
+bool DerivativeAgreement::disagrees() const {
   return std::abs(correlation) > kAlike && (factor < 0.0 || std::abs(std::log(factor)) > std::log(kApart));
 }
 
-VelocityAgreement velocity_agreement(const JointMotion& motion) {
+DerivativeAgreement velocity_agreement(const JointMotion& motion) {
   JointMotion alone = motion;
   alone.dq.resize(0);
   const Eigen::VectorXd derived = smooth_motion(alone, fit_motion_noise(alone)).dq;
@@ -37,7 +37,7 @@ VelocityAgreement velocity_agreement(const JointMotion& motion) {
   return {dm / dd, dm / std::sqrt(dd * mm)};
 }
 
-std::string words(const VelocityAgreement& agreement, int joint) {
+std::string words(const DerivativeAgreement& agreement, int joint) {
   const double factor = agreement.factor;
   std::string guess = "one of them is in another unit";
   if (is_near(factor, kDegree) || is_near(factor, 1.0 / kDegree)) guess = "one of them is in degrees";

@@ -8,7 +8,7 @@
 namespace faultline {
 
 /// How the measured velocity of a joint goes with the derivative of its position.
-struct VelocityAgreement {
+struct DerivativeAgreement {
   double factor = 1.0;       ///< measured over derived, by least squares
   double correlation = 1.0;  ///< of both
 
@@ -17,9 +17,9 @@ struct VelocityAgreement {
 };
 
 /// `motion` must have a velocity.
-VelocityAgreement velocity_agreement(const JointMotion& motion);
+DerivativeAgreement velocity_agreement(const JointMotion& motion);
 
 /// In words, such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees".
-std::string words(const VelocityAgreement& agreement, int joint);
+std::string words(const DerivativeAgreement& agreement, int joint);
 
 }  // namespace faultline

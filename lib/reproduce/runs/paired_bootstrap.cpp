@@ -18,8 +18,8 @@ std::vector<double> of_each(const AlarmScore& score, const Value& value) {
 
 }  // namespace
 
-Difference paired_difference(std::span<const double> ours, std::span<const double> theirs, std::uint64_t seed,
-                             int draws) {
+PairedDifference paired_difference(std::span<const double> ours, std::span<const double> theirs,
+                                   std::uint64_t seed, int draws) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t runs = ours.size();
   if (runs == 0) return {kNan, kNan, kNan};

@@ -9,14 +9,14 @@
 namespace faultline {
 
 /// A difference with its 95 % interval.
-struct Difference {
+struct PairedDifference {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
 /// Of a value that each run has under two detectors: mean of `ours` minus mean of `theirs`, the interval by
 /// drawing runs with replacement (paired bootstrap). Equal lengths; NaN for no runs.
-Difference paired_difference(std::span<const double> ours, std::span<const double> theirs,
-                             std::uint64_t seed = 1, int draws = 2000);
+PairedDifference paired_difference(std::span<const double> ours, std::span<const double> theirs,
+                                   std::uint64_t seed = 1, int draws = 2000);
 
 /// Per run: onset to alarm, `missed_s` where there was none.
 std::vector<double> delays_of(const AlarmScore& score, double missed_s);

@@ -33,7 +33,7 @@ constexpr Pair kPairs[] = {{kBestCases, kBestMlp, kLogOdds},      {kBestCases, k
                            {kBestCases, kBestRbfn, kConsecutive}, {kBestCases, kBestAverage, kConsecutive},
                            {kBankCases, kBankMlp, kBank},         {kBankCases, kBankRbfn, kBank}};
 
-void add(ResultRow& row, const Difference& difference) {
+void add(ResultRow& row, const PairedDifference& difference) {
   for (const double value : {difference.value, difference.low, difference.high})
     row.figures.emplace_back(Measured{{value}});
 }
@@ -51,7 +51,7 @@ ResultRow row_of(const Pair& pair, double sigma, const AlarmScore& ours, const A
 
 }  // namespace
 
-Difference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs) {
+PairedDifference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs) {
   return paired_difference(delays_of(pooled(results, sigma, kBestCases, kLogOdds), kMissed_s),
                            delays_of(pooled(results, sigma, theirs, kLogOdds), kMissed_s));
 }

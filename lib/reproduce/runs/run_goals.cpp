@@ -82,7 +82,7 @@ void add_dual(std::vector<Goal>& goals, const ControllerResults& held) {
     const std::string why_not_better = fmt::format(kWhyNotBetter, agreement_percent(held, s));
     for (const char* theirs :
          {detector_name::kBestMlp, detector_name::kBestRbfn, detector_name::kBestAverage}) {
-      const Difference difference = delay_difference(held, s, theirs);
+      const PairedDifference difference = delay_difference(held, s, theirs);
       goals.push_back({fmt::format("dual + cases against {}, held, noise {:g}: mean delay (summed log odds), "
                                    "difference's upper 95 % end (mean {:.3f} s)",
                                    theirs, sigma, difference.value),

@@ -29,7 +29,7 @@ ResultTable comparison_table(const ControllerResults& results);
 
 /// Of the mean delay at the noise of index `sigma`: both networks and cases (best recipe, summed log odds)
 /// minus the detector `theirs`.
-Difference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs);
+PairedDifference delay_difference(const ControllerResults& results, std::size_t sigma, const char* theirs);
 
 /// The rows on detection at any time, held, and on dual classification.
 std::vector<Goal> run_goals(const ControllerResults& held);

@@ -17,12 +17,12 @@ struct Found {
   EpisodeEvidence evidence;
 };
 
-FaultEvent fault(FaultKind kind, int joint, double onset_s, double size, double length_s = kLasting_s) {
+SimulatedFault fault(FaultKind kind, int joint, double onset_s, double size, double length_s = kLasting_s) {
   return rrp_run_with(kind, joint, onset_s, size, length_s).faults.front();
 }
 
 /// What is found in a run of 9 s with these faults.
-std::vector<Found> found(const std::vector<FaultEvent>& faults) {
+std::vector<Found> found(const std::vector<SimulatedFault>& faults) {
   SimulationSpec run = rrp_run(9.0);
   run.faults = faults;
   const MotionModel& model = rrp_motion_model();

@@ -18,7 +18,7 @@ TEST(PairedBootstrap, gives_the_interval_of_the_normal_approximation_on_many_run
     theirs.push_back(run);
     ours.push_back(run + 0.3 + random.normal());
   }
-  const Difference difference = paired_difference(ours, theirs);
+  const PairedDifference difference = paired_difference(ours, theirs);
   const double half = 1.96 / std::sqrt(400.0);
   EXPECT_NEAR(difference.low, difference.value - half, 0.02);
   EXPECT_NEAR(difference.high, difference.value + half, 0.02);
