@@ -36,7 +36,15 @@ struct Case {
   FaultLabel label;     ///< what it was as far as is known: the decision until a person says otherwise
   CaseOutcome outcome = CaseOutcome::unconfirmed;
   std::string what_was_done;  ///< by the technician
-  std::string origin;         ///< "simulated", a log's name, an import
+  std::string origin;         ///< kSimulatedOrigin, kLabelledOrigin, a log's name, an import
+  std::string log_sha256;     ///< of the log that it was seen in; empty where that is not known
+  double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< in that log; NaN where it is not known
+  /// Identity of the earlier model that the features were computed with; empty: of the model of the base.
+  std::string features_by;
 };
+
+/// What `learn` says of the cases that it makes; they are made anew each time.
+inline constexpr const char* kSimulatedOrigin = "simulated";
+inline constexpr const char* kLabelledOrigin = "labelled log";
 
 }  // namespace faultline

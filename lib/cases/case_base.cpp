@@ -13,6 +13,9 @@
 namespace faultline {
 namespace {
 
+constexpr double kLargestNumber = 1e15;
+constexpr int kMostJoints = 64;
+
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::input, "case base", message); }
 
 void check_features(const std::vector<Feature>& features) {
@@ -20,10 +23,13 @@ void check_features(const std::vector<Feature>& features) {
   for (const Feature& f : features) {
     if (f.name.empty()) refuse("a feature has no name");
     if (!names.insert(f.name).second) refuse("feature \"" + f.name + "\" is there twice");
-    if (!(std::isfinite(f.scale) && f.scale > 0.0 && f.weight >= 0.0 && f.weight <= 1.0))
+    if (!(f.scale > 0.0 && f.scale <= kLargestNumber && f.weight >= 0.0 && f.weight <= 1.0))
       refuse("feature \"" + f.name + "\" needs a scale above 0 and a weight of 0 to 1");
   }
 }
+
+/// NaN, which is not measured, or a number that something measured may have.
+bool is_sane(double x) { return std::isnan(x) || std::abs(x) <= kLargestNumber; }
 
 bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
 
@@ -61,6 +67,17 @@ class ContentHash {
   Sha256 hash_;
 };
 
+/// Bases without any of these keep the hash that they had before cases knew them.
+bool tells_of_its_log(const Case& c) {
+  return !c.log_sha256.empty() || !std::isnan(c.onset_s) || !c.features_by.empty();
+}
+
+void add_log(ContentHash& hash, const Case& c) {
+  hash.add(c.log_sha256);
+  hash.add(c.onset_s);
+  hash.add(c.features_by);
+}
+
 void add_content(ContentHash& hash, const Case& c) {
   for (const double x : c.episode.features) hash.add(x);
   hash.add(c.episode.mlp);
@@ -73,10 +90,16 @@ void add_content(ContentHash& hash, const Case& c) {
   hash.add(c.origin);
 }
 
+void mend_texts(Case& c) {
+  for (std::string* text : {&c.what_was_done, &c.origin, &c.log_sha256, &c.features_by})
+    *text = valid_utf8(*text);
+}
+
 /// All of a case but its id.
 std::string content_of(const Case& c) {
   ContentHash hash;
   add_content(hash, c);
+  add_log(hash, c);
   return hash.hex();
 }
 
@@ -96,8 +119,7 @@ CaseBase::CaseBase(Metric metric, std::vector<Case> cases)
     if (c.id <= last) refuse("case ids must be above 0 and ascend; " + std::to_string(c.id) + " does not");
     last = c.id;
     check(c);
-    c.what_was_done = valid_utf8(c.what_was_done);
-    c.origin = valid_utf8(c.origin);
+    mend_texts(c);
   }
 }
 
@@ -113,13 +135,15 @@ void CaseBase::check(const Case& c) const {
     refuse(which + " has " + std::to_string(c.episode.features.size()) + " features, this base compares " +
            std::to_string(metric_.features.size()) + "; it comes from another robot or program version");
   for (std::size_t i = 0; i < metric_.features.size(); ++i)
-    if (std::isinf(c.episode.features[i]))
-      refuse(which + ": feature \"" + metric_.features[i].name + "\" is infinite");
+    if (!is_sane(c.episode.features[i]))
+      refuse(which + ": feature \"" + metric_.features[i].name + "\" is infinite or beyond any measurement");
   if (!is_share(c.episode.mlp.confidence) || !is_share(c.episode.rbfn.confidence))
     refuse(which + ": the confidence of an opinion must be 0 to 1");
-  if (std::isinf(c.episode.evidence)) refuse(which + ": the evidence is infinite");
+  if (!is_sane(c.episode.evidence)) refuse(which + ": the evidence is infinite or beyond any measurement");
+  if (!is_sane(c.onset_s)) refuse(which + ": the onset is infinite or beyond any measurement");
   for (const FaultLabel& label : {c.decision, c.label, c.episode.mlp.label, c.episode.rbfn.label})
-    if (label.joint < 0) refuse(which + ": joints count from 1");
+    if (label.joint < 0 || label.joint > kMostJoints)
+      refuse(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");
 }
 
 const Case& CaseBase::at(std::int64_t id) const {
@@ -134,12 +158,21 @@ const Case& CaseBase::at(std::int64_t id) const {
 
 Case& CaseBase::find(std::int64_t id) { return const_cast<Case&>(at(id)); }
 
+void CaseBase::take(Case c) {
+  check(c);
+  mend_texts(c);
+  cases_.push_back(std::move(c));
+}
+
 std::int64_t CaseBase::retain(Case c) {
   c.id = cases_.empty() ? 1 : cases_.back().id + 1;
-  check(c);
-  c.what_was_done = valid_utf8(c.what_was_done);
-  c.origin = valid_utf8(c.origin);
-  cases_.push_back(std::move(c));
+  take(std::move(c));
+  return cases_.back().id;
+}
+
+std::int64_t CaseBase::retain_with_id(Case c) {
+  if (c.id <= (cases_.empty() ? 0 : cases_.back().id)) return retain(std::move(c));
+  take(std::move(c));
   return cases_.back().id;
 }
 
@@ -178,8 +211,9 @@ void CaseBase::learn() {
 }
 
 std::string CaseBase::sha256() const {
+  const bool tell_logs = std::any_of(cases_.begin(), cases_.end(), tells_of_its_log);
   ContentHash hash;
-  hash.add(std::string("faultline/cases/1"));
+  hash.add(std::string(tell_logs ? "faultline/cases/2" : "faultline/cases/1"));
   hash.add_bits(metric_.features.size());
   for (const Feature& f : metric_.features) {
     hash.add(f.name);
@@ -191,6 +225,7 @@ std::string CaseBase::sha256() const {
   for (const Case& c : cases_) {
     hash.add_bits(static_cast<std::uint64_t>(c.id));
     add_content(hash, c);
+    if (tell_logs) add_log(hash, c);
   }
   return hash.hex();
 }

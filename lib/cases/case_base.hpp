@@ -30,6 +30,8 @@ class CaseBase {
   /// Retain: adds an episode and gives its id. `c.id` is ignored. Throws Error(input) when the features are
   /// not those of the base or are infinite.
   std::int64_t retain(Case c);
+  /// The same, with the id that the case has if that is above all others.
+  std::int64_t retain_with_id(Case c);
   /// Revise: the decision was right, or was `label`. An empty `what_was_done` keeps the old one.
   void confirm(std::int64_t id, std::optional<FaultLabel> label = {}, const std::string& what_was_done = "");
   /// Revise: the decision was wrong; `was` is what it was, if known.
@@ -43,12 +45,20 @@ class CaseBase {
   /// Of the metric and all cases, the same on every machine, whatever file or export they came from.
   std::string sha256() const;
 
+  /// Identity of the model that the base was learned with; empty in bases of programs that gave none. It is
+  /// not part of the content.
+  const std::string& model_identity() const { return model_identity_; }
+  void belong_to(std::string model_identity) { model_identity_ = std::move(model_identity); }
+
  private:
   Case& find(std::int64_t id);
   void check(const Case& c) const;
 
+  void take(Case c);
+
   Metric metric_;
   std::vector<Case> cases_;
+  std::string model_identity_;
 };
 
 }  // namespace faultline

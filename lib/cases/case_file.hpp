@@ -11,16 +11,25 @@ namespace faultline {
 /// Where the case base of a model lies unless the user says otherwise: MODEL.cases.db beside it.
 std::string case_base_path(const std::string& model);
 
-/// The case base as one SQLite file: application id "FLCB", schema version 1 (docs/model-and-case-base.md).
-/// All functions throw Error(input) that says what is wrong with the file: missing, a directory, empty,
-/// truncated, damaged, written by another program or by a newer faultline.
+/// The case base as one SQLite file: application id "FLCB", schema version 2 (docs/model-and-case-base.md);
+/// version 1 is read, too, and becomes version 2 when it is changed. All functions throw Error(input) that
+/// says what is wrong with the file: missing, a directory or device, empty, truncated, damaged (its digest
+/// does not fit), with tables of its own, written by another program or by a newer faultline.
 
-/// Opens the file read-only: it is never changed, not even its time stamp.
+/// Opens the file read-only: it is never changed, not even its time stamp. A change that was interrupted is
+/// undone in a copy, so that who may only read can read.
 CaseBase read_case_base(const std::string& path);
 
-/// Writes the whole base under a temporary name and renames it; a file of that name is replaced.
-/// Throws Error(output) when that fails.
+/// True when there is a file that is not empty.
+bool has_case_base(const std::string& path);
+
+/// Makes `base` the content of the file, as one transaction in a case base that is there (whatever it holds),
+/// else as a new file. Throws Error(output) when that fails; then the file is as it was.
 void write_case_base(const std::string& path, const CaseBase& base);
+
+/// The same with what `make` makes of the base that is there, read under the lock of the transaction; null
+/// when there is none.
+void replace_case_base(const std::string& path, const std::function<CaseBase(const CaseBase* there)>& make);
 
 /// Reads the base, lets `change` work on it and stores what it changed, as one transaction: all of it or,
 /// when `change` throws or the disk is full, nothing. Others may read meanwhile; a second writer waits.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
@@ -52,6 +53,9 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   c.outcome = case_outcome_from(json.at("outcome").get<std::string>());
   c.what_was_done = json.at("what_was_done").get<std::string>();
   c.origin = json.at("origin").get<std::string>();
+  c.log_sha256 = json.value("log_sha256", "");
+  if (json.contains("onset_s")) c.onset_s = number_or_nan(json["onset_s"]);
+  c.features_by = json.value("features_by", "");
   c.episode.mlp = opinion_from(json.at("opinions").at("mlp"));
   c.episode.rbfn = opinion_from(json.at("opinions").at("rbfn"));
   c.episode.evidence = number_or_nan(json.at("evidence"));
@@ -78,19 +82,24 @@ void check_schema(const Json& json) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
-  return {{"id", c.id},
-          {"label", label_json(c.label)},
-          {"decision", label_json(c.decision)},
-          {"outcome", to_string(c.outcome)},
-          {"what_was_done", c.what_was_done},
-          {"origin", c.origin},
-          {"opinions", {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}}},
-          {"evidence", number_or_null(c.episode.evidence)},
-          {"features", feature_values(base, c)}};
+  Json json{{"id", c.id},
+            {"label", label_json(c.label)},
+            {"decision", label_json(c.decision)},
+            {"outcome", to_string(c.outcome)},
+            {"what_was_done", c.what_was_done},
+            {"origin", c.origin}};
+  if (!c.log_sha256.empty()) json["log_sha256"] = c.log_sha256;
+  if (!std::isnan(c.onset_s)) json["onset_s"] = c.onset_s;
+  if (!c.features_by.empty()) json["features_by"] = c.features_by;
+  json["opinions"] = {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}};
+  json["evidence"] = number_or_null(c.episode.evidence);
+  json["features"] = feature_values(base, c);
+  return json;
 }
 
 std::string to_cases_json(const CaseBase& base) {
   Json json = {{"schema", kSchema}, {"near_similarity", number_or_null(base.metric().near_similarity)}};
+  if (!base.model_identity().empty()) json["model_identity"] = base.model_identity();
   json["features"] = Json::array();
   for (const Feature& f : base.metric().features)
     json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});
@@ -105,7 +114,9 @@ CaseBase from_cases_json(const std::string& text, const std::string& where) try 
   Metric metric = metric_from(json);
   std::vector<Case> cases;
   for (const Json& c : json.at("cases")) cases.push_back(case_from(c, metric.features));
-  return CaseBase(std::move(metric), std::move(cases));
+  CaseBase base(std::move(metric), std::move(cases));
+  base.belong_to(json.value("model_identity", ""));
+  return base;
 } catch (const nlohmann::json::exception& error) {
   throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
 } catch (const Error& error) {

@@ -3,7 +3,9 @@
 
 #include <sqlite3.h>
 
+#include <bit>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "lib/core/error.hpp"
@@ -22,6 +24,14 @@ int open_flags(SqliteMode mode) {
   }
   return SQLITE_OPEN_READONLY;
 }
+
+constexpr int kPatienceMs = 5000;  // for the lock of another program
+constexpr int kLongestValue = 64 << 20;
+constexpr int kStepsAtATime = 10'000;
+constexpr long long kLeastSteps = 50'000'000, kStepsAByte = 100;
+
+/// Counts down; SQLite ends the statement when it returns something else than 0.
+int use_up_steps(void* left) { return --*static_cast<long long*>(left) < 0 ? 1 : 0; }
 
 ErrorCode code_of(int sqlite, SqliteMode mode) {
   const bool writing = sqlite == SQLITE_FULL || sqlite == SQLITE_READONLY || sqlite == SQLITE_IOERR;
@@ -45,6 +55,8 @@ const char* advice_for(int sqlite) {
       return "is being changed by another program; try again when that has finished";
     case SQLITE_CANTOPEN:
       return "cannot be opened; check that it exists, is a file and may be read";
+    case SQLITE_INTERRUPT:
+      return "takes far longer than its size explains; it is no case base written by faultline";
     case SQLITE_IOERR:
       return "cannot be read or written to its end; nothing was changed. Check the disk";
     default:
@@ -54,22 +66,42 @@ const char* advice_for(int sqlite) {
 
 }  // namespace
 
-SqliteFile::SqliteFile(std::string path, SqliteMode mode) : path_(std::move(path)), mode_(mode) {
-  const int code = sqlite3_open_v2(path_.c_str(), &db_, open_flags(mode), nullptr);
+SqliteFile::SqliteFile(std::string path, SqliteMode mode, std::string name)
+    : name_(name.empty() ? path : std::move(name)), mode_(mode) {
+  const int code = sqlite3_open_v2(path.c_str(), &db_, open_flags(mode), nullptr);
   if (code != SQLITE_OK) {
     sqlite3_close(db_);
     db_ = nullptr;
     fail(code);
   }
-  sqlite3_busy_timeout(db_, 5000);
+  sqlite3_busy_timeout(db_, kPatienceMs);
+  distrust_schema();
+  if (mode != SqliteMode::create) limit_steps(path);
 }
 
 SqliteFile::~SqliteFile() { sqlite3_close(db_); }
 
+void SqliteFile::distrust_schema() {
+  for (const int off : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,
+                        SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_DQS_DML})
+    sqlite3_db_config(db_, off, 0, nullptr);
+  sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestValue);
+  sqlite3_limit(db_, SQLITE_LIMIT_ATTACHED, 0);
+}
+
+void SqliteFile::limit_steps(const std::string& path) {
+  std::error_code no_file;
+  const auto size = std::filesystem::file_size(path, no_file);
+  const long long bytes = no_file ? 0 : static_cast<long long>(size);
+  steps_left_ = (kLeastSteps + kStepsAByte * bytes) / kStepsAtATime;
+  sqlite3_progress_handler(db_, kStepsAtATime, use_up_steps, &steps_left_);
+}
+
 void SqliteFile::fail(int code) const {
   const int extended = db_ ? sqlite3_extended_errcode(db_) : code;
   const std::string reason = db_ ? sqlite3_errmsg(db_) : sqlite3_errstr(code);
-  throw Error(code_of(extended & 0xff, mode_), path_,
+  throw Error(code_of(extended & 0xff, mode_), name_,
               std::string(advice_for(extended)) + " (SQLite says: " + reason + ")");
 }
 
@@ -86,6 +118,15 @@ std::int64_t SqliteFile::number(const char* sql) {
 std::string SqliteFile::text(const char* sql) {
   SqliteStatement statement(*this, sql);
   return statement.step() ? statement.text(0) : "";
+}
+
+std::string SqliteFile::bytes() {
+  sqlite3_int64 size = 0;
+  unsigned char* image = sqlite3_serialize(db_, "main", &size, 0);
+  if (!image) fail(SQLITE_NOMEM);
+  std::string copy(reinterpret_cast<const char*>(image), static_cast<std::size_t>(size));
+  sqlite3_free(image);
+  return copy;
 }
 
 SqliteStatement::SqliteStatement(SqliteFile& file, const char* sql) : file_(file) {
@@ -144,6 +185,23 @@ std::string SqliteStatement::text(int column) const {
 std::string SqliteStatement::blob(int column) const {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
   return bytes ? std::string(bytes, sqlite3_column_bytes(statement_, column)) : std::string();
+}
+
+int SqliteStatement::columns() const { return sqlite3_column_count(statement_); }
+
+std::string SqliteStatement::exact(int column) const {
+  switch (sqlite3_column_type(statement_, column)) {
+    case SQLITE_INTEGER:
+      return "i" + std::to_string(integer(column));
+    case SQLITE_FLOAT:
+      return "r" + std::to_string(std::bit_cast<std::uint64_t>(real(column)));
+    case SQLITE_TEXT:
+      return "t" + text(column);
+    case SQLITE_BLOB:
+      return "b" + blob(column);
+    default:
+      return "n";
+  }
 }
 
 }  // namespace faultline

@@ -13,10 +13,13 @@ namespace faultline {
 enum class SqliteMode { read_only, change, create };
 
 /// An open SQLite file; every failure throws Error(input), or Error(output) where writing failed, with the
-/// file's name and SQLite's reason in words.
+/// file's name and SQLite's reason in words. What the file brings along is not trusted: its triggers and
+/// views do not run, no function of its schema may do harm, and a statement that takes far more steps than
+/// the size of the file explains is ended.
 class SqliteFile {
  public:
-  SqliteFile(std::string path, SqliteMode mode);
+  /// `name` stands in messages; empty: the path. The path ":memory:" is a new one that is no file.
+  SqliteFile(std::string path, SqliteMode mode, std::string name = "");
   ~SqliteFile();
   SqliteFile(const SqliteFile&) = delete;
   SqliteFile& operator=(const SqliteFile&) = delete;
@@ -24,13 +27,18 @@ class SqliteFile {
   void run(const char* sql);
   std::int64_t number(const char* sql);
   std::string text(const char* sql);
+  /// All its bytes, as they would stand in a file.
+  std::string bytes();
 
  private:
   friend class SqliteStatement;
   [[noreturn]] void fail(int code) const;
+  void distrust_schema();
+  void limit_steps(const std::string& path);
 
-  std::string path_;
+  std::string name_;
   SqliteMode mode_;
+  long long steps_left_ = 0;  ///< in units of kStepsAtATime
   sqlite3* db_ = nullptr;
 };
 
@@ -52,6 +60,9 @@ class SqliteStatement {
   double real(int column) const;  ///< NULL becomes NaN
   std::string text(int column) const;
   std::string blob(int column) const;
+  int columns() const;
+  /// Type and value without loss: what is different has different bytes.
+  std::string exact(int column) const;
 
  private:
   void check(int code) const;

@@ -21,6 +21,11 @@ std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpi
   return half;
 }
 
+CaseSource source_of(const MonitoredRun& run) {
+  if (run.origin == kSimulatedOrigin) return {run.origin, "", std::numeric_limits<double>::quiet_NaN()};
+  return {run.origin, run.log.log.sha256, run.onset_s};
+}
+
 }  // namespace
 
 TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model) {
@@ -31,7 +36,7 @@ TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Mod
     const Episode episode = describe_episode(*of_fault, model).episode;
     out.episodes.push_back({episode.features, run.label});
     out.evidence.push_back(episode.evidence);
-    out.origins.push_back(run.origin);
+    out.sources.push_back(source_of(run));
   }
   return out;
 }
@@ -46,7 +51,9 @@ CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
     c.episode = {training.episodes[i].features, opinions.mlp, opinions.rbfn, training.evidence[i]};
     c.decision = c.label = training.episodes[i].label;
     c.outcome = CaseOutcome::confirmed;
-    c.origin = training.origins[i];
+    c.origin = training.sources[i].origin;
+    c.log_sha256 = training.sources[i].log_sha256;
+    c.onset_s = training.sources[i].onset_s;
     cases.retain(std::move(c));
   }
   cases.learn();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
@@ -10,12 +12,19 @@
 
 namespace faultline {
 
+/// Where a case comes from.
+struct CaseSource {
+  std::string origin;
+  std::string log_sha256;  ///< empty where it was no file
+  double onset_s = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// The episodes that the networks and the case base learn from: of each run the one that belongs to its
 /// fault, with its label and where it comes from.
 struct TrainingEpisodes {
   std::vector<LabelledEpisode> episodes;
-  std::vector<double> evidence;      ///< log likelihood ratio of the best hypothesis, one an episode
-  std::vector<std::string> origins;  ///< as a case tells it
+  std::vector<double> evidence;     ///< log likelihood ratio of the best hypothesis, one an episode
+  std::vector<CaseSource> sources;  ///< as a case tells it
 };
 
 TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model);

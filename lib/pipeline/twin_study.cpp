@@ -68,7 +68,8 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    runs[i] = {run.label, run.onset_s, length_s, "simulated", monitored(source, run, model), size_of(run)};
+    runs[i] = {run.label,   run.onset_s, length_s, kSimulatedOrigin, monitored(source, run, model),
+               size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));

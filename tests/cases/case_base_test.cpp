@@ -89,6 +89,9 @@ TEST(CaseBase, ContentHashSeesEveryField) {
   EXPECT_TRUE(differs([](Case& c) { c.outcome = CaseOutcome::rejected; }));
   EXPECT_TRUE(differs([](Case& c) { c.what_was_done = "x"; }));
   EXPECT_TRUE(differs([](Case& c) { c.origin = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.log_sha256 = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.onset_s = 1.5; }));
+  EXPECT_TRUE(differs([](Case& c) { c.features_by = "x"; }));
   Metric metric = base.metric();
   metric.near_similarity *= 0.5;
   EXPECT_NE(CaseBase(metric, base.cases()).sha256(), base.sha256());

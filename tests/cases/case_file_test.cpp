@@ -36,6 +36,9 @@ CaseBase awkward_base() {
   c.episode.evidence = std::numeric_limits<double>::quiet_NaN();
   c.what_was_done = std::string("quote ' \" and \n line, caf\xc3\xa9") + std::string("\0 after NUL", 11);
   c.outcome = CaseOutcome::rejected;
+  c.log_sha256 = "ab";
+  c.onset_s = 0.1;
+  c.features_by = "an earlier model";
   base.retain(c);
   return base;
 }
@@ -51,18 +54,22 @@ TEST_F(CaseFile, LiesBesideItsModelUnlessSaidOtherwise) {
 }
 
 TEST_F(CaseFile, RoundTripKeepsTheContent) {
-  const CaseBase base = awkward_base();
+  CaseBase base = awkward_base();
+  base.belong_to("0123456789abcdef");
   write_case_base(path_, base);
   const CaseBase read = read_case_base(path_);
+  EXPECT_EQ(read.model_identity(), "0123456789abcdef");
   EXPECT_EQ(read.sha256(), base.sha256());
   EXPECT_EQ(read.cases().back().what_was_done, base.cases().back().what_was_done);
   EXPECT_EQ(read.feature_names(), base.feature_names());
 }
 
 TEST_F(CaseFile, ExportAndImportLoseNothing) {
-  const CaseBase base = awkward_base();
+  CaseBase base = awkward_base();
+  base.belong_to("0123456789abcdef");
   const std::string text = to_cases_json(base);
   const CaseBase read = from_cases_json(text, "export.json");
+  EXPECT_EQ(read.model_identity(), "0123456789abcdef");
   EXPECT_EQ(read.sha256(), base.sha256());
   EXPECT_EQ(to_cases_json(read), text);
 }
@@ -112,21 +119,6 @@ TEST_F(CaseFile, AChangeThatFailsChangesNothing) {
   };
   EXPECT_THROW(change_case_base(path_, half), Error);
   EXPECT_EQ(read_file(path_), before);
-}
-
-TEST_F(CaseFile, AnInterruptedChangeIsRolledBackByTheNextOne) {
-  const CaseBase base = example_base(200);
-  write_case_base(path_, base);
-  const std::string cut = folder_.file("cut.db");
-  {
-    SqliteFile file(path_, SqliteMode::change);
-    file.run("PRAGMA cache_size = 1; BEGIN IMMEDIATE; UPDATE fault_case SET what_was_done = 'half a change'");
-    std::filesystem::copy(path_, cut);  // as a power cut would leave it
-    std::filesystem::copy(path_ + "-journal", cut + "-journal");
-  }
-  EXPECT_NE(refusal(cut).find("interrupted"), std::string::npos) << refusal(cut);
-  change_case_base(cut, [](CaseBase&) {});
-  EXPECT_EQ(read_case_base(cut).sha256(), base.sha256());
 }
 
 TEST_F(CaseFile, MissingFile) { EXPECT_NE(refusal(path_).find("no such case base"), std::string::npos); }
@@ -184,7 +176,7 @@ TEST_F(CaseFile, FlippedBitsAreReadOrRefusedButNeverACrash) {
 
 TEST_F(CaseFile, NewerSchema) {
   write_case_base(path_, example_base());
-  SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 2");
+  SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 3");
   EXPECT_NE(refusal(path_).find("newer faultline"), std::string::npos) << refusal(path_);
 }
 
@@ -196,13 +188,7 @@ TEST_F(CaseFile, SqliteFileOfAnotherProgram) {
 TEST_F(CaseFile, LostRows) {
   write_case_base(path_, example_base());
   SqliteFile(path_, SqliteMode::change).run("DELETE FROM fault_case WHERE id = 5");
-  EXPECT_NE(refusal(path_).find("incomplete"), std::string::npos) << refusal(path_);
-}
-
-TEST_F(CaseFile, ForeignWords) {
-  write_case_base(path_, example_base());
-  SqliteFile(path_, SqliteMode::change).run("UPDATE fault_case SET kind = 'rust' WHERE id = 5");
-  EXPECT_NE(refusal(path_).find("rust"), std::string::npos) << refusal(path_);
+  EXPECT_NE(refusal(path_).find("does not fit the digest"), std::string::npos) << refusal(path_);
 }
 
 TEST_F(CaseFile, AFolderThatIsMissingLeavesNothing) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "lib/cases/sqlite.hpp"
+
+namespace faultline {
+
+/// The tables of a case base file (docs/model-and-case-base.md). Version 1 has no table `identity`
+/// and no columns of the log of a case.
+inline constexpr std::int64_t kCaseSchemaVersion = 2;
+
+/// Makes the tables of the newest version, empty.
+void create_case_tables(SqliteFile& file);
+/// Removes all tables of version `version`.
+void drop_case_tables(SqliteFile& file, std::int64_t version);
+
+/// The version of a file whose application id, version and schema are those of a case base, to the word: no
+/// other table, view, index or trigger. Throws Error(input) with `name`.
+std::int64_t checked_case_schema(SqliteFile& file, const std::string& name);
+
+/// SHA-256 of every value in all tables, with its type, but the digest itself.
+std::string case_tables_digest(SqliteFile& file);
+
+}  // namespace faultline

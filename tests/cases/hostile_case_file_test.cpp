@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Case bases that were changed by something else than this program: damaged, of an earlier version, or made
+// to do harm.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "lib/cases/case_file.hpp"
+#include "lib/cases/case_json.hpp"
+#include "lib/cases/sqlite.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "tests/cases/example_base.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+/// Version 1, as programs before the digest wrote it.
+const std::string kOldBase = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden/cases-6f5469ce.db";
+
+class HostileCaseFile : public testing::Test {
+ protected:
+  HostileCaseFile() { write_case_base(path_, example_base(5)); }
+
+  /// As another program would, which distrusts nothing.
+  void run(const std::string& sql) { SqliteFile(path_, SqliteMode::change).run(sql.c_str()); }
+
+  std::string refusal() const {
+    try {
+      read_case_base(path_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input);
+      return error.message();
+    }
+    return "it was read";
+  }
+
+  void use_old_base() {
+    std::filesystem::copy_file(kOldBase, path_, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_all);
+  }
+
+  TemporaryFolder folder_;
+  std::string path_ = folder_.file("robot.cases.db");
+};
+
+TEST_F(HostileCaseFile, AFlippedBitIsRefusedOrChangesNothingThatIsRead) {
+  CaseBase base = example_base(5);
+  base.belong_to("0123456789abcdef");
+  write_case_base(path_, base);
+  const std::string whole = read_file(path_), content = to_cases_json(base);
+  Random random(5);
+  int refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::string bytes = whole;
+    const std::size_t at = random.below(bytes.size());
+    bytes[at] ^= static_cast<char>(1 << random.below(8));
+    write_file(path_, bytes);
+    try {
+      EXPECT_EQ(to_cases_json(read_case_base(path_)), content) << "byte " << at;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50) << "most bytes of so small a base are unused";
+}
+
+TEST_F(HostileCaseFile, AChangedNumberIsRefused) {
+  run("UPDATE feature SET weight = weight * 0.999 WHERE position = 1");
+  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
+}
+
+TEST_F(HostileCaseFile, AForeignModelIsRefused) {
+  run("UPDATE identity SET model = 'another'");
+  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
+}
+
+TEST_F(HostileCaseFile, AViewThatNeverEndsIsRefusedAtOnce) {
+  run("ALTER TABLE fault_case RENAME TO gone; CREATE VIEW fault_case AS WITH RECURSIVE n(id) AS (SELECT 1 "
+      "UNION ALL SELECT id + 1 FROM n) SELECT id FROM n");
+  EXPECT_NE(refusal().find("the view \"fault_case\""), std::string::npos) << refusal();
+  EXPECT_THROW(change_case_base(path_, [](CaseBase&) {}), Error);
+  EXPECT_THROW(write_case_base(path_, example_base(1)), Error);
+}
+
+TEST_F(HostileCaseFile, ATriggerIsRefusedAndDoesNotRun) {
+  run("CREATE TRIGGER t AFTER INSERT ON fault_case BEGIN UPDATE fault_case SET kind = 'locked'; END");
+  EXPECT_NE(refusal().find("the trigger \"t\""), std::string::npos) << refusal();
+  EXPECT_THROW(change_case_base(path_, [](CaseBase& base) { base.confirm(1); }), Error);
+  SqliteFile file(path_, SqliteMode::read_only);
+  EXPECT_LT(file.number("SELECT count(*) FROM fault_case WHERE kind = 'locked'"), 15);
+}
+
+TEST_F(HostileCaseFile, AStatementThatNeverEndsIsEnded) {
+  SqliteFile file(path_, SqliteMode::read_only);
+  EXPECT_THROW(
+      file.number("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n"),
+      Error);
+}
+
+TEST_F(HostileCaseFile, ADeviceIsNoCaseBase) {
+  EXPECT_THROW(read_case_base("/dev/zero"), Error);
+  EXPECT_THROW(write_case_base("/dev/null", example_base(1)), Error);
+}
+
+TEST_F(HostileCaseFile, ABaseOfAnEarlierVersionIsReadAndBecomesNewWhenItIsChanged) {
+  use_old_base();
+  const CaseBase old = read_case_base(path_);
+  EXPECT_EQ(old.sha256().substr(0, 8), "6f5469ce") << "the content hash of old bases stays";
+  change_case_base(path_, [](CaseBase&) {});
+  EXPECT_EQ(read_case_base(path_).sha256(), old.sha256());
+  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 2);
+}
+
+TEST_F(HostileCaseFile, LostRowsOfAnEarlierVersion) {
+  use_old_base();
+  run("DELETE FROM fault_case WHERE id = 5");
+  EXPECT_NE(refusal().find("incomplete"), std::string::npos) << refusal();
+}
+
+TEST_F(HostileCaseFile, ForeignWordsOfAnEarlierVersion) {
+  use_old_base();
+  run("UPDATE fault_case SET kind = 'rust' WHERE id = 5");
+  EXPECT_NE(refusal().find("rust"), std::string::npos) << refusal();
+}
+
+TEST_F(HostileCaseFile, WildNumbersOfAnEarlierVersion) {
+  for (const char* change :
+       {"UPDATE fault_case SET evidence = 1e308 WHERE id = 5", "UPDATE feature SET scale = 1e308",
+        "UPDATE fault_case SET joint = 99 WHERE id = 5", "UPDATE fault_case SET mlp_confidence = -1",
+        "UPDATE metric SET near_similarity = 7"}) {
+    use_old_base();
+    run(change);
+    EXPECT_NE(refusal(), "it was read") << change;
+  }
+}
+
+}  // namespace
+}  // namespace faultline
