@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "apps/carried_cases.hpp"
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
@@ -78,16 +80,28 @@ void claim_files(const LearnArguments& arguments) {
 }
 
 /// Fails before the work begins rather than after it.
-void check_writable(const LearnArguments& arguments) {
-  const AtomicFile model(arguments.model), cases(arguments.case_base());
+void check_writable(const LearnArguments& arguments, const Robot& robot) {
+  const std::string path = arguments.case_base();
+  if (has_case_base(path))
+    check_can_carry_over(path, robot.joints());
+  else
+    const AtomicFile cases(path);
+  const AtomicFile model(arguments.model);
 }
 
-/// Both files or, when the disk is full, neither.
-void write_model(const Learned& learned, const LearnArguments& arguments) {
+/// The case base first: what a kill between the two leaves behind is told by the identity in both.
+std::optional<CarriedCases> write_model(Learned& learned, const LearnArguments& arguments) {
+  const std::string text = model_to_json(learned.model);
+  model_from_json(text, arguments.model);  // what is written can be read
   AtomicFile model(arguments.model);
-  model.write(model_to_json(learned.model));
-  write_case_base(arguments.case_base(), learned.cases);
+  model.write(text);
+  std::optional<CarriedCases> carried;
+  replace_case_base(arguments.case_base(), [&](const CaseBase* there) {
+    if (there) carried = carry_over(*there, learned.cases);
+    return learned.cases;
+  });
   model.commit();
+  return carried;
 }
 
 int show_twin(const LearnArguments& arguments) {
@@ -102,12 +116,13 @@ int run_learn(const LearnArguments& arguments, ColorChoice color) {
   claim_files(arguments);
   const Robot robot = load_robot_file(arguments.robot);
   const OpenLogs logs = open_logs(arguments, robot);
-  check_writable(arguments);
+  check_writable(arguments, robot);
   ProgressBar bar(color);
-  const Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
-  write_model(learned, arguments);
-  if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned));
-  if (arguments.json != "-") print(learned_text(learned, arguments.model, arguments.case_base()));
+  Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
+  const std::optional<CarriedCases> carried = write_model(learned, arguments);
+  if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned, carried));
+  if (arguments.json != "-")
+    print(learned_text(learned, arguments.model, arguments.case_base()) + carried_text(carried));
   return kNothingFound;
 }
 

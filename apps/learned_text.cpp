@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/carried_cases.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnosis/blind_spots.hpp"
@@ -153,7 +154,7 @@ std::string learned_text(const Learned& learned, const std::string& model_path,
                      learned.cases.cases().size());
 }
 
-std::string learned_json(const Learned& learned) {
+std::string learned_json(const Learned& learned, const std::optional<CarriedCases>& carried) {
   const nlohmann::ordered_json model = nlohmann::ordered_json::parse(model_to_json(learned.model));
   nlohmann::ordered_json json{{"schema", "faultline/learning/1"}, {"name", learned.model.name}};
   if (learned.model.has_mechanics()) {
@@ -165,6 +166,7 @@ std::string learned_json(const Learned& learned) {
   for (const char* key : {"sample_period_s", "sources", "validation", "evidence", "relations"})
     if (model.contains(key)) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();
+  if (carried) json["carried_over"] = carried_json(*carried);
   return json_text(json);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "lib/cases/carry_over.hpp"
 #include "lib/pipeline/learn.hpp"
 
 namespace faultline {
@@ -12,6 +14,6 @@ std::string learned_text(const Learned& learned, const std::string& model_path,
                          const std::string& case_base_path);
 
 /// Schema "faultline/learning/1".
-std::string learned_json(const Learned& learned);
+std::string learned_json(const Learned& learned, const std::optional<CarriedCases>& carried = {});
 
 }  // namespace faultline

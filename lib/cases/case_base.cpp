@@ -190,13 +190,22 @@ void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std:
   if (!what_was_done.empty()) c.what_was_done = valid_utf8(what_was_done);
 }
 
+void CaseBase::belong_to(const std::string& model_identity) {
+  if (!model_identity_.empty() && model_identity != model_identity_)
+    for (Case& c : cases_)
+      if (c.features_by.empty()) c.features_by = model_identity_;
+  model_identity_ = model_identity;
+}
+
 std::int64_t CaseBase::merge(const CaseBase& other) {
   if (feature_names() != other.feature_names())
     refuse("the cases to be added compare other features; they come from another robot or program version");
   std::set<std::string> present;
   for (const Case& c : cases_) present.insert(content_of(c));
+  CaseBase marked = other;
+  marked.belong_to(model_identity_);
   std::int64_t added = 0;
-  for (const Case& c : other.cases()) {
+  for (const Case& c : marked.cases()) {
     if (!present.insert(content_of(c)).second) continue;
     retain(c);
     ++added;

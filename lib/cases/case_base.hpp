@@ -37,7 +37,8 @@ class CaseBase {
   /// Revise: the decision was wrong; `was` is what it was, if known.
   void reject(std::int64_t id, std::optional<FaultLabel> was = {}, const std::string& what_was_done = "");
   /// Adds the cases of `other` that are not there yet (equal but for the id) under new ids and gives their
-  /// number; scales and weights stay. Throws Error(input) when `other` compares other features.
+  /// number; scales and weights stay, and what another model computed is marked (belong_to()). Throws
+  /// Error(input) when `other` compares other features.
   std::int64_t merge(const CaseBase& other);
   /// Scales and weights from the cases whose fault is known (learn_metric).
   void learn();
@@ -48,7 +49,8 @@ class CaseBase {
   /// Identity of the model that the base was learned with; empty in bases of programs that gave none. It is
   /// not part of the content.
   const std::string& model_identity() const { return model_identity_; }
-  void belong_to(std::string model_identity) { model_identity_ = std::move(model_identity); }
+  /// Cases whose features another model computed, as far as that is known, are marked so (features_by).
+  void belong_to(const std::string& model_identity);
 
  private:
   Case& find(std::int64_t id);

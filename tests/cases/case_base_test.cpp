@@ -105,6 +105,16 @@ TEST(CaseBase, MergeAddsOnlyWhatIsNew) {
   EXPECT_THROW(base.merge(CaseBase({"a", "b"})), Error);
 }
 
+TEST(CaseBase, MergeMarksTheFeaturesOfAnotherModel) {
+  CaseBase base = example_base(2), other = example_base(3);
+  base.belong_to("one");
+  other.belong_to("two");
+  EXPECT_EQ(base.merge(other), 9);
+  EXPECT_EQ(base.cases().back().features_by, "two");
+  EXPECT_EQ(base.cases().front().features_by, "");
+  EXPECT_EQ(base.merge(other), 0);
+}
+
 TEST(CaseBase, LearnLeavesOutCasesOfUnknownFault) {
   CaseBase base = example_base(10), with_rejected = example_base(10);
   Random random(3);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "lib/cases/carry_over.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace faultline {
+namespace {
+
+constexpr const char* kUnknownModel = "unknown";  // of a base that does not tell its model
+
+bool is_revised(const Case& c) {
+  return c.outcome != CaseOutcome::confirmed || !(c.label == c.decision) || !c.what_was_done.empty();
+}
+
+/// The case that `learn` made of the same fault of the same log; null when there is none. Bases that do not
+/// tell the log of a case are told apart by the fault alone.
+const Case* twin_of(const Case& c, const CaseBase& fresh) {
+  const auto& cases = fresh.cases();
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& other) {
+    return other.origin == kLabelledOrigin && other.decision == c.label &&
+           (c.log_sha256.empty() ? c.origin == kLabelledOrigin : other.log_sha256 == c.log_sha256);
+  });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+/// The features of a case of `old` in the order of `fresh`.
+std::vector<double> moved_features(const Case& c, const CaseBase& old, const CaseBase& fresh) {
+  std::map<std::string, double> by_name;
+  for (std::size_t i = 0; i < c.episode.features.size(); ++i)
+    by_name[old.metric().features[i].name] = c.episode.features[i];
+  std::vector<double> moved;
+  for (const Feature& feature : fresh.metric().features) {
+    const auto known = by_name.find(feature.name);
+    moved.push_back(known == by_name.end() ? std::numeric_limits<double>::quiet_NaN() : known->second);
+  }
+  return moved;
+}
+
+void mark_as_old(Case& c, const CaseBase& old, const CaseBase& fresh) {
+  if (!c.features_by.empty()) return;
+  if (old.model_identity().empty())
+    c.features_by = kUnknownModel;
+  else if (old.model_identity() != fresh.model_identity())
+    c.features_by = old.model_identity();
+}
+
+/// `fresh` without the cases that are those of people over again.
+CaseBase without_superseded(const CaseBase& old, const CaseBase& fresh) {
+  std::set<std::int64_t> superseded;
+  for (const Case& c : old.cases())
+    if (const Case* twin = is_made_by_learn(c) ? nullptr : twin_of(c, fresh)) superseded.insert(twin->id);
+  std::vector<Case> cases = fresh.cases();
+  std::erase_if(cases, [&](const Case& c) { return superseded.count(c.id) > 0; });
+  CaseBase rest(fresh.metric(), std::move(cases));
+  rest.belong_to(fresh.model_identity());
+  return rest;
+}
+
+}  // namespace
+
+bool is_made_by_learn(const Case& c) {
+  return (c.origin == kSimulatedOrigin || c.origin == kLabelledOrigin) && !is_revised(c);
+}
+
+CarriedCases carry_over(const CaseBase& old, CaseBase& fresh) {
+  const CaseBase learned = fresh;
+  fresh = without_superseded(old, learned);
+  CarriedCases count;
+  for (Case c : old.cases()) {
+    const Case* twin = twin_of(c, learned);
+    if (is_made_by_learn(c) && (c.origin == kSimulatedOrigin || twin)) {
+      ++count.replaced;
+      continue;
+    }
+    if (twin) {
+      c.episode = twin->episode;
+      c.features_by.clear();
+      ++count.recomputed;
+    } else {
+      c.episode.features = moved_features(c, old, learned);
+      mark_as_old(c, old, learned);
+      if (!c.features_by.empty()) ++count.old_features;
+    }
+    const std::int64_t id = c.id;
+    if (fresh.retain_with_id(std::move(c)) != id) ++count.renumbered;
+    ++count.carried;
+  }
+  return count;
+}
+
+}  // namespace faultline
