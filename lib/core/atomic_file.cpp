@@ -7,12 +7,18 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <vector>
 
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
 
 namespace faultline {
+
+namespace {
+
+constexpr std::streamsize kBlock = 1 << 16;
+
+}  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   to_stdout_ = path_ == "-";
@@ -64,17 +70,24 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, std::size_t most_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw Error(ErrorCode::input, path, "is a directory, a file was expected");
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Error(ErrorCode::input, path, std::string("cannot be opened (") + std::strerror(errno) + ")");
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
+  std::string bytes;
+  std::vector<char> block(kBlock);
+  while (file.read(block.data(), kBlock) || file.gcount() > 0) {
+    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > most_bytes)
+      throw Error(ErrorCode::input, path,
+                  "is larger than " + std::to_string(most_bytes >> 20) +
+                      " MiB, or a device without end; no " + "file of this kind is");
+  }
   if (file.bad()) throw Error(ErrorCode::input, path, "cannot be read to its end");
-  return std::move(bytes).str();
+  return bytes;
 }
 
 }  // namespace faultline

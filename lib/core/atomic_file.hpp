@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -33,7 +34,8 @@ class AtomicFile {
 };
 
 void write_file(const std::string& path, std::string_view bytes);
-/// Throws Error(input) that says missing, directory or unreadable.
-std::string read_file(const std::string& path);
+/// Throws Error(input) that says missing, directory, unreadable or longer than `most_bytes`; a device that
+/// never ends is too long.
+std::string read_file(const std::string& path, std::size_t most_bytes = std::size_t{1} << 30);
 
 }  // namespace faultline
