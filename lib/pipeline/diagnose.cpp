@@ -56,9 +56,13 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
 void question(LogSource& log, const Model& model, Issues& issues) {
   const ReadingDoubt doubt = question_reading(log, model.motion, model.sample_period_s);
   if (doubt.is_empty()) return;
+  const bool is_of_columns = doubt.cure.find("[log.columns]") != std::string::npos;
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
-      fmt::format("the log does not fit this model; it looks as if {}; {}", doubt.what, doubt.cure)));
+      fmt::format("the log does not fit this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
+                  is_of_columns
+                      ? " of a robot file for this log and convert it: faultline convert LOG OUT --robot"
+                      : "")));
 }
 
 /// A joint that was not judged may be anything.
