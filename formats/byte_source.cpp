@@ -48,7 +48,7 @@ void ByteSource::open() {
     fail(path_, "is a directory, a log file was expected");
   }
   regular_ = S_ISREG(facts.st_mode);
-  stamp_ = {facts.st_dev, facts.st_ino, facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec};
+  stamp_ = {facts.st_dev, facts.st_ino, facts.st_size};
 }
 
 /// Goes on behind the head.
@@ -57,7 +57,7 @@ void ByteSource::open_again() {
   open();
   if (!(stamp_ == before)) {
     close();
-    fail(path_, "was changed or replaced while it was being read; run again when it is complete");
+    fail(path_, "was replaced or changed while it was read; run again when it is complete");
   }
   if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
     fail(path_, "cannot be read to its end (" + reason() + ")");

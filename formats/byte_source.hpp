@@ -36,7 +36,7 @@ class ByteSource {
   /// Of the file, to tell whether it is still the same.
   struct Stamp {
     std::uint64_t device = 0, inode = 0;
-    std::int64_t size = 0, seconds = 0, nanoseconds = 0;
+    std::int64_t size = 0;
     bool operator==(const Stamp&) const = default;
   };
 
