@@ -19,11 +19,12 @@ constexpr double kWindow_s = 0.1;
 constexpr int kFewestSteps = 3;    // of a window
 constexpr std::size_t kBlock = 6;  // windows
 constexpr std::size_t kFewestOfBlock = 4;
-constexpr double kFastest = 3.0;           // times the root mean square of the healthy speed
-constexpr double kMoves = 0.05;            // of the joint's largest speed
-constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque, over all windows
-constexpr double kLeastShare = 0.1;        // of the same, in a block: less says nothing
-constexpr double kLeastHeld = 0.3;         // of the same, of a torque that holds a weight
+constexpr double kFastest = 3.0;                         // times the root mean square of the healthy speed
+constexpr double kOneQuantity = 0.98, kOtherUnit = 1.4;  // correlation and factor of two units
+constexpr double kMoves = 0.05;                          // of the joint's largest speed
+constexpr double kLeastRatioShare = 0.05;                // of the largest healthy torque, over all windows
+constexpr double kLeastShare = 0.1;                      // of the same, in a block: less says nothing
+constexpr double kLeastHeld = 0.3;                       // of the same, of a torque that holds a weight
 constexpr double kLeastFriction = 0.5, kMostFriction = 2.0;
 constexpr double kMostOffset = 0.3;  // of the largest healthy torque
 
@@ -95,6 +96,12 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// A position that jumps (a sensor's bias) makes of both what is nearly one quantity.
+bool is_other_quantity(const DerivativeAgreement& velocity) {
+  return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
+         (velocity.factor < 0.0 || std::abs(std::log(velocity.factor)) > std::log(kOtherUnit));
+}
+
 }  // namespace
 
 std::vector<JointBalance> torque_balance(const Log& log, const MotionModel& model) {
@@ -104,7 +111,7 @@ std::vector<JointBalance> torque_balance(const Log& log, const MotionModel& mode
   try {
     const LogSurvey survey = survey_log(source, chain.joints());
     for (int j = 0; j < chain.joints(); ++j)
-      if (survey.velocity[j].disagrees()) out[j].velocity_factor = survey.velocity[j].factor;
+      if (is_other_quantity(survey.velocity[j])) out[j].velocity_factor = survey.velocity[j].factor;
     std::vector<Stretch> stretches;
     source.rewind();
     for_each_stretch(source, 0, chain.joints(), survey, 1,

@@ -107,6 +107,12 @@ TEST(QuestionReading, TellsWhatTheColumnsOfAFaultyLogMean) {
   }
 }
 
+TEST(QuestionReading, APositionThatJumpsRaisesNoDoubtAboutItsVelocity) {
+  Log log = healthy();
+  for (int k = 250; k < log.rows(); ++k) log.q[2][k] += 0.02;
+  EXPECT_TRUE(doubt_of(log).is_empty()) << doubt_of(log).what;
+}
+
 TEST(QuestionReading, AFaultOfOneJointFromTheFirstRowOnRaisesNoDoubt) {
   for (const auto& [kind, joint, size] :
        {std::tuple{FaultKind::torque_loss, 1, 0.6}, std::tuple{FaultKind::friction_increase, 2, 5.0},
