@@ -56,7 +56,7 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
 void question(LogSource& log, const Model& model, Issues& issues) {
   const ReadingDoubt doubt = question_reading(log, model.motion, model.sample_period_s);
   if (doubt.is_empty()) return;
-  const bool is_of_columns = doubt.cure.find("[log.columns]") != std::string::npos;
+  const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
       fmt::format("the log does not fit this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
