@@ -15,8 +15,8 @@
 #include "formats/log_formats.hpp"
 #include "lib/batch/merge_batches.hpp"
 #include "lib/batch/run_batch.hpp"
-#include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -96,8 +96,7 @@ int run_command(BatchArguments arguments, ColorChoice color) {
     throw Error(ErrorCode::input, arguments.paths.front(),
                 "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
   claim_files(arguments, logs);
-  const Model model = load_model(arguments.model);
-  const CaseBase cases = read_case_base(arguments.case_base());
+  const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
   const OpenLog open = [&](const std::string& path) { return open_robot_log(path, model.robot); };
   BatchResult result;
   {

@@ -22,6 +22,7 @@ struct Program {
 void add_inspect(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
 void add_cases(CLI::App& app, Program& program);
+void add_model(CLI::App& app, Program& program);
 void add_simulate(CLI::App& app, Program& program);
 void add_identify(CLI::App& app, Program& program);
 void add_learn(CLI::App& app, Program& program);

@@ -10,8 +10,8 @@
 #include "apps/options.hpp"
 #include "apps/report_options.hpp"
 #include "apps/robot_log.hpp"
-#include "lib/cases/case_file.hpp"
 #include "lib/log/prefetch.hpp"
+#include "lib/model/model_files.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -33,8 +33,7 @@ void claim_files(const DiagnoseArguments& arguments) {
 
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   claim_files(arguments);
-  const Model model = load_model(arguments.model);
-  const CaseBase cases = read_case_base(arguments.case_base());
+  const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
   const auto log = prefetched(open_robot_log(arguments.log, model.robot));
   const Diagnosis diagnosis = diagnose(*log, model, cases, arguments.options);
   write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));

@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_inspect(app, program);
   add_convert(app, program);
   add_cases(app, program);
+  add_model(app, program);
   add_simulate(app, program);
   add_identify(app, program);
   add_learn(app, program);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "lib/cases/case_json.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/model/model.hpp"
 #include "lib/report/case_from_json.hpp"
 
 namespace faultline {
@@ -138,12 +138,13 @@ int import_cases(const CasesArguments& arguments) {
       .reads("the model", arguments.model)
       .writes_case_base("the case base", arguments.path())
       .claim();
-  const CaseBase imported = from_cases_json(read_file(arguments.file), arguments.file);
+  CaseBase imported = from_cases_json(read_file(arguments.file), arguments.file);
+  if (!arguments.model.empty() && !arguments.merge) imported.belong_to(load_model(arguments.model).identity);
   const std::string path = arguments.path();
   std::int64_t added = std::ssize(imported.cases());
   if (arguments.merge)
     change_case_base(path, [&](CaseBase& base) { added = base.merge(imported); });
-  else if (std::filesystem::exists(path) && !arguments.replace)
+  else if (has_case_base(path) && !arguments.replace)
     throw Error(ErrorCode::usage, path, "is there already; choose --merge to add to it or --replace");
   else
     write_case_base(path, imported);

@@ -26,11 +26,12 @@ std::string settings_of(const BatchFacts& facts) {
 }
 
 std::string facts_to_json(const BatchFacts& facts) {
+  Json model{{"name", valid_utf8(facts.model.name)},
+             {"sha256", facts.model.sha256},
+             {"cases_sha256", facts.model.cases_sha256}};
+  if (!facts.model.notes.empty()) model["notes"] = facts.model.notes;
   return Json{{"schema", "faultline/batch/1"},
-              {"model",
-               {{"name", valid_utf8(facts.model.name)},
-                {"sha256", facts.model.sha256},
-                {"cases_sha256", facts.model.cases_sha256}}},
+              {"model", model},
               {"program", {{"version", facts.program_version}}},
               {"options", facts.options},
               {"logs", facts.logs},
@@ -47,6 +48,7 @@ BatchFacts read_facts(const std::string& path) {
     BatchFacts facts;
     facts.model = {json.at("model").at("name"), json.at("model").at("sha256"),
                    json.at("model").at("cases_sha256")};
+    if (json["model"].contains("notes")) facts.model.notes = json["model"]["notes"];
     facts.program_version = json.at("program").at("version");
     facts.options = json.at("options");
     facts.logs = json.at("logs");

@@ -11,6 +11,7 @@
 #include "lib/batch/log_result.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
+#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -105,7 +106,7 @@ class Batch {
 BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, const Model& model,
                       const CaseBase& cases, const std::string& folder, const BatchOptions& options) {
   BatchFacts facts;
-  facts.model = {model.name, model.sha256, cases.sha256()};
+  facts.model = {model.name, model.sha256, cases.sha256(), notes_of(model)};
   facts.program_version = program_version();
   facts.options = options_text(options);
   facts.logs = static_cast<int>(logs.size());

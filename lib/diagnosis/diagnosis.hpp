@@ -94,6 +94,7 @@ struct ModelFacts {
   std::string name;
   std::string sha256;
   std::string cases_sha256;
+  std::vector<std::string> notes{};  ///< what its reader must know of the model, a sentence each
 };
 
 struct Diagnosis {

@@ -80,6 +80,14 @@ std::vector<SlowState> slow_from_json(const nlohmann::json& json, int joints, co
   return states;
 }
 
+void check_ranges(const MotionModel& model, const std::string& where) {
+  for (std::size_t j = 0; j < model.q_low.size(); ++j)
+    if (!(model.q_low[j] <= model.q_high[j]))
+      throw Error(ErrorCode::input, where,
+                  "\"q_low\" of joint " + std::to_string(j + 1) +
+                      " lies above its \"q_high\"; learn the model again");
+}
+
 /// What models of earlier programs lack.
 void read_later(const nlohmann::json& json, const std::string& where, MotionModel& model) {
   auto read = [&](const char* key, std::vector<double>& values) {
@@ -128,6 +136,7 @@ MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robo
     for (const double value : read)
       values.push_back(static_cast<typename std::decay_t<decltype(values)>::value_type>(value));
   });
+  check_ranges(model, where);
   visit_numbers(model, [&](const char* key, double& value) { value = number_from_json(json, key, where); });
   model.slow = slow_from_json(json, robot.joints(), where);
   model.clock_std = json.contains("clock_std") ? number_from_json(json, "clock_std", where) : 0.0;

@@ -36,7 +36,7 @@ void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& ru
                    const std::vector<std::string>& names, const NewModel& new_model) {
   for (const std::string& name : names) refuse_unusable(run, name);
   const std::vector<std::string> before = files_of(set);
-  if (new_model.subject) adopt_model(folder, new_model.model, new_model.cases, *new_model.subject, set);
+  if (new_model.subject) adopt_model(folder, new_model.model, *new_model.subject, set);
   for (const std::string& name : names) {
     rehash(folder, set, name);
     take_actual(set, run, name);

@@ -12,6 +12,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -84,7 +85,8 @@ GoldenSet load_golden(const std::string& folder) {
 }
 
 ModelAndCases load_model_and_cases(const std::string& model, const std::string& cases) {
-  return {load_model(model), read_case_base(cases), fs::path(model).filename().string()};
+  ModelFiles files = load_model_files(model, cases);
+  return {std::move(files.model), std::move(files.cases), fs::path(model).filename().string()};
 }
 
 ModelAndCases load_golden_model(const std::string& folder, const GoldenSet& set) {
@@ -140,14 +142,14 @@ void remove_left_over(const std::string& folder, const GoldenSet& set) {
   }
 }
 
-void adopt_model(const std::string& folder, const std::string& model, const std::string& cases,
-                 const ModelAndCases& subject, GoldenSet& set) {
+void adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
+                 GoldenSet& set) {
   set.model_name = subject.name;
   set.joints = subject.model.robot.joints();
   set.model = {fmt::format("model-{}.json", short_hash(subject.model.sha256)), subject.model.sha256};
   set.cases = {fmt::format("cases-{}.db", short_hash(subject.cases.sha256())), subject.cases.sha256()};
   write_below(folder, set.model.path, read_file(model));
-  write_below(folder, set.cases.path, read_file(cases));
+  write_case_base(inside(folder, set.cases.path), subject.cases);
 }
 
 }  // namespace faultline

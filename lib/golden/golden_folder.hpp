@@ -33,8 +33,9 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
 /// interrupted accept_golden() left there.
 void remove_left_over(const std::string& folder, const GoldenSet& set);
 
-/// Copies model and case base into the folder, under names of their content, and names them in `set`.
-void adopt_model(const std::string& folder, const std::string& model, const std::string& cases,
-                 const ModelAndCases& subject, GoldenSet& set);
+/// Writes a copy of the model file and its case base into the folder, under names of their content, and names
+/// them in `set`.
+void adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
+                 GoldenSet& set);
 
 }  // namespace faultline

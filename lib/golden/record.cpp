@@ -92,7 +92,7 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
   set.trace_points = options.trace_points;
   set.tolerances = default_tolerances(subject.model);
   recorded.no_identification = identify_from_healthy(logs, run, subject.model, open, options, set);
-  adopt_model(folder, model, cases, subject, set);
+  adopt_model(folder, model, subject, set);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     GoldenLog log;
     log.log = taken_log(folder, logs[i]);

@@ -11,6 +11,7 @@
 #include "lib/core/version.hpp"
 #include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
+#include "lib/model/model_files.hpp"
 #include "lib/pipeline/diagnose.hpp"
 
 namespace faultline {
@@ -97,7 +98,7 @@ GoldenRun replay(const std::vector<ReplayLog>& logs, const ModelAndCases& subjec
                  const ReplayOptions& options, const Progress& progress) {
   GoldenRun run;
   run.program_version = program_version();
-  run.model = {subject.name, subject.model.sha256, subject.cases.sha256()};
+  run.model = {subject.name, subject.model.sha256, subject.cases.sha256(), notes_of(subject.model)};
   run.logs.resize(logs.size());
   std::vector<ReplayLog> healthy;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(healthy),

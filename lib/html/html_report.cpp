@@ -43,6 +43,8 @@ std::string top(const Diagnosis& d) {
       time_text(d.log.start_s, d.log.sample_period_s), time_text(d.log.end_s, d.log.sample_period_s),
       d.log.rows_read, rate_text(d.log), escaped_markup(printable(d.model.name).substr(0, 200)),
       escaped_markup(d.program_version), to_string(d.verdict), escaped_markup(verdict_sentence(d)));
+  for (const std::string& note : d.model.notes)
+    text += fmt::format("<p class=\"sub\">Note: {}</p>\n", escaped_markup(printable(note)));
   if (d.verdict == Verdict::healthy || !d.faults.empty()) text += html_timeline(d);
   text += timeline_key(d);
   return text + html_fault_table(d) + "</header>\n";

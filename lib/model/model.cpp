@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/model/model.hpp"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/atomic_file.hpp"
@@ -11,6 +10,8 @@
 #include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/model/model_ranges.hpp"
+#include "lib/model/model_text.hpp"
 #include "lib/model/validation_json.hpp"
 #include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -19,8 +20,7 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kSchemaName = "faultline/model/";
-constexpr int kSchemaVersion = 2;
+constexpr std::size_t kLargestModel = 64 << 20;           // bytes
 constexpr const char* kLearnedFromTracking = "tracking";  // logs without torque: no mechanics
 
 nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
@@ -54,26 +54,6 @@ SampleMode samples_from_json(const nlohmann::json& json, const std::string& wher
           criterion_from_json(CriterionKind::log_odds, json.at("log_odds"))};
 }
 
-nlohmann::json parse(const std::string& text, const std::string& where) {
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded())
-    throw Error(ErrorCode::input, where,
-                "is no complete JSON file: truncated or not a model; a model is made by `faultline learn`");
-  const bool named = json.is_object() && json.contains("schema") && json["schema"].is_string();
-  const std::string schema = named ? json["schema"].get<std::string>() : "";
-  if (schema.rfind(kSchemaName, 0) != 0)
-    throw Error(ErrorCode::input, where,
-                "is JSON but no faultline model; a model is made by `faultline learn`");
-  const int version = std::atoi(schema.c_str() + std::string(kSchemaName).size());
-  if (version > kSchemaVersion)
-    throw Error(ErrorCode::input, where,
-                "has schema " + schema + ", this program knows " + kSchemaName +
-                    std::to_string(kSchemaVersion) + "; use a newer faultline or learn the model again");
-  if (version != kSchemaVersion)
-    throw Error(ErrorCode::input, where, "has the unknown schema \"" + schema + "\"; learn the model again");
-  return json;
-}
-
 nlohmann::json calibration_to_json(const ConfidenceCalibration& calibration) {
   return {{"slope", calibration.slope}, {"shift", calibration.shift}, {"most", calibration.most}};
 }
@@ -83,12 +63,22 @@ ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
           json.at("most").get<double>()};
 }
 
+/// Who the model is and who changed it.
+void read_origin(const nlohmann::json& json, Model& model) {
+  model.identity = json.value("identity", "");
+  if (json.contains("edited"))
+    for (const auto& edit : json["edited"])
+      model.edits.push_back({edit.at("digest_before").get<std::string>(), edit.at("why").get<std::string>()});
+}
+
 Model read_members(const nlohmann::json& json, const std::string& where) {
   Model model;
   model.name = json.at("name").get<std::string>();
   model.robot = robot_from_toml(json.at("robot").get<std::string>(), where + ", robot");
+  check_robot_ranges(model.robot, where);
   if (json.contains("identification"))
     model.identification = summary_from_json(nlohmann::ordered_json(json["identification"]), where);
+  read_origin(json, model);
   model.sample_period_s = json.at("sample_period_s");
   model.has_velocity = json.at("has_velocity");
   if (json.contains("relations"))
@@ -133,8 +123,9 @@ void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
 
 std::string model_to_json(const Model& model) {
   nlohmann::ordered_json json;
-  json["schema"] = kSchemaName + std::to_string(kSchemaVersion);
+  json["schema"] = model_schema(kModelVersion);
   json["name"] = model.name;
+  if (!model.identity.empty()) json["identity"] = model.identity;
   if (!model.has_mechanics()) json["learned_from"] = kLearnedFromTracking;
   json["robot"] = robot_file_text(model.robot);
   if (model.identification.status != IdentificationStatus::not_run)
@@ -144,15 +135,19 @@ std::string model_to_json(const Model& model) {
   json["sources"] = sources_to_json(model.sources);
   if (model.has_mechanics()) add_mechanics(model, json);
   if (!model.relations.empty()) json["relations"] = relations_to_json(model.relations);
-  return json.dump(1) + "\n";
+  for (const ModelEdit& edit : model.edits)
+    json["edited"].push_back({{"digest_before", edit.digest_before}, {"why", edit.why}});
+  return sealed_model_text(json);
 }
 
 Model model_from_json(const std::string& text, const std::string& where) {
   refuse_deep_json(text, where);
-  const nlohmann::json json = parse(text, where);
+  const ModelText read = read_model_text(text, where);
+  check_model_ranges(read.json, where);
   try {
-    Model model = read_members(json, where);
+    Model model = read_members(read.json, where);
     model.sha256 = sha256_hex(text);
+    model.has_digest = read.version > kModelVersionWithoutDigest;
     return model;
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::input, where,
@@ -164,9 +159,6 @@ Model model_from_json(const std::string& text, const std::string& where) {
   }
 }
 
-Model load_model(const std::string& path) {
-  Model model = model_from_json(read_file(path), path);
-  return model;
-}
+Model load_model(const std::string& path) { return model_from_json(read_file(path, kLargestModel), path); }
 
 }  // namespace faultline

@@ -73,6 +73,12 @@ struct SampleMode {
   CriterionOptions log_odds{.kind = CriterionKind::log_odds};
 };
 
+/// A change of a model file by hand that somebody accepted (`faultline model sign`).
+struct ModelEdit {
+  std::string digest_before;  ///< that the file carried when it was signed; empty where it carried none
+  std::string why;            ///< as its signer says; may be empty
+};
+
 /// All that is known of one healthy robot: what `learn` makes and `diagnose` needs besides the case base.
 struct Model {
   std::string name;
@@ -96,14 +102,21 @@ struct Model {
   std::optional<TwinOptions>
       twin;            ///< what it was trained on; none in models of programs that did not keep it
   std::string sha256;  ///< of the file it was read from
+  /// What binds the case base to it (bind_cases()); empty in models of programs that gave none. It stays when
+  /// the model is edited.
+  std::string identity;
+  std::vector<ModelEdit> edits;
+  bool has_digest = true;  ///< false where it was read from a file of an earlier program, which carries none
 
   /// False where it was learned from logs without torque: then only `relations` judge.
   bool has_mechanics() const { return residual.joints() > 0; }
 };
 
-/// The model as one JSON file, schema "faultline/model/2".
+/// The model as one JSON file, schema "faultline/model/3", with the digest of its content.
 std::string model_to_json(const Model& model);
-/// Throws Error(input) for text that is no model, is cut, is of a newer schema or does not fit together.
+/// Throws Error(input) for text that is no model, is cut, damaged or edited without a signature, is of a
+/// newer schema, has a number beyond its range or does not fit together. Schema 2, without digest, is read,
+/// too.
 Model model_from_json(const std::string& text, const std::string& where);
 /// Throws Error(input).
 Model load_model(const std::string& path);

@@ -15,6 +15,7 @@
 #include "lib/diagnosis/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
 #include "lib/evidence/reading/question_reading.hpp"
+#include "lib/model/model_files.hpp"
 #include "lib/monitor/monitor.hpp"
 
 namespace faultline {
@@ -86,7 +87,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   if (run.log.is_tracked)
     diagnosis.log.judgeable_rows =
         std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
-  diagnosis.model = {model.name, model.sha256, cases.sha256()};
+  diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model)};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);

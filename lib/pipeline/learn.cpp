@@ -10,6 +10,7 @@
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
+#include "lib/model/model_files.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/healthy_robot.hpp"
 #include "lib/pipeline/learn_samples.hpp"
@@ -65,7 +66,7 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
   for (const LabelledLog& entry : labelled) {
     DelayedTorqueSource log = reading.of(*entry.log);
     log.rewind();
-    runs.push_back({entry.label, entry.onset_s, 0.0, "labelled log", monitor(log, model), kNoSize});
+    runs.push_back({entry.label, entry.onset_s, 0.0, kLabelledOrigin, monitor(log, model), kNoSize});
   }
   return runs;
 }
@@ -128,6 +129,7 @@ Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<cons
   tell(progress, "learning how joints follow their references", 0.0);
   Learned out;
   out.model = tracking_model(healthy, robot, alarms_per_hour);
+  bind_cases(out.model, out.cases);
   return out;
 }
 
@@ -182,6 +184,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                .torque_gain = model.robot.normal.torque_constant});
   model.sources = sources_of(found.given, labelled);
   model.twin = options.twin;
+  bind_cases(model, out.cases);
   return out;
 }
 

@@ -32,7 +32,10 @@ Json log_json(const LogFacts& log) {
 }
 
 Json model_json(const ModelFacts& model) {
-  return {{"name", model.name}, {"sha256", model.sha256}, {"cases_sha256", text_or_null(model.cases_sha256)}};
+  Json json{
+      {"name", model.name}, {"sha256", model.sha256}, {"cases_sha256", text_or_null(model.cases_sha256)}};
+  if (!model.notes.empty()) json["notes"] = model.notes;
+  return json;
 }
 
 Json residual_json(const JointResidual& residual) {

@@ -121,6 +121,7 @@ std::string render_markdown(const Diagnosis& d) {
   text += table(condition.head, condition.rows) + residuals(d);
   std::vector<std::string> issues;
   for (const Issue& issue : d.log.issues.all()) issues.push_back(issue_line(issue));
+  text += list("What to know of the model", d.model.notes);
   text += list("What was wrong with the log", issues);
   text += list("What this log and model cannot show", d.cannot_see);
   return text + provenance(d);

@@ -37,8 +37,11 @@ std::string period_text(const LogFacts& log) {
 std::string header(const Diagnosis& d, const TimelineOptions& options) {
   std::string text = painted(fmt::format("Log    {}\n", printable(d.log.path)), Paint::bold, options.color);
   text += fmt::format("       {}: {}{}\n", printable(d.log.format), span_text(d.log), period_text(d.log));
-  return text +
-         fmt::format("Model  {}, faultline {}\n", printable(d.model.name), printable(d.program_version));
+  text += fmt::format("Model  {}, faultline {}\n", printable(d.model.name), printable(d.program_version));
+  for (const std::string& note : d.model.notes)
+    text +=
+        painted(wrapped("Note: " + printable(note), "       ", options.width), Paint::yellow, options.color);
+  return text;
 }
 
 Paint paint_of(Verdict verdict) {

@@ -77,6 +77,7 @@ TwinOptions twin_from_json(const Json& json, const std::string& where) {
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::input, where, std::string("\"twin\" is damaged (") + error.what() + ")");
   }
+  options.check();
   return options;
 }
 

@@ -10,6 +10,7 @@
 #include "lib/html/report_details.hpp"
 #include "lib/pipeline/diagnose.hpp"
 #include "tests/pipeline/small_robot.hpp"
+#include "tests/support/older_model.hpp"
 
 namespace faultline {
 namespace {
@@ -129,7 +130,8 @@ TEST(ModelFile, KeepsTheIntervalsAndOlderFilesStillLoad) {
   EXPECT_EQ(read.identification.base_parameters[0].ci95, learned().identification.base_parameters[0].ci95);
   nlohmann::ordered_json older = nlohmann::ordered_json::parse(text);
   older.erase("identification");
-  EXPECT_EQ(model_from_json(older.dump(), "model").identification.status, IdentificationStatus::not_run);
+  EXPECT_EQ(model_from_json(older_model_text(older), "model").identification.status,
+            IdentificationStatus::not_run);
 }
 
 }  // namespace

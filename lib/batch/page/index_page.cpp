@@ -86,11 +86,13 @@ std::string tools(const BatchSummary& summary) {
 }
 
 std::string provenance(const BatchFacts& facts) {
-  return "<h2>Provenance</h2>\n" + html_table({}, {{"model", printable(facts.model.name)},
-                                                   {"model SHA-256", facts.model.sha256},
-                                                   {"case base SHA-256", facts.model.cases_sha256},
-                                                   {"program", "faultline " + facts.program_version},
-                                                   {"options", facts.options}});
+  std::vector<HtmlRow> rows = {{"model", printable(facts.model.name)},
+                               {"model SHA-256", facts.model.sha256},
+                               {"case base SHA-256", facts.model.cases_sha256},
+                               {"program", "faultline " + facts.program_version},
+                               {"options", facts.options}};
+  for (const std::string& note : facts.model.notes) rows.push_back({"note", printable(note)});
+  return "<h2>Provenance</h2>\n" + html_table({}, rows);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "lib/model/model.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/text.hpp"
+#include "lib/model/model_text.hpp"
+
+namespace faultline {
+namespace {
+
+struct SignArguments {
+  std::string model, why;
+};
+
+int sign_model(const SignArguments& arguments) {
+  const std::string text = read_file(arguments.model);
+  const std::string accepted = signed_model_text(text, arguments.why, arguments.model);
+  model_from_json(accepted, arguments.model);
+  if (accepted == text) {
+    print(printable(arguments.model) + " fits its digest; there is nothing to sign.\n");
+    return kNothingFound;
+  }
+  write_file(arguments.model, accepted);
+  print(printable(arguments.model) +
+        " is accepted as it is now; each report that is made with it says that it was edited.\n");
+  return kNothingFound;
+}
+
+}  // namespace
+
+void add_model(CLI::App& app, Program& program) {
+  CLI::App* model = app.add_subcommand("model", "Accept a model that was edited by hand");
+  model->require_subcommand(1);
+  auto arguments = std::make_shared<SignArguments>();
+  CLI::App* sign = model->add_subcommand(
+      "sign", "Accept a model that was edited on purpose and does not fit its digest any more");
+  sign->add_option("MODEL", arguments->model, "The model; it is changed in place")->required();
+  sign->add_option("--why", arguments->why, "What was edited and why; stands in each report")
+      ->type_name("TEXT");
+  sign->footer(
+      "Example: faultline model sign robot.model --why \"higher alarm threshold for the night shift\"");
+  sign->callback([arguments, &program] { program.run = [arguments] { return sign_model(*arguments); }; });
+  model->footer("Example: faultline model sign robot.model --why \"higher alarm threshold\"");
+}
+
+}  // namespace faultline

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "lib/model/model_files.hpp"
+
+#include "lib/cases/case_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/hash.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kIdentityLength = 32;
+
+std::string name_of(const std::string& identity) {
+  return identity.empty() ? "none" : identity.substr(0, kIdentityLength);
+}
+
+}  // namespace
+
+void bind_cases(Model& model, CaseBase& cases) {
+  model.identity.clear();
+  model.identity = sha256_hex(model_to_json(model)).substr(0, kIdentityLength);
+  cases.belong_to(model.identity);
+}
+
+ModelFiles load_model_files(const std::string& model, const std::string& cases) {
+  ModelFiles files{load_model(model), read_case_base(cases)};
+  if (files.model.identity != files.cases.model_identity())
+    throw Error(ErrorCode::input, cases,
+                "belongs to another model than " + model + " (identity " +
+                    name_of(files.cases.model_identity()) + ", the model has " +
+                    name_of(files.model.identity) +
+                    "): was learn interrupted, or one of both copied alone? Restore both from one copy, or "
+                    "learn again, which keeps confirmed cases; `faultline cases import FILE --model MODEL` "
+                    "binds exported cases to a model");
+  return files;
+}
+
+std::vector<std::string> notes_of(const Model& model) {
+  std::vector<std::string> notes;
+  for (const ModelEdit& edit : model.edits)
+    notes.push_back("the model was edited by hand after it was learned" +
+                    (edit.why.empty() ? std::string(", why is not told") : ": " + edit.why));
+  if (!model.has_digest)
+    notes.push_back(
+        "the model is of an earlier program and carries no digest: damage to it, or a case base of another "
+        "model, would not be noticed; learn it again");
+  return notes;
+}
+
+}  // namespace faultline
