@@ -89,8 +89,8 @@ void check_writable(const LearnArguments& arguments, const Robot& robot) {
   const AtomicFile model(arguments.model);
 }
 
-/// The case base first: it alone holds what nothing can make again, and learning again mends a model that a
-/// kill left behind it.
+/// The case base first: it alone holds what nothing can make again. A kill between the two leaves two
+/// identities, which load_model_files() notices and learning again mends.
 std::optional<CarriedCases> write_model(Learned& learned, const LearnArguments& arguments) {
   const std::string text = model_to_json(learned.model);
   model_from_json(text, arguments.model);  // what is written can be read
