@@ -143,13 +143,30 @@ std::string mechanics_text(const Learned& learned) {
          reach_table(learned.model) + threshold_text(learned.model.evidence, learned.model.bank);
 }
 
+/// What the logs and the model are to be doubted for.
+std::string warnings_text(const Learned& learned) {
+  std::string text;
+  for (const Issue& issue : learned.identification.issues.all())
+    if (issue.severity != Severity::note) text += fmt::format("Warning: {}\n", issue.message);
+  for (const std::string& doubt : learned.model.doubts) text += fmt::format("Doubtful: {}\n", doubt);
+  if (!learned.model.doubts.empty()) text += "Each diagnosis with this model says so.\n";
+  return text.empty() ? text : "\n" + text;
+}
+
+std::string logs_text(const std::vector<ModelSource>& sources) {
+  const auto left_out = std::count_if(sources.begin(), sources.end(),
+                                      [](const ModelSource& source) { return source.fault == kLeftOut; });
+  return counted(std::ssize(sources) - left_out, "log") +
+         (left_out > 0 ? fmt::format(" ({} left out)", left_out) : std::string());
+}
+
 }  // namespace
 
 std::string learned_text(const Learned& learned, const std::string& model_path,
                          const std::string& case_base_path) {
   return fmt::format("Learned \"{}\" from {} at {:.4g} Hz.\n", shortened(learned.model.name, kLongestName),
-                     counted(std::ssize(learned.model.sources), "log"), 1.0 / learned.model.sample_period_s) +
-         mechanics_text(learned) + relations_text(learned.model) +
+                     logs_text(learned.model.sources), 1.0 / learned.model.sample_period_s) +
+         mechanics_text(learned) + relations_text(learned.model) + warnings_text(learned) +
          fmt::format("\nModel: {}\nCase base: {} ({} cases)\n", model_path, case_base_path,
                      learned.cases.cases().size());
 }
@@ -163,7 +180,7 @@ std::string learned_json(const Learned& learned, const std::optional<CarriedCase
     json["mlp"] = {{"normalised_mse", learned.residual.normalised_mse},
                    {"persistence_mse", learned.residual.persistence_mse}};
   }
-  for (const char* key : {"sample_period_s", "sources", "validation", "evidence", "relations"})
+  for (const char* key : {"doubts", "sample_period_s", "sources", "validation", "evidence", "relations"})
     if (model.contains(key)) json[key] = model[key];
   json["cases"] = learned.cases.cases().size();
   if (carried) json["carried_over"] = carried_json(*carried);

@@ -63,9 +63,10 @@ ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
           json.at("most").get<double>()};
 }
 
-/// Who the model is and who changed it.
+/// Who the model is, who changed it and what speaks against it.
 void read_origin(const nlohmann::json& json, Model& model) {
   model.identity = json.value("identity", "");
+  model.doubts = json.value("doubts", std::vector<std::string>{});
   if (json.contains("edited"))
     for (const auto& edit : json["edited"])
       model.edits.push_back({edit.at("digest_before").get<std::string>(), edit.at("why").get<std::string>()});
@@ -130,6 +131,7 @@ std::string model_to_json(const Model& model) {
   json["robot"] = robot_file_text(model.robot);
   if (model.identification.status != IdentificationStatus::not_run)
     json["identification"] = summary_to_json(model.identification);
+  if (!model.doubts.empty()) json["doubts"] = model.doubts;
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
   json["sources"] = sources_to_json(model.sources);

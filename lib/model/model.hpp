@@ -58,12 +58,14 @@ struct Validation {
   double confidence_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A log that a model was learned from.
+inline constexpr const char* kLeftOut = "left out";
+
+/// A log that a model was learned from, or would have been.
 struct ModelSource {
   std::string path;  ///< file name without folders
   std::string sha256;
   long long rows = 0;
-  std::string fault;  ///< "none" or the label it came with
+  std::string fault;  ///< "none", the label it came with, or kLeftOut
 };
 
 /// The paper's way: both networks over the residuals of each sample, and the fault criterion, as tuned.
@@ -106,6 +108,7 @@ struct Model {
   /// the model is edited.
   std::string identity;
   std::vector<ModelEdit> edits;
+  std::vector<std::string> doubts;  ///< why it is not to be trusted as others are; each diagnosis says so
   bool has_digest = true;  ///< false where it was read from a file of an earlier program, which carries none
 
   /// False where it was learned from logs without torque: then only `relations` judge.

@@ -37,6 +37,7 @@ ModelFiles load_model_files(const std::string& model, const std::string& cases) 
 
 std::vector<std::string> notes_of(const Model& model) {
   std::vector<std::string> notes;
+  for (const std::string& doubt : model.doubts) notes.push_back("the model is doubtful: " + doubt);
   for (const ModelEdit& edit : model.edits)
     notes.push_back("the model was edited by hand after it was learned" +
                     (edit.why.empty() ? std::string(", why is not told") : ": " + edit.why));

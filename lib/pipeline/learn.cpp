@@ -12,11 +12,12 @@
 #include "lib/log/remembered_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/monitor/monitor.hpp"
-#include "lib/pipeline/healthy_robot.hpp"
 #include "lib/pipeline/learn_samples.hpp"
+#include "lib/pipeline/model_doubts.hpp"
 #include "lib/pipeline/reach.hpp"
 #include "lib/pipeline/tracking_model.hpp"
 #include "lib/pipeline/training_episodes.hpp"
+#include "lib/pipeline/trusted_robot.hpp"
 #include "lib/pipeline/twin_study.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 
@@ -41,7 +42,8 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
                                     std::span<const LabelledLog> labelled) {
   std::vector<ModelSource> sources;
   for (const IdentifiedLog& log : healthy)
-    sources.push_back({std::filesystem::path(log.path).filename().string(), log.sha256, log.rows, "none"});
+    sources.push_back({std::filesystem::path(log.path).filename().string(), log.sha256, log.rows,
+                       log.left_out ? kLeftOut : to_string(FaultKind::none)});
   for (const LabelledLog& log : labelled)
     sources.push_back({std::filesystem::path(log.log->identity().path).filename().string(),
                        log.log->identity().sha256, log.log->identity().rows_read, to_string(log.label.kind)});
@@ -158,8 +160,15 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   RememberedLogs logs(healthy);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
-  HealthyRobot found =
-      healthy_robot(logs.sources(), robot, options.identify, part_of(progress, 0.0, kIdentified));
+  TrustedRobot trusted = trusted_robot(logs.sources(), robot,
+                                       {.identify = options.identify,
+                                        .start = thresholds_for(options.alarms_per_hour),
+                                        .threads = options.threads},
+                                       part_of(progress, 0.0, kIdentified));
+  HealthyRobot& found = trusted.watched.robot;
+  ModelDoubts doubts = doubts_about(found.identification);
+  doubts.add({{}, trusted.doubts});
+  if (!options.keep_doubtful) refuse_grave(doubts);
   Learned out;
   Model& model = out.model;
   out.identification = std::move(found.identification);
@@ -170,11 +179,10 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
-  tell(progress, "checking the alarm threshold", kResidualsLearned);
-  model.evidence = calibrate_thresholds(acting, model.motion, model.bank,
-                                        thresholds_for(options.alarms_per_hour), options.threads);
   learn_from_twin(out, labelled, found.reading, options, progress);
+  doubts.add(doubts_about(model.validation));
+  if (!options.keep_doubtful) refuse_grave(doubts);
+  model.doubts = listed(doubts);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

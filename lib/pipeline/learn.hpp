@@ -35,6 +35,7 @@ struct LearnOptions {
   double alarms_per_hour = kUsualAlarmsPerHour;  ///< that chance may raise, by the bank and by each relation
   int healthy_runs = 40;           ///< simulated to calibrate thresholds; as many again measure false alarms
   std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that the bank can name
+  bool keep_doubtful = false;      ///< a model that is not to be trusted is marked rather than refused
   int threads = 0;                 ///< 0 = one a core; changes no byte of the result
   std::uint64_t seed = 1;
 
@@ -52,8 +53,9 @@ struct Learned {
 /// Learns one robot from its healthy logs: identify it, learn its fault-free motion, match the filters'
 /// noise, simulate faults on the identified robot, train the networks and fill the case base with them (and
 /// with the labelled logs, if any), and measure all that on further simulated runs. Where no healthy log has
-/// a torque, the model knows only how the joints follow their references (tracking_model()). Throws
-/// Error(input) when the logs do not suffice.
+/// a torque, the model knows only how the joints follow their references (tracking_model()). Logs that the
+/// others contradict are left out (trusted_robot()); Model::doubts keeps what else speaks against the model.
+/// Throws Error(input) when the logs do not suffice, or make a model that is not to be trusted.
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options = {}, const Progress& progress = {});
 

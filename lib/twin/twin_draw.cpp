@@ -17,6 +17,7 @@ constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the
 
 constexpr double kMostStds = 2.0;       // of a slow state on a day: its normal range
 constexpr double kLeastFriction = 0.3;  // there is always some
+constexpr double kLeastGain = -0.9;     // no drive turns round
 
 std::vector<double> scaled(std::vector<double> values, double by) {
   for (double& value : values) value *= by;
@@ -124,7 +125,8 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
   drives.gain = drives.offset = drives.roughness = std::vector<double>(joints, 0.0);
   drives.roughness_memory_s = std::vector<double>(joints, twin.sample_period_s);
   for (const SlowState& slow : twin.motion->slow) {
-    if (slow.kind == SlowKind::torque_gain) drives.gain[slow.joint] = draw_change(slow, random);
+    if (slow.kind == SlowKind::torque_gain)
+      drives.gain[slow.joint] = std::max(draw_change(slow, random), kLeastGain);
     if (slow.kind == SlowKind::torque_offset) drives.offset[slow.joint] = draw_change(slow, random);
     if (slow.kind != SlowKind::coloured_torque) continue;
     drives.roughness[slow.joint] = slow.day_std;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/parallel.hpp"
 #include "lib/evidence/learn/learn_motion_model.hpp"
@@ -19,14 +20,8 @@ constexpr double kMostImitated = 200.0;  // nats
 constexpr int kMostInflations = 3;
 constexpr double kInflation = 1.5;  // a round
 
-/// The largest statistics that healthy logs reach.
-struct Extremes {
-  double trigger = 0.0;
-  std::vector<double> ratio;  ///< a hypothesis each
-};
-
-Extremes extremes_of(LogSource& log, const MotionModel& model, const std::vector<Hypothesis>& hypotheses,
-                     const EvidenceOptions& options) {
+HealthyExtremes extremes_of(LogSource& log, const MotionModel& model,
+                            const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& options) {
   EpisodeDetector detector(model, hypotheses, options, survey_noise(log, model));
   log.rewind();
   for (Log segment; log.next(segment);) detector.take(segment);
@@ -34,14 +29,18 @@ Extremes extremes_of(LogSource& log, const MotionModel& model, const std::vector
   return {detector.largest_trigger(), detector.largest_ratios()};
 }
 
-void measure(std::span<LogSource* const> logs, const MotionModel& model,
-             const std::vector<Hypothesis>& hypotheses, EvidenceOptions options, int threads,
-             Extremes& seen) {
+std::vector<HealthyExtremes> measure(std::span<LogSource* const> logs, const MotionModel& model,
+                                     const std::vector<Hypothesis>& hypotheses, EvidenceOptions options,
+                                     int threads) {
   options.only_measure = true;
-  std::vector<Extremes> parts(logs.size());
+  std::vector<HealthyExtremes> parts(logs.size());
   parallel_for(static_cast<int>(logs.size()), threads,
                [&](int i) { parts[i] = extremes_of(*logs[i], model, hypotheses, options); });
-  for (const Extremes& part : parts) {
+  return parts;
+}
+
+void raise(const std::vector<HealthyExtremes>& parts, HealthyExtremes& seen) {
+  for (const HealthyExtremes& part : parts) {
     seen.trigger = std::max(seen.trigger, part.trigger);
     for (std::size_t h = 0; h < part.ratio.size(); ++h)
       seen.ratio[h] = std::max(seen.ratio[h], part.ratio[h]);
@@ -50,7 +49,8 @@ void measure(std::span<LogSource* const> logs, const MotionModel& model,
 
 /// What a fault may explain of a healthy log: more than it explained of those seen; a few logs do not show
 /// all that a model error can look like, so what other faults explained counts too.
-double allowance(const Extremes& seen, const std::vector<Hypothesis>& hypotheses, const FaultLabel& label) {
+double allowance(const HealthyExtremes& seen, const std::vector<Hypothesis>& hypotheses,
+                 const FaultLabel& label) {
   double nats = 0.0;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     if (hypotheses[h].label.kind == FaultKind::none) continue;
@@ -61,7 +61,7 @@ double allowance(const Extremes& seen, const std::vector<Hypothesis>& hypotheses
   return nats;
 }
 
-std::vector<Imitation> imitations(const Extremes& seen, const std::vector<Hypothesis>& hypotheses,
+std::vector<Imitation> imitations(const HealthyExtremes& seen, const std::vector<Hypothesis>& hypotheses,
                                   double threshold) {
   std::vector<Imitation> out;
   for (const FaultLabel& label : labels_of(hypotheses).labels)
@@ -69,10 +69,6 @@ std::vector<Imitation> imitations(const Extremes& seen, const std::vector<Hypoth
         label.kind != FaultKind::none && nats > 0.0)
       out.push_back({label, std::min(nats, kMostImitated)});
   return out;
-}
-
-double largest_ratio(const Extremes& seen) {
-  return seen.ratio.empty() ? 0.0 : *std::max_element(seen.ratio.begin(), seen.ratio.end());
 }
 
 /// A filter that trusts its own motion less explains more, but lets faults explain what it leaves.
@@ -86,27 +82,35 @@ void inflate(MotionModel& model) {
 
 }  // namespace
 
-EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
-                                     const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& start,
-                                     int threads) {
+double HealthyExtremes::largest_ratio() const {
+  return ratio.empty() ? 0.0 : *std::max_element(ratio.begin(), ratio.end());
+}
+
+CalibratedThresholds calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
+                                          const std::vector<Hypothesis>& hypotheses,
+                                          const EvidenceOptions& start, int threads) {
   MotionModel tried = model;
-  Extremes seen;
+  CalibratedThresholds out;
+  HealthyExtremes seen;
   for (int round = 0; round <= kMostInflations; ++round) {
     if (round > 0) inflate(tried);
-    Extremes now{0.0, std::vector<double>(hypotheses.size(), 0.0)};
-    measure(logs, tried, hypotheses, start, threads, now);
-    if (round == 0 || largest_ratio(now) < largest_ratio(seen)) {
+    HealthyExtremes now{0.0, std::vector<double>(hypotheses.size(), 0.0)};
+    std::vector<HealthyExtremes> parts = measure(logs, tried, hypotheses, start, threads);
+    raise(parts, now);
+    if (round == 0) out.logs = std::move(parts);
+    if (round == 0 || now.largest_ratio() < seen.largest_ratio()) {
       seen = now;
       model = tried;
     }
-    if (kOwnSpare * largest_ratio(seen) <= kMostImitated) break;
+    if (kOwnSpare * seen.largest_ratio() <= kMostImitated) break;
   }
-  EvidenceOptions options = start;
+  EvidenceOptions& options = out.options = start;
   options.trigger = std::max(start.trigger, std::min(kTriggerSpare * seen.trigger, kHighestTrigger));
   options.imitations = imitations(seen, hypotheses, start.threshold);
-  measure(logs, model, hypotheses, options, threads, seen);  // woken later, tests see something else
+  // woken later, tests see something else
+  raise(measure(logs, model, hypotheses, options, threads), seen);
   options.imitations = imitations(seen, hypotheses, start.threshold);
-  return options;
+  return out;
 }
 
 }  // namespace faultline

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/size_priors.hpp"
@@ -39,11 +40,24 @@ struct LearnMotionOptions {
 MotionModel learn_motion_model(std::span<LogSource* const> logs, const IdentifiedMotion& identified,
                                const LearnMotionOptions& options);
 
+/// The largest statistics that a healthy log reaches.
+struct HealthyExtremes {
+  double trigger = 0.0;
+  std::vector<double> ratio;  ///< most nats that each hypothesis explained of it
+
+  double largest_ratio() const;
+};
+
+struct CalibratedThresholds {
+  EvidenceOptions options;
+  std::vector<HealthyExtremes> logs;  ///< a log each, before any process noise was made larger
+};
+
 /// Runs the bank over the healthy logs themselves and raises trigger and threshold above what they reach, up
 /// to a limit. Where they pass the limit, the process noise does not cover what the model misses and is made
 /// larger, a few times at most. The result does not depend on `threads` (0 = one a core).
-EvidenceOptions calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
-                                     const std::vector<Hypothesis>& hypotheses, const EvidenceOptions& start,
-                                     int threads = 0);
+CalibratedThresholds calibrate_thresholds(std::span<LogSource* const> logs, MotionModel& model,
+                                          const std::vector<Hypothesis>& hypotheses,
+                                          const EvidenceOptions& start, int threads = 0);
 
 }  // namespace faultline

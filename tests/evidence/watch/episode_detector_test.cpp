@@ -256,7 +256,7 @@ TEST(CalibrateThresholds, KeepsHealthyLogsCalmWhenTheMassesAreOnePercentWrong) {
   std::vector<LogSource*> logs;
   for (const auto& log : owners) logs.push_back(log.get());
   const auto bank = hypotheses_of(3, TorqueMeaning::commanded);
-  const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {});
+  const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {}).options;
   for (const auto& log : owners) EXPECT_TRUE(detected(log->log(), 4096, options, model).empty());
   EXPECT_TRUE(detected(healthy_log(), 4096, options, model).empty()) << "nor in a run it did not see";
   EXPECT_FALSE(detected(faulty_log(FaultKind::free_swinging, 3), 4096, options, model).empty());
@@ -269,7 +269,7 @@ TEST(CalibrateThresholds, OnlyFaultsThatHealthyLogsImitateAreMadeHarderToFind) {
   std::vector<LogSource*> logs;
   for (const auto& log : owners) logs.push_back(log.get());
   const auto bank = hypotheses_of(3, TorqueMeaning::commanded);
-  const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {});
+  const EvidenceOptions options = calibrate_thresholds(logs, model, bank, {}).options;
   EXPECT_EQ(options.threshold, EvidenceOptions{}.threshold);
   EXPECT_EQ(model.noise.torque_share, before.torque_share) << "the filter is not made blind";
   EXPECT_LT(options.imitations.size(), labels_of(bank).labels.size());
