@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "lib/core/atomic_file.hpp"
@@ -11,6 +12,8 @@
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kLongestLabelHeader = 4096;  // bytes
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -90,6 +93,16 @@ std::vector<LogLabel> read_labels(const std::string& path) {
     if (line.find_first_not_of(" \r\t,") != std::string::npos)
       labels.push_back(label_from(cells_of(line), at, path + ", row " + std::to_string(row)));
   return labels;
+}
+
+bool is_label_table(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kLongestLabelHeader, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  const std::vector<std::string> header = cells_of(head.substr(0, head.find('\n')));
+  return std::find(header.begin(), header.end(), "file") != header.end() &&
+         std::find(header.begin(), header.end(), "fault") != header.end();
 }
 
 const LogLabel* label_of(const std::vector<LogLabel>& labels, const std::string& log) {

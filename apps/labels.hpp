@@ -19,6 +19,9 @@ struct LogLabel {
 /// row and column.
 std::vector<LogLabel> read_labels(const std::string& path);
 
+/// Whether a file is such a table, by its first line. A file that cannot be read is none.
+bool is_label_table(const std::string& path);
+
 /// The label of a log, by file name; null when there is none.
 const LogLabel* label_of(const std::vector<LogLabel>& labels, const std::string& log);
 

@@ -11,6 +11,7 @@
 #include "lib/core/text.hpp"
 #include "lib/golden/accept.hpp"
 #include "lib/golden/check_text.hpp"
+#include "lib/golden/default_tolerances.hpp"
 #include "lib/golden/golden_folder.hpp"
 
 namespace faultline {
@@ -18,7 +19,9 @@ namespace {
 
 struct AcceptArguments : GoldenArguments {
   std::vector<std::string> names;
-  bool all = false;
+  bool all = false, same_verdict = false;
+
+  bool accepts() const { return all || same_verdict || !names.empty(); }
 };
 
 /// The item that the user means: by its name, or without the extension when that is clear.
@@ -47,16 +50,17 @@ GoldenCheck only(const GoldenCheck& check, const std::vector<std::string>& names
 std::vector<std::string> named_items(const AcceptArguments& arguments, const GoldenCheck& check) {
   std::vector<std::string> names;
   for (const std::string& given : arguments.names) names.push_back(item_named(given, check));
-  if (arguments.all || arguments.names.empty())
-    for (const CheckedItem& item : check.items) names.push_back(item.name);
+  if (arguments.names.empty())
+    for (const CheckedItem& item : check.items)
+      if (!arguments.same_verdict || !item.changes_verdict()) names.push_back(item.name);
   return names;
 }
 
-/// Of the named ones those that change. With a new model all do.
-std::vector<std::string> changing(const GoldenCheck& part, bool new_model) {
+/// Of the named ones those that change; all do with a new model, and where reasons were not recorded yet.
+std::vector<std::string> changing(const GoldenCheck& part, bool all) {
   std::vector<std::string> names;
   for (const CheckedItem& item : part.items)
-    if (new_model || !item.same()) names.push_back(item.name);
+    if (all || !item.same()) names.push_back(item.name);
   return names;
 }
 
@@ -68,20 +72,21 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
   const GoldenCheck part = only(check, named_items(arguments, check));
   const bool in_color = use_color(color, stdout);
   print(render_check_text(part, in_color), in_color);
-  if (!arguments.all && arguments.names.empty()) {
+  if (!arguments.accepts()) {
     print(part.same() ? "There is nothing to accept.\n"
                       : "Nothing was changed. Name the logs to accept, or give --all.\n");
     return part.same() ? kNothingFound : kFindings;
   }
   const bool new_model = !arguments.model.empty();
-  const std::vector<std::string> names = changing(part, new_model);
+  const std::vector<std::string> names = changing(part, new_model || !set.tells_reasons);
   if (names.empty()) {
     remove_left_over(arguments.folder, set);
     print("There is nothing to accept.\n");
     return kNothingFound;
   }
   accept_golden(arguments.folder, set, run, names,
-                new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{});
+                new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{},
+                default_tolerances(subject.model));
   remove_left_over(arguments.folder, load_golden(arguments.folder));
   print(fmt::format("Accepted: {}{}\n", printable(fmt::format("{}", fmt::join(names, ", "))),
                     new_model ? ", and the model" : ""));
@@ -100,8 +105,13 @@ void add_golden_accept(CLI::App* golden, Program& program) {
       command->add_option("NAME", arguments->names, "Logs to accept, or identification; none: only show");
   CLI::Option* all =
       command->add_flag("--all", arguments->all, "Accept everything that differs")->excludes(names);
-  add_golden_model(*command, *arguments, "Take this model into the folder; needs --all");
-  command->get_option("--model")->needs(all);
+  command
+      ->add_flag("--same-verdict", arguments->same_verdict,
+                 "Accept what differs in numbers and reasons only, not in what is found")
+      ->excludes(names)
+      ->excludes(all);
+  add_golden_model(*command, *arguments,
+                   "Take this model into the folder; what is expected of logs that are not named stays");
   add_golden_threads(*command, *arguments);
   command->footer(
       "Exit status 0: accepted or nothing to accept, 1: nothing named though something differs.\n"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -9,7 +10,9 @@
 #include "apps/file_use.hpp"
 #include "apps/folder.hpp"
 #include "apps/golden/golden.hpp"
+#include "apps/labels.hpp"
 #include "apps/progress.hpp"
+#include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
 #include "lib/core/text.hpp"
 #include "lib/golden/record.hpp"
@@ -53,7 +56,21 @@ void claim_files(const RecordArguments& arguments) {
   files.claim();
 }
 
-int run_record(const RecordArguments& arguments, ColorChoice color) {
+/// A shell that names runs/*.csv names its labels.csv, too.
+std::vector<std::string> skip_label_tables(std::vector<std::string>& logs) {
+  const auto first = std::stable_partition(logs.begin(), logs.end(),
+                                           [](const std::string& log) { return !is_label_table(log); });
+  std::vector<std::string> skipped(first, logs.end());
+  logs.erase(first, logs.end());
+  return skipped;
+}
+
+int run_record(RecordArguments arguments, ColorChoice color) {
+  for (const std::string& table : skip_label_tables(arguments.logs))
+    print(printable(table) + " is a table of labels, no log; it is skipped.\n");
+  if (arguments.logs.empty())
+    throw Error(ErrorCode::usage, "faultline golden record",
+                "was given tables of labels only; name logs, too");
   claim_files(arguments);
   make_folder(arguments.folder);
   ProgressBar bar(color);

@@ -12,10 +12,11 @@ using Json = nlohmann::ordered_json;
 
 }  // namespace
 
+FaultEvent event_of(const FaultFinding& f) { return {f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence}; }
+
 std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings) {
   std::vector<FaultEvent> events;
-  for (const FaultFinding& f : findings)
-    events.push_back({f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence});
+  for (const FaultFinding& finding : findings) events.push_back(event_of(finding));
   return events;
 }
 

@@ -18,6 +18,7 @@ struct FaultEvent {
   double confidence = 0.0;  ///< 0 to 1
 };
 
+FaultEvent event_of(const FaultFinding& finding);
 /// In the order of the findings.
 std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings);
 

@@ -33,10 +33,17 @@ std::vector<std::string> files_of(const GoldenSet& set) {
 }  // namespace
 
 void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& run,
-                   const std::vector<std::string>& names, const NewModel& new_model) {
+                   const std::vector<std::string>& names, const NewModel& new_model,
+                   const Tolerances& defaults) {
   for (const std::string& name : names) refuse_unusable(run, name);
   const std::vector<std::string> before = files_of(set);
-  if (new_model.subject) adopt_model(folder, new_model.model, *new_model.subject, set);
+  if (new_model.subject) {
+    adopt_model(folder, new_model.model, *new_model.subject, set);
+    take_actual(set, run, kModelItem);
+  }
+  if (!set.tells_reasons) take_actual(set, run, kModelItem);
+  for (const auto& [channel, tolerance] : defaults.by_channel)
+    set.tolerances.by_channel.try_emplace(channel, tolerance);
   for (const std::string& name : names) {
     rehash(folder, set, name);
     take_actual(set, run, name);

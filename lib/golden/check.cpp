@@ -43,6 +43,12 @@ CheckedItem checked(const ObservedIdentification& expected, const ObservedIdenti
   return {kIdentification, "", expected.status, actual.status, 0, 0, compare(expected, actual, chain)};
 }
 
+void add_model(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
+               const GoldenSet& set, GoldenCheck& check) {
+  if (expected.empty() || actual.empty()) return;
+  check.items.push_back({kModelItem, "", "", "", 0, 0, compare(expected, actual, set.chain())});
+}
+
 void mark_damage(const GoldenLog& log, CheckedItem& item) {
   if (log.damage.empty()) return;
   item.damage = log.damage;
@@ -62,6 +68,7 @@ bool GoldenCheck::damaged() const {
 
 GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
   GoldenCheck check;
+  check.tells_reasons = set.tells_reasons;
   check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
                                   set.model_name, set.model.sha256.substr(0, 8));
   check.actual_by = said_by(run);
@@ -72,6 +79,7 @@ GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
   if (set.identification)
     check.items.push_back(checked(set.identification->expected, identification_of(run.identification),
                                   set.chain(*set.identification)));
+  add_model(set.model_values, run.model_values, set, check);
   return check;
 }
 
@@ -87,6 +95,7 @@ GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const Gol
   if (set.identification)
     check.items.push_back(checked(identification_of(first.identification),
                                   identification_of(second.identification), set.chain(*set.identification)));
+  add_model(first.model_values, second.model_values, set, check);
   return check;
 }
 
@@ -94,6 +103,10 @@ void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name) 
   set.program_version = run.program_version;
   if (name == kIdentification) {
     if (set.identification && run.identification) set.identification->expected = *run.identification;
+    return;
+  }
+  if (name == kModelItem) {
+    set.model_values = run.model_values;
     return;
   }
   for (GoldenLog& log : set.logs) {

@@ -18,12 +18,14 @@ struct CheckedItem {
   Comparison comparison;
 
   bool same() const { return damage.empty() && comparison.same(); }
+  bool changes_verdict() const { return comparison.changes_verdict(); }
 };
 
 /// Two runs over one golden folder, or one run and what is expected.
 struct GoldenCheck {
+  bool tells_reasons = true;  ///< false: what is expected is of an earlier program that did not record them
   std::string expected_by, actual_by;  ///< who says so, for the headings
-  std::vector<CheckedItem> items;      ///< logs in their order, then the identification
+  std::vector<CheckedItem> items;      ///< logs in their order, then the identification and the model
 
   bool same() const;
   bool damaged() const;
@@ -35,7 +37,8 @@ GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run);
 /// folder's logs.
 GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second);
 
-/// The set with what `run` says of the item of that name (a log, or "identification"). Tolerances stay.
+/// The set with what `run` says of the item of that name (a log, "identification" or "model"). Tolerances
+/// stay.
 void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name);
 
 }  // namespace faultline

@@ -15,8 +15,9 @@ std::string body(const CheckedItem& item, const GoldenCheck& check) {
   if (!item.damage.empty())
     return fmt::format("      <error type=\"damaged\" message=\"{}\"/>\n", escaped_markup(item.damage));
   if (item.same()) return "";
-  return fmt::format("      <failure type=\"mismatch\" message=\"{}\">{}</failure>\n",
-                     escaped_markup(divergence_text(item)), escaped_markup(unified_difference(item, check)));
+  return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
+                     item.changes_verdict() ? "verdict" : "mismatch", escaped_markup(divergence_text(item)),
+                     escaped_markup(unified_difference(item, check)));
 }
 
 }  // namespace

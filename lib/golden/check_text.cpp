@@ -15,7 +15,9 @@ namespace {
 
 std::string result_word(const CheckedItem& item) {
   if (!item.damage.empty()) return "DAMAGED";
-  return item.same() ? "same" : fmt::format("{} differ", item.comparison.differences.size());
+  if (item.same()) return "same";
+  return fmt::format("{} differ{}", item.comparison.differences.size(),
+                     item.changes_verdict() ? ", also in what is found" : "");
 }
 
 std::string change(const std::string& expected, const std::string& actual) {
@@ -35,7 +37,7 @@ std::string table(const GoldenCheck& check, bool color) {
   std::string text =
       cell("log", name) + "  " + cell("verdict", verdict) + "  " + cell("events", 8) + "result\n";
   for (const CheckedItem& item : check.items) {
-    const bool is_log = item.name != kIdentification;
+    const bool is_log = item.name != kIdentification && item.name != kModelItem;
     const std::string events =
         is_log ? change(fmt::format("{}", item.events_expected), fmt::format("{}", item.events_actual)) : "";
     text += cell(printable(item.name), name) + "  " +
@@ -52,8 +54,11 @@ std::string summary(const GoldenCheck& check) {
   };
   const auto damaged = count([](const CheckedItem& i) { return !i.damage.empty(); });
   const auto same = count([](const CheckedItem& i) { return i.same(); });
-  return fmt::format("{} of {} as expected, {} different, {} damaged.\n", same, check.items.size(),
-                     std::ssize(check.items) - same - damaged, damaged);
+  const auto different = std::ssize(check.items) - same - damaged;
+  const auto found = count([](const CheckedItem& i) { return i.changes_verdict(); });
+  const std::string where = different == 0 ? "" : fmt::format(" ({} also in what is found)", found);
+  return fmt::format("{} of {} as expected, {} different{}, {} damaged.\n", same, check.items.size(),
+                     different, where, damaged);
 }
 
 }  // namespace
@@ -101,6 +106,10 @@ std::string render_check_text(const GoldenCheck& check, bool color) {
     else
       text += divergence_text(item) + "\n" + unified_difference(item, check, color);
   }
+  if (!check.tells_reasons)
+    text +=
+        "\nRecorded by an earlier program: evidence, opinions, alternatives and the model are not compared. "
+        "faultline golden accept DIR --all takes them in.\n";
   return text + "\n" + summary(check);
 }
 

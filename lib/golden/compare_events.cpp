@@ -2,6 +2,7 @@
 #include "lib/golden/compare_events.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -15,13 +16,29 @@ std::string when(double time_s) { return std::isnan(time_s) ? "unknown" : second
 
 std::string name_of(const FaultLabel& label) { return label_text(label, " joint "); }
 
-std::string line_of(const FaultEvent& e) {
-  return fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
-                     when(e.onset_s), when(e.alarm_s), when(e.end_s), e.confidence);
+std::string names_of(const std::vector<FaultLabel>& labels) {
+  std::vector<std::string> names;
+  for (const FaultLabel& label : labels) names.push_back(name_of(label));
+  return names.empty() ? "nothing else" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string text_of(const Opinion& opinion) {
+  return fmt::format("{} {:.3f}", name_of(opinion.label), opinion.confidence);
+}
+
+std::string line_of(const ObservedEvent& e) {
+  std::string line = fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
+                                 when(e.onset_s), when(e.alarm_s), when(e.end_s), e.confidence);
+  if (e.has_reasons)
+    line += fmt::format(", evidence {}, decided by {}, MLP {}, RBFN {}, could also be {}",
+                        digits_text(e.evidence, 6), e.decided_by, text_of(e.opinions.mlp),
+                        text_of(e.opinions.rbfn), names_of(e.could_also_be));
+  return line;
 }
 
 /// The unused event of that label whose onset is nearest; -1 for none.
-int nearest(const FaultEvent& wanted, const std::vector<FaultEvent>& events, const std::vector<char>& used) {
+int nearest(const ObservedEvent& wanted, const std::vector<ObservedEvent>& events,
+            const std::vector<char>& used) {
   int best = -1;
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -34,29 +51,68 @@ int nearest(const FaultEvent& wanted, const std::vector<FaultEvent>& events, con
   return best;
 }
 
-/// Adds what is not within its tolerance; whether something was.
-bool compare_pair(const FaultEvent& expected, const FaultEvent& actual, const ToleranceChain& tolerances,
-                  std::vector<Difference>& differences) {
-  const std::size_t before = differences.size();
-  const auto number = [&](const char* channel, double wanted, double got, double time) {
-    const Tolerance tolerance = tolerance_of(tolerances, channel, channel);
+/// Notes what is not within its tolerance in one event.
+class PairComparison {
+ public:
+  PairComparison(const ObservedEvent& expected, const ObservedEvent& actual, const ToleranceChain& tolerances,
+                 std::vector<Difference>& differences)
+      : expected_(expected), actual_(actual), tolerances_(tolerances), differences_(differences) {}
+
+  void compare_event() {
+    number("onset_s", expected_.onset_s, actual_.onset_s, std::fmin(expected_.onset_s, actual_.onset_s));
+    number("alarm_s", expected_.alarm_s, actual_.alarm_s, std::fmin(expected_.alarm_s, actual_.alarm_s));
+    number("end_s", expected_.end_s, actual_.end_s, std::fmin(expected_.end_s, actual_.end_s));
+    number("confidence", expected_.confidence, actual_.confidence, expected_.onset_s);
+  }
+
+  void compare_reasons() {
+    if (!expected_.has_reasons || !actual_.has_reasons) return;
+    number("evidence", expected_.evidence, actual_.evidence, expected_.onset_s);
+    words("decided_by", expected_.decided_by, actual_.decided_by);
+    compare_opinion("mlp", expected_.opinions.mlp, actual_.opinions.mlp);
+    compare_opinion("rbfn", expected_.opinions.rbfn, actual_.opinions.rbfn);
+    words("could_also_be", names_of(expected_.could_also_be), names_of(actual_.could_also_be));
+  }
+
+ private:
+  void number(const char* channel, double wanted, double got, double time) {
+    const Tolerance tolerance = tolerance_of(tolerances_, channel, channel);
     if (tolerance.agree(wanted, got)) return;
-    differences.push_back(
+    differences_.push_back(
         {channel, time, digits_text(wanted, 6), digits_text(got, 6), tolerance.allowed(wanted)});
-  };
-  number("onset_s", expected.onset_s, actual.onset_s, std::fmin(expected.onset_s, actual.onset_s));
-  number("alarm_s", expected.alarm_s, actual.alarm_s, std::fmin(expected.alarm_s, actual.alarm_s));
-  number("end_s", expected.end_s, actual.end_s, std::fmin(expected.end_s, actual.end_s));
-  number("confidence", expected.confidence, actual.confidence, expected.onset_s);
+  }
+
+  void words(const char* channel, const std::string& wanted, const std::string& got) {
+    if (wanted != got) differences_.push_back({channel, expected_.onset_s, wanted, got, kNoNumber});
+  }
+
+  void compare_opinion(const std::string& network, const Opinion& wanted, const Opinion& got) {
+    words(network.c_str(), name_of(wanted.label), name_of(got.label));
+    if (wanted.label == got.label)
+      number((network + "_confidence").c_str(), wanted.confidence, got.confidence, expected_.onset_s);
+  }
+
+  const ObservedEvent& expected_;
+  const ObservedEvent& actual_;
+  const ToleranceChain& tolerances_;
+  std::vector<Difference>& differences_;
+};
+
+bool compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
+                  const ToleranceChain& tolerances, std::vector<Difference>& differences) {
+  const std::size_t before = differences.size();
+  PairComparison pair(expected, actual, tolerances, differences);
+  pair.compare_event();
+  pair.compare_reasons();
   return differences.size() > before;
 }
 
 }  // namespace
 
-void compare_events(const std::vector<FaultEvent>& expected, const std::vector<FaultEvent>& actual,
+void compare_events(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
                     const ToleranceChain& tolerances, Comparison& comparison) {
   std::vector<char> used(actual.size(), 0);
-  for (const FaultEvent& event : expected) {
+  for (const ObservedEvent& event : expected) {
     const int partner = nearest(event, actual, used);
     if (partner < 0) {
       comparison.differences.push_back({"event", event.onset_s, name_of(event.label), "", kNoNumber});

@@ -7,7 +7,7 @@ namespace faultline {
 
 /// Pairs events of the same kind and joint, the nearest onsets first, and compares their times and
 /// confidence; what has no partner is missing or unexpected.
-void compare_events(const std::vector<FaultEvent>& expected, const std::vector<FaultEvent>& actual,
+void compare_events(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
                     const ToleranceChain& tolerances, Comparison& comparison);
 
 }  // namespace faultline

@@ -72,10 +72,17 @@ void compare_residuals(const Observation& expected, const Observation& actual,
   }
 }
 
+std::string value_line(const ParameterValue& p) {
+  return fmt::format("{} {} {}", p.name, value(p.value), p.unit);
+}
+
 std::string line_of(const ParameterValue& p) {
   if (std::isnan(p.std)) return fmt::format("{} {} {} (not identifiable)", p.name, value(p.value), p.unit);
   return fmt::format("{} {} {}, std {}", p.name, value(p.value), p.unit, value(p.std));
 }
+
+/// "threshold" of "threshold_locked_2".
+std::string family_of_value(const std::string& name) { return name.substr(0, name.find('_')); }
 
 void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
@@ -89,6 +96,27 @@ void compare_parameter(const ParameterValue& expected, const ParameterValue* act
   differs |= compare_number(expected.name + "_std", "parameter_std", expected.std, actual->std, NAN,
                             tolerances, comparison);
   comparison.lines.push_back({line_of(expected), line_of(*actual), differs});
+}
+
+void compare_value(const ParameterValue& expected, const ParameterValue* actual,
+                   const ToleranceChain& tolerances, Comparison& comparison) {
+  if (!actual) {
+    compare_parameter(expected, nullptr, tolerances, comparison);
+    return;
+  }
+  const bool differs = compare_number(expected.name, family_of_value(expected.name), expected.value,
+                                      actual->value, NAN, tolerances, comparison);
+  comparison.lines.push_back({value_line(expected), value_line(*actual), differs});
+}
+
+/// What nobody expected.
+void compare_new(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
+                 Comparison& comparison) {
+  for (const ParameterValue& p : actual) {
+    if (find_value(expected, p.name)) continue;
+    comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
+    comparison.lines.push_back({"", line_of(p), true});
+  }
 }
 
 }  // namespace
@@ -115,12 +143,29 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
   compare_words("method", expected.method, actual.method, comparison);
   for (const ParameterValue& p : expected.parameters)
     compare_parameter(p, find_value(actual.parameters, p.name), tolerances, comparison);
-  for (const ParameterValue& p : actual.parameters) {
-    if (find_value(expected.parameters, p.name)) continue;
-    comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
-    comparison.lines.push_back({"", line_of(p), true});
-  }
+  compare_new(expected.parameters, actual.parameters, comparison);
   return comparison;
+}
+
+Comparison compare(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
+                   const ToleranceChain& tolerances) {
+  Comparison comparison;
+  if (expected.empty() || actual.empty()) return comparison;
+  for (const ParameterValue& p : expected)
+    compare_value(p, find_value(actual, p.name), tolerances, comparison);
+  compare_new(expected, actual, comparison);
+  return comparison;
+}
+
+bool Difference::changes_verdict() const {
+  for (const char* said : {"verdict", "event", "status", "joints"})
+    if (channel == said) return true;
+  return false;
+}
+
+bool Comparison::changes_verdict() const {
+  return std::any_of(differences.begin(), differences.end(),
+                     [](const Difference& difference) { return difference.changes_verdict(); });
 }
 
 const Difference* first_divergence(const Comparison& comparison) {

@@ -20,6 +20,10 @@ struct Difference {
   std::string expected;                                      ///< as text; empty when nothing was expected
   std::string actual;
   double allowed = std::numeric_limits<double>::quiet_NaN();  ///< distance; NaN for what is no number
+
+  /// Whether something else is said of the robot: the verdict, or which faults there are. The rest is how
+  /// sure, when, and why.
+  bool changes_verdict() const;
 };
 
 /// A line of a unified difference: the same on both sides, or one of them, or both in other words.
@@ -34,10 +38,15 @@ struct Comparison {
   std::vector<DiffLine> lines;
 
   bool same() const { return differences.empty(); }
+  bool changes_verdict() const;
 };
 
 Comparison compare(const Observation& expected, const Observation& actual, const ToleranceChain& tolerances);
 Comparison compare(const ObservedIdentification& expected, const ObservedIdentification& actual,
+                   const ToleranceChain& tolerances);
+
+/// Values of the same names; nothing where one side has none (values_of()).
+Comparison compare(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
                    const ToleranceChain& tolerances);
 
 /// The earliest difference that has a time; else the first. Null when same.

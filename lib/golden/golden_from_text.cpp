@@ -13,7 +13,8 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kSchema = "faultline/golden/1";
+constexpr const char* kSchema = "faultline/golden/2";
+constexpr const char* kEventsAlone = "faultline/golden/1";  // without reasons and model values
 
 /// A path below the folder, so that a golden file cannot name files elsewhere.
 std::string inner_path(const TomlTable& table, const std::string& key) {
@@ -50,16 +51,28 @@ void read_length_rule(const TomlTable& table, Tolerances& into) {
   if (table.has("length_may_differ")) into.length_may_differ = table.flag("length_may_differ", false);
 }
 
-FaultEvent event(const TomlTable& table) {
-  FaultEvent e;
+FaultLabel label(const TomlTable& table) {
   std::vector<std::string> kinds;
   for (int i = 0; i < kFaultKinds; ++i) kinds.push_back(to_string(static_cast<FaultKind>(i)));
-  e.label.kind = fault_kind_from(table.choice("kind", kinds));
-  e.label.joint = static_cast<int>(table.integer("joint", 0));
+  return {fault_kind_from(table.choice("kind", kinds)), static_cast<int>(table.integer("joint", 0))};
+}
+
+Opinion opinion(const TomlTable& table) { return {label(table), table.any_number("confidence")}; }
+
+ObservedEvent event(const TomlTable& table) {
+  ObservedEvent e;
+  e.label = label(table);
   e.onset_s = table.any_number("onset_s");
   e.alarm_s = table.any_number("alarm_s");
   e.end_s = table.any_number("end_s");
   e.confidence = table.any_number("confidence");
+  e.has_reasons = table.has("evidence");
+  if (!e.has_reasons) return e;
+  e.evidence = table.any_number("evidence");
+  e.decided_by = table.text("decided_by");
+  e.opinions = {opinion(table.table("mlp")), opinion(table.table("rbfn"))};
+  if (!table.is_array("could_also_be")) table.fail("could_also_be", "expected a list of faults, [] for none");
+  for (const TomlTable& one : table.tables("could_also_be")) e.could_also_be.push_back(label(one));
   return e;
 }
 
@@ -89,6 +102,13 @@ GoldenLog log(const TomlTable& table, int joints) {
   return read;
 }
 
+std::vector<ParameterValue> values(const TomlTable& table, const std::string& key) {
+  std::vector<ParameterValue> read;
+  for (const TomlTable& one : table.tables(key))
+    read.push_back({one.text("name"), one.any_number("value"), one.any_number("std"), one.text("unit", "")});
+  return read;
+}
+
 GoldenIdentification identification(const TomlTable& table) {
   GoldenIdentification read;
   read.expected.status = table.text("status");
@@ -96,11 +116,9 @@ GoldenIdentification identification(const TomlTable& table) {
   if (!table.is_array("logs")) table.fail("logs", "expected a list of log names");
   read.logs = table.texts("logs");
   std::set<std::string> names;
-  for (const TomlTable& one : table.tables("parameters")) {
-    read.expected.parameters.push_back(
-        {one.text("name"), one.any_number("value"), one.any_number("std"), one.text("unit", "")});
-    names.insert({read.expected.parameters.back().name, read.expected.parameters.back().name + "_std"});
-  }
+  read.expected.parameters = values(table, "parameters");
+  for (const ParameterValue& value : read.expected.parameters)
+    names.insert({value.name, value.name + "_std"});
   read.tolerances = tolerances(table.table("tolerance"), names);
   return read;
 }
@@ -116,8 +134,8 @@ void check_names(const GoldenSet& set, const TomlTable& table) {
 }
 
 GoldenSet read(const TomlTable& table) {
-  table.choice("schema", {kSchema});
   GoldenSet set;
+  set.tells_reasons = table.choice("schema", {kSchema, kEventsAlone}) == kSchema;
   set.program_version = table.text("program");
   set.trace_points = static_cast<int>(table.integer("trace_points", 500));
   if (set.trace_points < 1) table.fail("trace_points", "must be positive");
@@ -126,7 +144,10 @@ GoldenSet read(const TomlTable& table) {
   set.joints = static_cast<int>(model.integer("joints", 0));
   set.model = {inner_path(model, "file"), model.text("sha256")};
   set.cases = {inner_path(model, "cases"), model.text("cases_sha256")};
-  set.tolerances = tolerances(table.table("tolerance"));
+  std::set<std::string> names;
+  if (model.has("values")) set.model_values = values(model, "values");
+  for (const ParameterValue& value : set.model_values) names.insert(value.name);
+  set.tolerances = tolerances(table.table("tolerance"), names);
   read_length_rule(table, set.tolerances);
   if (table.has("identification")) set.identification = identification(table.table("identification"));
   for (const TomlTable& one : table.tables("log")) set.logs.push_back(log(one, set.joints));

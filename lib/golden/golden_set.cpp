@@ -13,4 +13,6 @@ ToleranceChain GoldenSet::chain(const GoldenIdentification& identified) const {
   return {&identified.tolerances, &tolerances};
 }
 
+ToleranceChain GoldenSet::chain() const { return {&tolerances}; }
+
 }  // namespace faultline

@@ -34,14 +34,17 @@ struct GoldenIdentification {
 };
 
 inline constexpr const char* kIdentification = "identification";
+inline constexpr const char* kModelItem = "model";
 
 /// What golden.toml says: the model, the logs, what is expected of each and how exactly.
 struct GoldenSet {
   std::string program_version;  ///< that it was recorded with
+  bool tells_reasons = true;    ///< false in files of earlier programs: no model values, events alone
   std::string model_name;
   int joints = 0;
   GoldenFile model;
-  GoldenFile cases;  ///< sha256 of the case base's content
+  GoldenFile cases;                          ///< sha256 of the case base's content
+  std::vector<ParameterValue> model_values;  ///< values_of(); none in files of earlier programs
   int trace_points = 500;
   Tolerances tolerances;
   std::optional<GoldenIdentification> identification;
@@ -49,6 +52,7 @@ struct GoldenSet {
 
   ToleranceChain chain(const GoldenLog& log) const;
   ToleranceChain chain(const GoldenIdentification& identification) const;
+  ToleranceChain chain() const;
 };
 
 /// golden.toml (docs/golden.md): the same set gives the same text.

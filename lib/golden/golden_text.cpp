@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -47,19 +48,29 @@ std::string length_line(const Tolerances& tolerances) {
                                       : "";
 }
 
+std::string value_lines(const std::vector<ParameterValue>& values) {
+  std::string text;
+  for (const ParameterValue& p : values)
+    text += fmt::format("  {{name = {}, value = {}, std = {}, unit = {}}},\n", quoted(p.name),
+                        number(p.value), number(p.std), quoted(p.unit));
+  return text;
+}
+
 std::string head(const GoldenSet& set) {
   std::string text =
       "# What faultline is expected to say of each log in this folder. Compare: faultline golden check;\n"
       "# take what changed: faultline golden accept. Tolerances may be edited: a number is as expected when\n"
       "# |actual - expected| <= absolute + relative * |expected|. Names: q, dq or dq2 the predicted motion,\n"
-      "# velocity_rms or velocity_rms_2 a residual, parameter or m1 what is identified.\n";
-  text += fmt::format("schema = \"faultline/golden/1\"\nprogram = {}\nlog_count = {}\ntrace_points = {}\n",
+      "# velocity_rms or velocity_rms_2 a residual, parameter or m1 what is identified, model or model_a what the\n"
+      "# model's robot is, trigger and threshold what alarms.\n";
+  text += fmt::format("schema = \"faultline/golden/2\"\nprogram = {}\nlog_count = {}\ntrace_points = {}\n",
                       quoted(set.program_version), set.logs.size(), set.trace_points);
   text += length_line(set.tolerances);
   text += fmt::format(
       "\n[model]\nname = {}\njoints = {}\nfile = {}\nsha256 = {}\ncases = {}\ncases_sha256 = {}\n",
       quoted(set.model_name), set.joints, quoted(set.model.path), quoted(set.model.sha256),
       quoted(set.cases.path), quoted(set.cases.sha256));
+  text += "values = [\n" + value_lines(set.model_values) + "]\n";
   return text + "\n[tolerance]\n" + tolerance_lines(set.tolerances);
 }
 
@@ -69,20 +80,32 @@ std::string identification_text(const GoldenIdentification& identified) {
     text += (i ? ", " : "") + quoted(identified.logs[i]);
   text += fmt::format("]\nstatus = {}\nmethod = {}\nparameters = [\n", quoted(identified.expected.status),
                       quoted(identified.expected.method));
-  for (const ParameterValue& p : identified.expected.parameters)
-    text += fmt::format("  {{name = {}, value = {}, std = {}, unit = {}}},\n", quoted(p.name),
-                        number(p.value), number(p.std), quoted(p.unit));
-  text += "]\n";
+  text += value_lines(identified.expected.parameters) + "]\n";
   if (!identified.tolerances.by_channel.empty())
     text += "\n[identification.tolerance]\n" + tolerance_lines(identified.tolerances);
   return text;
 }
 
-std::string event_line(const FaultEvent& e) {
-  return fmt::format(
-      "  {{kind = {}, joint = {}, onset_s = {}, alarm_s = {}, end_s = {}, confidence = {}}},\n",
-      quoted(to_string(e.label.kind)), e.label.joint, time(e.onset_s), time(e.alarm_s), time(e.end_s),
-      number(e.confidence));
+std::string label_fields(const FaultLabel& label) {
+  return fmt::format("kind = {}, joint = {}", quoted(to_string(label.kind)), label.joint);
+}
+
+std::string opinion_fields(const Opinion& opinion) {
+  return fmt::format("{{{}, confidence = {}}}", label_fields(opinion.label), number(opinion.confidence));
+}
+
+std::string reason_fields(const ObservedEvent& e) {
+  std::vector<std::string> others;
+  for (const FaultLabel& label : e.could_also_be) others.push_back("{" + label_fields(label) + "}");
+  return fmt::format(", evidence = {}, decided_by = {}, mlp = {}, rbfn = {}, could_also_be = [{}]",
+                     number(e.evidence), quoted(e.decided_by), opinion_fields(e.opinions.mlp),
+                     opinion_fields(e.opinions.rbfn), fmt::join(others, ", "));
+}
+
+std::string event_line(const ObservedEvent& e) {
+  return fmt::format("  {{{}, onset_s = {}, alarm_s = {}, end_s = {}, confidence = {}{}}},\n",
+                     label_fields(e.label), time(e.onset_s), time(e.alarm_s), time(e.end_s),
+                     number(e.confidence), e.has_reasons ? reason_fields(e) : "");
 }
 
 std::string residual_line(const JointResidual& r) {
@@ -97,7 +120,7 @@ std::string log_text(const GoldenLog& log) {
       quoted(log.log.path), quoted(log.log.sha256), log.expected.rows, quoted(log.trace.path),
       quoted(log.trace.sha256), quoted(log.expected.verdict));
   text += length_line(log.tolerances) + (log.expected.events.empty() ? "events = [" : "events = [\n");
-  for (const FaultEvent& event : log.expected.events) text += event_line(event);
+  for (const ObservedEvent& event : log.expected.events) text += event_line(event);
   text += "]\nresiduals = [\n";
   for (const JointResidual& r : log.expected.residuals) text += residual_line(r);
   text += "]\n";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,13 +13,22 @@
 
 namespace faultline {
 
+/// An event and what it rests on.
+struct ObservedEvent : FaultEvent {
+  bool has_reasons = false;  ///< golden files of earlier programs tell the event alone
+  double evidence = std::numeric_limits<double>::quiet_NaN();  ///< log likelihood ratio, nats
+  std::string decided_by{};                                    ///< of DecidedBy
+  Opinions opinions{};
+  std::vector<FaultLabel> could_also_be{};
+};
+
 /// What one program version with one model says of one log: the part of a Diagnosis that golden logs compare,
 /// and the motion that the model predicts.
 struct Observation {
   std::string verdict;    ///< of Verdict, or "unusable": the log could not be processed
   std::string reason;     ///< why it is unusable; not compared
   std::int64_t rows = 0;  ///< used
-  std::vector<FaultEvent> events;
+  std::vector<ObservedEvent> events;
   std::vector<JointResidual> residuals;
   Trace trace;
 };
@@ -42,6 +52,7 @@ struct GoldenRun {
 
   std::string program_version;
   ModelFacts model;
+  std::vector<ParameterValue> model_values;  ///< values_of(); none in runs of earlier programs
   std::vector<Log> logs;
   std::optional<ObservedIdentification> identification;
 };

@@ -22,7 +22,7 @@ std::vector<ReplayLog> named_logs(const std::vector<std::string>& paths) {
   std::set<std::string> names;
   for (const std::string& path : paths) {
     const std::string name = fs::path(path).filename().string();
-    if (valid_utf8(name) != name || name == kIdentification)
+    if (valid_utf8(name) != name || name == kIdentification || name == kModelItem)
       throw Error(ErrorCode::usage, path, "cannot be named in golden.toml; rename the log");
     if (!names.insert(name).second)
       throw Error(ErrorCode::usage, path,
@@ -93,6 +93,7 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
   set.tolerances = default_tolerances(subject.model);
   recorded.no_identification = identify_from_healthy(logs, run, subject.model, open, options, set);
   adopt_model(folder, model, subject, set);
+  set.model_values = run.model_values;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     GoldenLog log;
     log.log = taken_log(folder, logs[i]);

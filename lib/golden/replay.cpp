@@ -9,6 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
+#include "lib/golden/model_values.hpp"
 #include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/model/model_files.hpp"
@@ -17,12 +18,21 @@
 namespace faultline {
 namespace {
 
+ObservedEvent observed(const FaultFinding& finding) {
+  ObservedEvent event{event_of(finding),           true,
+                      finding.episode.evidence,    to_string(finding.decided_by),
+                      {finding.mlp, finding.rbfn}, {}};
+  for (const Alternative& alternative : finding.could_also_be)
+    event.could_also_be.push_back(alternative.label);
+  return event;
+}
+
 Observation observed(const Diagnosis& diagnosis, const Trace& trace) {
   Observation seen;
   seen.verdict = to_string(diagnosis.verdict);
   seen.reason = diagnosis.verdict_reason;
   seen.rows = diagnosis.log.rows_used;
-  seen.events = events_of(diagnosis.faults);
+  for (const FaultFinding& finding : diagnosis.faults) seen.events.push_back(observed(finding));
   seen.residuals = diagnosis.residuals;
   seen.trace = trace;
   return seen;
@@ -99,6 +109,7 @@ GoldenRun replay(const std::vector<ReplayLog>& logs, const ModelAndCases& subjec
   GoldenRun run;
   run.program_version = program_version();
   run.model = {subject.name, subject.model.sha256, subject.cases.sha256(), notes_of(subject.model)};
+  run.model_values = values_of(subject.model);
   run.logs.resize(logs.size());
   std::vector<ReplayLog> healthy;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(healthy),

@@ -27,13 +27,37 @@ Trace trace(const Json& json, const std::string& where) {
   return read;
 }
 
+FaultLabel label(const Json& json) {
+  return {fault_kind_from(json.at("kind").get<std::string>()), json.at("joint").get<int>()};
+}
+
+Opinion opinion(const Json& json) { return {label(json), number_or_nan(json.at("confidence"))}; }
+
+ObservedEvent event(const Json& json) {
+  ObservedEvent read{fault_event_from_json(json)};
+  read.has_reasons = json.contains("evidence");
+  if (!read.has_reasons) return read;
+  read.evidence = number_or_nan(json.at("evidence"));
+  read.decided_by = json.at("decided_by");
+  read.opinions = {opinion(json.at("mlp")), opinion(json.at("rbfn"))};
+  for (const Json& one : json.at("could_also_be")) read.could_also_be.push_back(label(one));
+  return read;
+}
+
+std::vector<ParameterValue> values(const Json& json) {
+  std::vector<ParameterValue> read;
+  for (const Json& p : json)
+    read.push_back({p.at("name"), number_or_nan(p.at("value")), number_or_nan(p.at("std")), p.at("unit")});
+  return read;
+}
+
 GoldenRun::Log log(const Json& json, const std::string& where) {
   GoldenRun::Log read{json.at("name"), {}};
   Observation& o = read.observation;
   o.verdict = json.at("verdict");
   o.reason = json.at("reason");
   o.rows = json.at("rows");
-  for (const Json& one : json.at("events")) o.events.push_back(fault_event_from_json(one));
+  for (const Json& one : json.at("events")) o.events.push_back(event(one));
   for (const Json& one : json.at("residuals")) o.residuals.push_back(residual(one));
   o.trace = trace(json.at("trace"), where);
   return read;
@@ -41,9 +65,7 @@ GoldenRun::Log log(const Json& json, const std::string& where) {
 
 ObservedIdentification identification(const Json& json) {
   ObservedIdentification read{json.at("status"), json.at("method"), {}, json.at("reason")};
-  for (const Json& p : json.at("parameters"))
-    read.parameters.push_back(
-        {p.at("name"), number_or_nan(p.at("value")), number_or_nan(p.at("std")), p.at("unit")});
+  read.parameters = values(json.at("parameters"));
   return read;
 }
 
@@ -54,6 +76,7 @@ GoldenRun run(const Json& json, const std::string& where) {
   read.program_version = json.at("program").at("version");
   const Json& model = json.at("model");
   read.model = {model.at("name"), model.at("sha256"), model.at("cases_sha256")};
+  if (model.contains("values")) read.model_values = values(model.at("values"));
   for (const Json& one : json.at("logs")) read.logs.push_back(log(one, where));
   if (!json.at("identification").is_null()) read.identification = identification(json.at("identification"));
   return read;

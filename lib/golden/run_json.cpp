@@ -26,6 +26,7 @@ Json json_of(const CheckedItem& item) {
             {"result", !item.damage.empty() ? "damaged"
                        : item.same()        ? "same"
                                             : "different"},
+            {"verdict_changes", item.changes_verdict()},
             {"damage", item.damage.empty() ? Json(nullptr) : text(item.damage)}};
   const Difference* first = first_divergence(item.comparison);
   json["first_divergence"] = first ? json_of(*first) : Json(nullptr);
@@ -34,9 +35,26 @@ Json json_of(const CheckedItem& item) {
   return json;
 }
 
-Json json_of(const FaultEvent& event) {
+Json json_of(const FaultLabel& label) {
+  return {{"kind", to_string(label.kind)}, {"joint", label.joint}};  // 0 for none in this schema
+}
+
+Json json_of(const Opinion& opinion) {
+  Json json = json_of(opinion.label);
+  json["confidence"] = number_or_null(opinion.confidence);
+  return json;
+}
+
+Json json_of(const ObservedEvent& event) {
   Json json = to_json(event);
-  json["joint"] = event.label.joint;  // 0 for none in this schema
+  json["joint"] = event.label.joint;
+  if (!event.has_reasons) return json;
+  json["evidence"] = number_or_null(event.evidence);
+  json["decided_by"] = event.decided_by;
+  json["mlp"] = json_of(event.opinions.mlp);
+  json["rbfn"] = json_of(event.opinions.rbfn);
+  json["could_also_be"] = Json::array();
+  for (const FaultLabel& label : event.could_also_be) json["could_also_be"].push_back(json_of(label));
   return json;
 }
 
@@ -58,10 +76,20 @@ Json json_of(const GoldenRun::Log& log) {
   const Observation& o = log.observation;
   Json json{{"name", text(log.name)}, {"verdict", o.verdict}, {"reason", text(o.reason)}, {"rows", o.rows}};
   json["events"] = Json::array();
-  for (const FaultEvent& event : o.events) json["events"].push_back(json_of(event));
+  for (const ObservedEvent& event : o.events) json["events"].push_back(json_of(event));
   json["residuals"] = Json::array();
   for (const JointResidual& r : o.residuals) json["residuals"].push_back(json_of(r));
   json["trace"] = json_of(o.trace);
+  return json;
+}
+
+Json json_of(const std::vector<ParameterValue>& values) {
+  Json json = Json::array();
+  for (const ParameterValue& p : values)
+    json.push_back({{"name", text(p.name)},
+                    {"value", number_or_null(p.value)},
+                    {"std", number_or_null(p.std)},
+                    {"unit", text(p.unit)}});
   return json;
 }
 
@@ -69,12 +97,7 @@ Json json_of(const ObservedIdentification& identification) {
   Json json{{"status", identification.status},
             {"method", identification.method},
             {"reason", text(identification.reason)}};
-  json["parameters"] = Json::array();
-  for (const ParameterValue& p : identification.parameters)
-    json["parameters"].push_back({{"name", text(p.name)},
-                                  {"value", number_or_null(p.value)},
-                                  {"std", number_or_null(p.std)},
-                                  {"unit", text(p.unit)}});
+  json["parameters"] = json_of(identification.parameters);
   return json;
 }
 
@@ -89,7 +112,8 @@ std::string render_check_json(const GoldenCheck& check, const GoldenRun& run) {
             {"model",
              {{"name", text(run.model.name)},
               {"sha256", run.model.sha256},
-              {"cases_sha256", run.model.cases_sha256}}}};
+              {"cases_sha256", run.model.cases_sha256},
+              {"values", json_of(run.model_values)}}}};
   json["items"] = Json::array();
   for (const CheckedItem& item : check.items) json["items"].push_back(json_of(item));
   json["logs"] = Json::array();

@@ -37,8 +37,10 @@ bool length_may_differ(const ToleranceChain& chain) {
 
 const std::vector<std::string>& tolerance_families() {
   static const std::vector<std::string> families = {
-      "onset_s", "alarm_s", "end_s",        "confidence", "velocity_rms", "velocity_peak",
-      "peak_s",  "q",       "position_rms", "dq",         "parameter",    "parameter_std"};
+      "onset_s",       "alarm_s",       "end_s",    "confidence",     "velocity_rms",
+      "velocity_peak", "peak_s",        "q",        "position_rms",   "dq",
+      "parameter",     "parameter_std", "evidence", "mlp_confidence", "rbfn_confidence",
+      "model",         "trigger",       "threshold"};
   return families;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 
 #include "lib/cases/case_file.hpp"
 #include "lib/core/hash.hpp"
@@ -11,6 +12,14 @@ namespace faultline {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The text of a model whose alarms need more.
+std::string with_higher_threshold(std::string model) {
+  const std::string key = "\"threshold\": ";
+  const std::size_t at = model.find(key);
+  if (at == std::string::npos) throw std::logic_error("the model has no threshold");
+  return model.insert(at + key.size(), "2");
+}
 
 /// Two logs and the identification of it are not as expected.
 class GoldenAccept : public testing::Test {
@@ -56,7 +65,7 @@ TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {
   EXPECT_FALSE(has(run.out, "payload_change"));
   const ProgramRun check = golden_.run("check");
   EXPECT_EQ(check.status, 1);
-  EXPECT_TRUE(has(check.out, "6 of 8 as expected, 2 different")) << check.out;
+  EXPECT_TRUE(has(check.out, "7 of 9 as expected, 2 different")) << check.out;
   EXPECT_EQ(golden_.run("accept", {"identification", "payload_change.csv"}).status, 0);
   EXPECT_EQ(golden_.run("check").status, 0);
 }
@@ -105,11 +114,51 @@ TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
   const std::string old_name = std::filesystem::path(golden_.file("", "model-")).filename();
   write_file(model, text + " ");
   std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
-  EXPECT_EQ(golden_.run("accept", {"locked_1", "--model", model}).status, 2);
   EXPECT_EQ(golden_.run("accept", {"--all", "--model", model}).status, 0);
   EXPECT_EQ(golden_.run("check").status, 0);
   EXPECT_TRUE(has(read_file(golden_.toml()), "name = \"new.model\""));
   EXPECT_FALSE(std::filesystem::exists(golden_.path() + "/" + old_name)) << "the old model is not needed";
+}
+
+TEST_F(GoldenAccept, OneLogIsTakenWithANewModelAndWhatIsExpectedOfOthersStays) {
+  const std::string model = golden_.outside("new.model");
+  write_file(model, with_higher_threshold(read_file(golden_.file("", "model-"))));
+  std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
+  ASSERT_EQ(run_program({"model", "sign", model}).status, 0);
+  const ProgramRun run = golden_.run("accept", {"locked_1", "--model", model});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "Accepted: locked_1.csv, and the model")) << run.out;
+  EXPECT_TRUE(has(read_file(golden_.toml()), "name = \"new.model\""));
+  EXPECT_FALSE(has(golden_.run("check").out, "threshold is"));
+}
+
+TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
+  golden_.edit("confidence = 0.", "confidence = 0.0");  // of the first event
+  const ProgramRun check = golden_.run("check");
+  EXPECT_EQ(check.status, 1);
+  EXPECT_TRUE(has(check.out, "4 different (2 also in what is found)")) << check.out;
+  const ProgramRun run = golden_.run("accept", {"--same-verdict"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "Accepted: collision_1.csv, ")) << run.out;
+  EXPECT_TRUE(has(golden_.run("check").out, "2 different (2 also in what is found)"));
+}
+
+TEST(GoldenOfAnEarlierProgram, IsReadAndAcceptingAllBringsItUpToDate) {
+  const GoldenCopy golden;
+  std::string text = read_file(golden.toml());
+  text = std::regex_replace(text, std::regex("golden/2"), "golden/1");
+  text = std::regex_replace(text, std::regex(", evidence = [^\n]*\\},\n"), "},\n");
+  text = std::regex_replace(text, std::regex("values = \\[\n(  .*\n)*\\]\n"), "");
+  text = std::regex_replace(
+      text, std::regex("(model|evidence|threshold|trigger|mlp|rbfn)[^ \n]* = \\{abs.*\n"), "");
+  write_file(golden.toml(), text);
+  const ProgramRun check = golden.run("check");
+  EXPECT_EQ(check.status, 0) << check.out << check.err;
+  EXPECT_TRUE(has(check.out, "Recorded by an earlier program"));
+  EXPECT_EQ(golden.run("accept", {"--all"}).status, 0);
+  const std::string now = read_file(golden.toml());
+  EXPECT_TRUE(has(now, "faultline/golden/2") && has(now, "evidence = ") && has(now, "model_a"));
+  EXPECT_FALSE(has(golden.run("check").out, "earlier program"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 TEST(GoldenCheck, TheProjectsOwnGoldenLogsAreAsExpected) {
   const ProgramRun run = run_program({"golden", "check", FAULTLINE_SOURCE_DIR "/sample_logs/golden"});
   EXPECT_EQ(run.status, 0) << run.out << run.err;
-  EXPECT_TRUE(has(run.out, "8 of 8 as expected"));
+  EXPECT_TRUE(has(run.out, "9 of 9 as expected"));
 }
 
 TEST(GoldenCheck, WritesNothingIntoTheFolder) {
@@ -44,7 +44,7 @@ TEST(GoldenCheck, NamesAMissingAndAnUnexpectedEvent) {
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_TRUE(has(run.out, "- event collision joint 1: onset 6.")) << run.out;
   EXPECT_TRUE(has(run.out, "+ event locked joint 1: onset 6."));
-  EXPECT_TRUE(has(run.out, "7 of 8 as expected, 1 different, 0 damaged."));
+  EXPECT_TRUE(has(run.out, "8 of 9 as expected, 1 different (1 also in what is found), 0 damaged."));
 }
 
 /// Puts `value` for dq2 at 3.212 s into the expected trace of locked_1, and names the new trace in
@@ -101,8 +101,8 @@ TEST(GoldenCheck, JUnitHasACaseForEachLogAndTheDifferenceInItsFailure) {
   write_file(golden.file("logs", "payload"), "t,q1\n");
   const ProgramRun run = golden.run("check", {"--junit", "-"});
   EXPECT_EQ(run.status, 3) << run.err;
-  EXPECT_TRUE(has(run.out, "<testsuite name=\"golden\" tests=\"8\" failures=\"1\" errors=\"1\">")) << run.out;
-  EXPECT_TRUE(has(run.out, "<failure type=\"mismatch\" message=\"first divergence at 6."));
+  EXPECT_TRUE(has(run.out, "<testsuite name=\"golden\" tests=\"9\" failures=\"1\" errors=\"1\">")) << run.out;
+  EXPECT_TRUE(has(run.out, "<failure type=\"verdict\" message=\"first divergence at 6."));
   EXPECT_TRUE(has(run.out, "+ event locked joint 1"));
   EXPECT_TRUE(has(run.out, "<error type=\"damaged\" message=\"logs/payload_change.csv is not the file"));
 }
@@ -124,6 +124,29 @@ TEST(GoldenCheck, AnotherModelIsComparedWithWhatIsExpected) {
   EXPECT_EQ(compared.status, 1) << compared.err;
   EXPECT_EQ(nlohmann::json::parse(read_file(golden.outside("compared.json"))).at("result"), "different");
   EXPECT_EQ(golden.run("compare", {golden.outside("other.model"), golden.outside("other.model")}).status, 0);
+}
+
+TEST(GoldenCheck, AModelWhoseInertiaIsHalfAPercentOffIsSeen) {
+  const GoldenCopy golden;
+  const std::string other = golden.outside("other.model");
+  auto model = nlohmann::ordered_json::parse(read_file(golden.file("", "model-")));
+  std::string robot = model["robot"];
+  const std::string key = "inertia = [0.0, ";
+  std::size_t begin = robot.find(key);
+  ASSERT_NE(begin, std::string::npos) << robot;
+  begin += key.size();
+  for (int axis = 0; axis < 2; ++axis) {
+    const std::string more = std::to_string(1.005 * std::stod(robot.substr(begin)));
+    robot.replace(begin, robot.find(',', begin) - begin, more);
+    begin += more.size() + 2;
+  }
+  model["robot"] = robot;
+  write_file(other, model.dump(1) + "\n");
+  std::filesystem::copy_file(golden.file("", "cases-"), case_base_path(other));
+  ASSERT_EQ(run_program({"model", "sign", other}).status, 0);
+  const ProgramRun run = golden.run("check", {"--model", other});
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_TRUE(has(run.out, "model_")) << run.out;
 }
 
 TEST(GoldenCheck, ARunOfAnotherProgramVersionIsComparedByItsJson) {

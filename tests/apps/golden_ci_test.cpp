@@ -72,7 +72,7 @@ TEST_P(GoldenCi, TheCheckOfTheSnippetPassesAndFailsAsItShould) {
   ASSERT_NE(commands.find("golden check"), std::string::npos) << commands;
   const GoldenCopy golden;
   EXPECT_EQ(run_in_checkout(golden, commands), 0) << read_file(golden.outside("output"));
-  EXPECT_NE(read_file(golden.outside("golden.xml")).find("tests=\"8\" failures=\"0\""), std::string::npos);
+  EXPECT_NE(read_file(golden.outside("golden.xml")).find("tests=\"9\" failures=\"0\""), std::string::npos);
   golden.edit("kind = \"locked\"", "kind = \"collision\"");
   EXPECT_EQ(run_in_checkout(golden, commands), 1);
   EXPECT_NE(read_file(golden.outside("golden.xml")).find("failures=\"1\""), std::string::npos);

@@ -8,11 +8,11 @@
 namespace faultline {
 namespace {
 
-FaultEvent locked(double onset_s) {
-  return {{FaultKind::locked, 2}, onset_s, onset_s + 0.1, onset_s + 1.0, 0.9};
+ObservedEvent locked(double onset_s) {
+  return {{{FaultKind::locked, 2}, onset_s, onset_s + 0.1, onset_s + 1.0, 0.9}};
 }
 
-Comparison compared(const std::vector<FaultEvent>& expected, const std::vector<FaultEvent>& actual,
+Comparison compared(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
                     const Tolerances& allowed = {}) {
   Comparison comparison;
   compare_events(expected, actual, {&allowed}, comparison);
@@ -35,7 +35,7 @@ TEST(CompareEvents, TimesAndConfidenceMayDifferWithinTheirTolerance) {
   Tolerances allowed;
   for (const char* time : {"onset_s", "alarm_s", "end_s"}) allowed.by_channel[time] = {0.3, 0.0};
   EXPECT_TRUE(compared({locked(1.0)}, {locked(1.25)}, allowed).same());
-  FaultEvent surer = locked(1.0);
+  ObservedEvent surer = locked(1.0);
   surer.confidence = 0.95;
   const Comparison found = compared({locked(1.0)}, {surer}, allowed);
   ASSERT_EQ(found.differences.size(), 1u);
@@ -44,7 +44,7 @@ TEST(CompareEvents, TimesAndConfidenceMayDifferWithinTheirTolerance) {
 }
 
 TEST(CompareEvents, AnotherKindOrJointIsOneMissingAndOneUnexpected) {
-  FaultEvent other = locked(1.0);
+  ObservedEvent other = locked(1.0);
   other.label.kind = FaultKind::collision;
   const Comparison found = compared({locked(1.0)}, {other});
   ASSERT_EQ(found.differences.size(), 2u);
@@ -56,13 +56,33 @@ TEST(CompareEvents, AnotherKindOrJointIsOneMissingAndOneUnexpected) {
 }
 
 TEST(CompareEvents, AnUnknownTimeIsSaidAndAgreesWithItself) {
-  FaultEvent endless = locked(1.0);
+  ObservedEvent endless = locked(1.0);
   endless.end_s = NAN;
   const Comparison same = compared({endless}, {endless});
   EXPECT_TRUE(same.same());
   EXPECT_EQ(same.lines.at(0).expected,
             "event locked joint 2: onset 1.000 s, alarm 1.100 s, end unknown, confidence 0.900");
   EXPECT_EQ(compared({endless}, {locked(1.0)}).differences.at(0).channel, "end_s");
+}
+
+TEST(CompareEvents, WhatAnEventRestsOnIsComparedWhereBothSidesTellIt) {
+  ObservedEvent expected = locked(1.0);
+  ObservedEvent actual = expected;
+  actual.has_reasons = true;
+  actual.evidence = 100.0;
+  EXPECT_TRUE(compared({expected}, {actual}).same()) << "a golden file of an earlier program tells none";
+  expected = actual;
+  actual.evidence = 40.0;
+  actual.decided_by = "cases";
+  actual.opinions.mlp.label = {FaultKind::locked, 3};
+  actual.opinions.rbfn.confidence = 0.4;
+  actual.could_also_be = {{FaultKind::friction_increase, 2}};
+  const Comparison comparison = compared({expected}, {actual});
+  std::vector<std::string> channels;
+  for (const Difference& difference : comparison.differences) channels.push_back(difference.channel);
+  EXPECT_EQ(channels,
+            (std::vector<std::string>{"evidence", "decided_by", "mlp", "rbfn_confidence", "could_also_be"}));
+  EXPECT_FALSE(comparison.changes_verdict());
 }
 
 }  // namespace

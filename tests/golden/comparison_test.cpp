@@ -14,7 +14,8 @@ Observation example() {
   Observation o;
   o.verdict = "faulty";
   o.rows = 4;
-  o.events = {{{FaultKind::locked, 2}, 1.0, 1.1, 2.0, 0.9}, {{FaultKind::collision, 1}, 3.0, 3.1, 3.2, 0.8}};
+  o.events = {{{{FaultKind::locked, 2}, 1.0, 1.1, 2.0, 0.9}},
+              {{{FaultKind::collision, 1}, 3.0, 3.1, 3.2, 0.8}}};
   o.residuals = {{1, 1.0, 4.0, 1.5, 1.2}, {2, kNan, kNan, kNan, kNan}};
   o.trace = {{"q1", "dq1"}, {0.1, 0.2, 0.3}, {{1.0, 2.0, kNan}, {0.5, 0.5, 0.5}}};
   return o;
@@ -132,6 +133,34 @@ TEST(GoldenComparison, ParametersAreComparedByName) {
   EXPECT_TRUE(compare(expected, actual, {&allow}).same());
   actual.parameters.pop_back();
   EXPECT_FALSE(compare(expected, actual, {&allow}).same());
+}
+
+TEST(CompareGolden, OtherTimesAreNoOtherVerdictButAnotherEventIs) {
+  Observation later = example();
+  later.events[0].onset_s = 1.2;
+  EXPECT_FALSE(compare(example(), later, none()).same());
+  EXPECT_FALSE(compare(example(), later, none()).changes_verdict());
+  later.events.pop_back();
+  EXPECT_TRUE(compare(example(), later, none()).changes_verdict());
+}
+
+TEST(CompareGolden, ValuesOfAModelAreComparedByNameAndFamily) {
+  const std::vector<ParameterValue> expected = {{"model_a", 1.0, 0.01, "kg m^2"},
+                                                {"threshold", 18.0, kNan, "nats"}};
+  std::vector<ParameterValue> actual = expected;
+  Tolerances allowed;
+  allowed.by_channel["model"] = {0.0, 0.002};
+  actual[0].value = 1.001;
+  EXPECT_TRUE(compare(expected, actual, {&allowed}).same());
+  actual[0].value = 1.005;
+  actual[1].value = 30.0;
+  actual.push_back({"threshold_locked_2", 40.0, kNan, "nats"});
+  const Comparison comparison = compare(expected, actual, {&allowed});
+  ASSERT_EQ(comparison.differences.size(), 3u);
+  EXPECT_EQ(comparison.differences[0].channel, "model_a");
+  EXPECT_EQ(comparison.differences[1].channel, "threshold");
+  EXPECT_EQ(comparison.differences[2].channel, "threshold_locked_2");
+  EXPECT_TRUE(compare({}, actual, {&allowed}).same()) << "an earlier program did not record them";
 }
 
 }  // namespace

@@ -20,13 +20,21 @@ GoldenSet example() {
   set.joints = 2;
   set.model = {"model-1.json", "aa"};
   set.cases = {"cases-1.db", "bb"};
-  set.tolerances.by_channel = {{"dq2", {1e-5, 0.25}}, {"onset_s", {0.15, 0}}};
+  set.model_values = {{"model_m 1", 0.5, kNan, "kg"}, {"threshold", 18.0, kNan, "nats"}};
+  set.tolerances.by_channel = {{"model_m 1", {1e-5, 0}}, {"dq2", {1e-5, 0.25}}, {"onset_s", {0.15, 0}}};
   GoldenLog log;
   log.log = {"logs/Höhe \t1.csv", "cc"};
   log.trace = {"traces/a-1.csv", "dd"};
   log.expected.verdict = "faulty";
   log.expected.rows = 10;
-  log.expected.events = {{{FaultKind::locked, 2}, 1763710000.123456, kNan, INFINITY, 0.9}};
+  ObservedEvent event{{{FaultKind::locked, 2}, 1763710000.123456, kNan, INFINITY, 0.9}};
+  log.expected.events.push_back(event);
+  event.has_reasons = true;
+  event.evidence = 123.5;
+  event.decided_by = "cases";
+  event.opinions = {{{FaultKind::locked, 2}, 0.75}, {{FaultKind::collision, 1}, 0.5}};
+  event.could_also_be = {{FaultKind::torque_loss, 2}, {FaultKind::payload_change, 0}};
+  log.expected.events.push_back(event);
   log.expected.residuals = {{1, 1.25, 2.5, 3.5, kNan}, {2, kNan, kNan, kNan, kNan}};
   log.tolerances.length_may_differ = true;
   set.logs = {log};
@@ -45,6 +53,13 @@ TEST(GoldenSet, ComesBackFromItsTextAsItWas) {
   EXPECT_DOUBLE_EQ(log.expected.events[0].onset_s, 1763710000.123456);
   EXPECT_TRUE(std::isnan(log.expected.events[0].alarm_s));
   EXPECT_TRUE(std::isinf(log.expected.events[0].end_s));
+  EXPECT_FALSE(log.expected.events[0].has_reasons);
+  const ObservedEvent& event = log.expected.events.at(1);
+  EXPECT_TRUE(event.has_reasons);
+  EXPECT_EQ(event.evidence, 123.5);
+  EXPECT_EQ(event.opinions.rbfn, (Opinion{{FaultKind::collision, 1}, 0.5}));
+  EXPECT_EQ(event.could_also_be.at(1), (FaultLabel{FaultKind::payload_change, 0}));
+  EXPECT_EQ(read.model_values.at(1).value, 18.0);
   EXPECT_EQ(read.model_name, "a \"quoted\" \\ name");
   EXPECT_EQ(read.identification->tolerances.by_channel.at("l1 m2").absolute, 0.1);
   EXPECT_TRUE(log.tolerances.length_may_differ.value());
@@ -74,7 +89,7 @@ struct Mistake {
 
 TEST(GoldenSet, MistakesAreNamed) {
   const Mistake mistakes[] = {
-      {"faultline/golden/1", "faultline/golden/2", "schema"},
+      {"faultline/golden/2", "faultline/golden/3", "schema"},
       {"log_count = 1", "log_count = 2", "log_count"},
       {"dq2 = {absolute = 1e-05", "dq2 = {absolute = -1", "must not be negative"},
       {"dq2 = {absolute = 1e-05", "dp2 = {absolute = 1e-05", "did you mean \"dq\""},
