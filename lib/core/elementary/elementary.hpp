@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+/// The elementary functions of this project, for all of lib/, formats/ and apps/: one path of plain IEEE
+/// additions, multiplications, divisions and square roots, so that an argument gives the same bits on every
+/// machine. The C library's give other bits where a processor has a fused multiply-add, and in other
+/// releases. Each is within one unit in the last place (most within 0.55; tests/core/elementary holds them to
+/// it) for every double, subnormal and huge ones too; zeros keep their sign, NaN stays NaN, and infinities
+/// and poles are as in C (Annex F). They neither set errno nor promise floating-point exceptions.
+namespace faultline::elementary {
+
+double exp(double x);
+double log(double x);
+double log1p(double x);
+double log10(double x);
+double pow(double x, double y);
+double sin(double x);
+double cos(double x);
+double tanh(double x);
+double asinh(double x);
+double atan(double x);
+double atan2(double y, double x);
+double hypot(double x, double y);
+double erfc(double x);
+
+template <typename S>
+struct SinCos {
+  S sin, cos;
+};
+/// Both, for little more than one of them costs; the same bits as sin() and cos().
+SinCos<double> sin_cos(double x);
+
+/// A number that carries derivatives, such as a Ceres Jet: it has functions of its own, in its namespace.
+template <typename S>
+concept WithDerivatives = !std::convertible_to<S, double>;
+
+template <WithDerivatives S>
+S tanh(const S& x) {
+  return tanh(x);
+}
+template <WithDerivatives S>
+SinCos<S> sin_cos(const S& x) {
+  return {sin(x), cos(x)};
+}
+
+}  // namespace faultline::elementary

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/elementary/scaled_exp.hpp"
+
+namespace faultline::elementary {
+namespace {
+
+constexpr double kAllAbove = 710.0;   // e^x is infinite
+constexpr double kAllBelow = -746.0;  // e^x is zero
+
+}  // namespace
+
+double exp(double x) {
+  if (x > kAllAbove) return std::numeric_limits<double>::infinity();
+  if (x < kAllBelow) return 0.0;
+  return x == x ? scaled_exp(x).value() : x;
+}
+
+}  // namespace faultline::elementary
