@@ -1,87 +1,121 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/shooting/trailing_covariance.hpp"
 
-#include <Eigen/SparseCore>
-#include <suitesparse/SuiteSparseQR.hpp>
+#include <Eigen/QR>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <vector>
 
 namespace faultline {
 namespace {
 
-using Index = SuiteSparse_long;
-using ByColumns = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
-using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Matrix = Eigen::MatrixXd;
+using Rows = std::vector<int>;
 
-/// J = Q R E' with R upper triangular and E a permutation.
-class Factor {
- public:
-  explicit Factor(ByColumns& j) {
-    cholmod_l_start(&settings_);
-    cholmod_sparse view{};
-    view.nrow = static_cast<std::size_t>(j.rows());
-    view.ncol = static_cast<std::size_t>(j.cols());
-    view.nzmax = static_cast<std::size_t>(j.nonZeros());
-    view.p = j.outerIndexPtr();
-    view.i = j.innerIndexPtr();
-    view.x = j.valuePtr();
-    view.itype = CHOLMOD_LONG;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
-    const Index rank = SuiteSparseQR<double>(SPQR_ORDERING_BESTAMD, SPQR_DEFAULT_TOL, j.cols(), &view, &r_,
-                                             &permutation_, &settings_);
-    columns_ = j.cols();
-    full_rank_ = r_ && rank == columns_;
-  }
-  ~Factor() {
-    cholmod_l_free_sparse(&r_, &settings_);
-    cholmod_l_free(static_cast<std::size_t>(columns_), sizeof(Index), permutation_, &settings_);
-    cholmod_l_finish(&settings_);
-  }
-  Factor(const Factor&) = delete;
-  Factor& operator=(const Factor&) = delete;
+/// The rows of J and what is where in them.
+struct SparseRows {
+  const ceres::CRSMatrix& j;
+  int first;  ///< columns from there on are the trailing ones
 
-  bool full_rank() const { return full_rank_; }
-
-  /// R'^-1 E' of the unit vectors from `first` on.
-  ByRows half(Index first) const {
-    ByRows y = ByRows::Zero(columns_, columns_ - first);
-    const auto* begin = static_cast<const Index*>(r_->p);
-    const auto* rows = static_cast<const Index*>(r_->i);
-    const auto* values = static_cast<const double*>(r_->x);
-    for (Index k = 0; k < columns_; ++k) {
-      const Index column = permutation_ ? permutation_[k] : k;
-      if (column >= first) y(k, column - first) = 1.0;
-      double diagonal = 0.0;
-      for (Index p = begin[k]; p < begin[k + 1]; ++p) {
-        if (rows[p] == k)
-          diagonal = values[p];
-        else
-          y.row(k) -= values[p] * y.row(rows[p]);
-      }
-      y.row(k) /= diagonal;
-    }
-    return y;
-  }
-
- private:
-  cholmod_common settings_{};
-  cholmod_sparse* r_ = nullptr;
-  Index* permutation_ = nullptr;
-  Index columns_ = 0;
-  bool full_rank_ = false;
+  int begin(int row) const { return j.rows[static_cast<std::size_t>(row)]; }
+  int end(int row) const { return begin(row + 1); }
+  int column(int at) const { return j.cols[static_cast<std::size_t>(at)]; }
+  double value(int at) const { return j.values[static_cast<std::size_t>(at)]; }
 };
+
+/// Leading columns that rows have in common, and these rows.
+struct Group {
+  std::map<int, int> place;  ///< of each leading column among those of the group
+  Rows rows;
+};
+
+int root_of(std::vector<int>& parent, int column) {
+  while (parent[column] != column) column = parent[column] = parent[parent[column]];
+  return column;
+}
+
+/// Groups without a common leading column; first the rows that have none at all.
+std::vector<Group> groups_of(const SparseRows& s) {
+  std::vector<int> parent(s.first), of_row(s.j.num_rows, -1);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (int row = 0; row < s.j.num_rows; ++row)
+    for (int at = s.begin(row); at < s.end(row); ++at) {
+      if (s.column(at) >= s.first) continue;
+      if (of_row[row] < 0) of_row[row] = s.column(at);
+      parent[root_of(parent, s.column(at))] = root_of(parent, of_row[row]);
+    }
+  std::vector<Group> groups(1);
+  std::vector<int> group_of(s.first, -1);
+  for (int column = 0; column < s.first; ++column) {
+    int& group = group_of[root_of(parent, column)];
+    if (group < 0) {
+      group = static_cast<int>(groups.size());
+      groups.emplace_back();
+    }
+    auto& place = groups[group].place;
+    place.emplace(column, static_cast<int>(place.size()));
+  }
+  for (int row = 0; row < s.j.num_rows; ++row)
+    groups[of_row[row] < 0 ? 0 : group_of[root_of(parent, of_row[row])]].rows.push_back(row);
+  return groups;
+}
+
+/// Leading columns of the group first, the trailing ones behind.
+Matrix dense_rows(const SparseRows& s, const Group& group) {
+  const auto leading = static_cast<Eigen::Index>(group.place.size());
+  Matrix out = Matrix::Zero(static_cast<Eigen::Index>(group.rows.size()), leading + s.j.num_cols - s.first);
+  for (std::size_t k = 0; k < group.rows.size(); ++k)
+    for (int at = s.begin(group.rows[k]); at < s.end(group.rows[k]); ++at) {
+      const int column = s.column(at);
+      out(static_cast<Eigen::Index>(k),
+          column >= s.first ? leading + column - s.first : group.place.at(column)) += s.value(at);
+    }
+  return out;
+}
+
+/// R of J = Q R, at most as many rows as columns.
+Matrix triangle_of(const Matrix& j) {
+  if (j.rows() == 0) return j;
+  const Matrix r = Eigen::HouseholderQR<Matrix>(j).matrixQR().triangularView<Eigen::Upper>();
+  return r.topRows(std::min(r.rows(), r.cols()));
+}
+
+/// Below it a diagonal entry of R tells that its column depends on those before it.
+double tolerance_of(const ceres::CRSMatrix& j) {
+  constexpr double kTimes = 20.0;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(j.num_cols);
+  for (std::size_t at = 0; at < j.values.size(); ++at) squares[j.cols[at]] += j.values[at] * j.values[at];
+  return kTimes * (j.num_rows + j.num_cols) * std::numeric_limits<double>::epsilon() *
+         std::sqrt(squares.maxCoeff());
+}
+
+bool has_full_rank(const Matrix& r, Eigen::Index columns, double tolerance) {
+  return r.rows() >= columns && (r.diagonal().head(columns).array().abs() > tolerance).all();
+}
 
 }  // namespace
 
 bool trailing_covariance(const ceres::CRSMatrix& jacobian, int first, Eigen::MatrixXd& out) {
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> by_rows(
-      jacobian.num_rows, jacobian.num_cols, static_cast<Eigen::Index>(jacobian.values.size()),
-      jacobian.rows.data(), jacobian.cols.data(), jacobian.values.data());
-  ByColumns columns = by_rows;
-  const Factor factor(columns);
-  if (!factor.full_rank()) return false;
-  const ByRows half = factor.half(first);
-  out = half.transpose() * half;
+  const SparseRows rows{jacobian, first};
+  const Eigen::Index trailing = jacobian.num_cols - first;
+  const double tolerance = tolerance_of(jacobian);
+  Matrix kept =
+      Matrix::Zero(0, trailing);  // what is left of all rows once the leading columns are eliminated
+  for (const Group& group : groups_of(rows)) {
+    const auto leading = static_cast<Eigen::Index>(group.place.size());
+    const Matrix r = triangle_of(dense_rows(rows, group));
+    if (!has_full_rank(r, leading, tolerance)) return false;
+    const Eigen::Index more = r.rows() - leading;
+    Matrix stacked(kept.rows() + more, trailing);
+    stacked.topRows(kept.rows()) = kept;
+    stacked.bottomRows(more) = r.bottomRightCorner(more, trailing);
+    kept = triangle_of(stacked);
+  }
+  if (!has_full_rank(kept, trailing, tolerance)) return false;
+  const Matrix half = kept.triangularView<Eigen::Upper>().solve(Matrix::Identity(trailing, trailing));
+  out = half * half.transpose();
   return out.allFinite();
 }
 
