@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -147,6 +149,49 @@ TEST(House, OnlyTheGateWritesToStreams) {
       EXPECT_FALSE(std::regex_search(code_of(lines[i]), writing))
           << place(path, i) << ": use tell() or print()";
   }
+}
+
+/// The C library computes these in another way where a processor can fuse operations, and Eigen's arrays take
+/// what is left over from its vectors from there.
+TEST(House, ElementaryFunctionsAreOurOwn) {
+  static const std::string functions =
+      "(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|sincos|exp|exp2|expm1|log|log2|"
+      "log10|log1p|pow|hypot|cbrt|erf|erfc|lgamma|tgamma|polar|arg|fma)";
+  static const std::regex named("\\b(std|ceres|Eigen|numext)::" + functions + R"(\b)");
+  static const std::regex global(
+      R"((^|[^\w.:>~])(sin|cos|tan|tanh|sincos|exp|expm1|log1p|log10|log2|pow|atan|atan2|hypot|erfc?)\()");
+  static const std::regex of_an_array(
+      R"((\)|array|prior|\])\.(sin|cos|tan|tanh|asinh|exp|log|log1p|pow|erf)\(\))");
+  for (const fs::path& path : sources({"lib", "formats", "apps"})) {
+    if (fs::relative(path, kRoot).string().starts_with("lib/core/elementary/")) continue;
+    const std::vector<std::string> lines = lines_of(path);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string code = code_of(lines[i]);
+      for (const std::regex* rule : {&named, &global, &of_an_array})
+        EXPECT_FALSE(std::regex_search(code, *rule)) << place(path, i) << ": use elementary::";
+    }
+  }
+}
+
+/// Whatever is linked in, Ceres and templates of Eigen among it, takes from outside only functions that have
+/// one right result: roots, rounding, remainders.
+TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
+  static const std::regex inexact(
+      "(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p|b)?|pow|hypot|cbrt|erfc?|[lt]gamma|fma|"
+      "c(abs|exp|log|pow|sqrt|sin|cos))(f|l)?(@.*)?");
+  std::FILE* symbols = popen("nm --dynamic --undefined-only '" FAULTLINE_PROGRAM "'", "r");
+  ASSERT_NE(symbols, nullptr);
+  char line[4096];
+  int count = 0;
+  while (std::fgets(line, sizeof line, symbols) != nullptr) {
+    std::istringstream words{line};
+    std::string kind, name;
+    if (!(words >> kind >> name)) continue;
+    ++count;
+    EXPECT_FALSE(std::regex_match(name, inexact)) << name << ": see lib/core/elementary/for_libraries.cpp";
+  }
+  EXPECT_EQ(pclose(symbols), 0) << "nm, of binutils, reads the program";
+  EXPECT_GT(count, 100);
 }
 
 }  // namespace

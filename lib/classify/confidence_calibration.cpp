@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -21,10 +23,10 @@ using Parameters = Eigen::Matrix<double, kParameters, 1>;
 
 double log_odds(double p) {
   const double q = std::clamp(p, 1.0 - kSureEnough, kSureEnough);
-  return std::log(q / (1.0 - q));
+  return elementary::log(q / (1.0 - q));
 }
 
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+double logistic(double x) { return 1.0 / (1.0 + elementary::exp(-x)); }
 
 Parameters features_of(const JudgedConfidence& one) {
   Parameters x = Parameters::Zero();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/evidence/size_scale.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/label_text.hpp"
@@ -43,7 +44,7 @@ void set_size(LabelEvidence& out, const Hypothesis& hypothesis, const Hypothesis
 }
 
 /// A hypothesis that lost the robot has no size.
-double bounded_size(double size) { return std::isfinite(size) ? std::tanh(size) : 0.0; }
+double bounded_size(double size) { return std::isfinite(size) ? elementary::tanh(size) : 0.0; }
 
 /// The labels of the bank once each, without the push on all joints.
 std::vector<FaultLabel> distinct_labels(std::span<const Hypothesis> bank) {
@@ -102,7 +103,7 @@ double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& e
   double best = 0.0, sum = 0.0, of_label = 0.0;
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   for (const LabelEvidence& e : evidence) {
-    const double weight = std::exp(e.log_likelihood_ratio - best);
+    const double weight = elementary::exp(e.log_likelihood_ratio - best);
     sum += weight;
     if (named_by_size(e.label, evidence) == label) of_label += weight;
   }
@@ -116,19 +117,20 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   std::vector<double> features;
   for (const LabelEvidence& e : evidence)
-    features.push_back(-std::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
+    features.push_back(-elementary::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
   for (const LabelEvidence& e : evidence) {
-    const double counts = std::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
+    const double counts =
+        elementary::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
     features.push_back(counts * bounded_size(e.size[0]));
     for (int s = 1; s < describe(e.label.kind).size_count; ++s)
       features.push_back(counts * bounded_size(e.size[s]));
   }
-  features.push_back(std::log1p(best));
-  features.push_back(std::log(static_cast<double>(std::max(episode.samples, 1))));
-  features.push_back(std::log(std::max(episode.isolated_s - episode.onset_s, 1e-3)));
+  features.push_back(elementary::log1p(best));
+  features.push_back(elementary::log(static_cast<double>(std::max(episode.samples, 1))));
+  features.push_back(elementary::log(std::max(episode.isolated_s - episode.onset_s, 1e-3)));
   for (int j = 0; j < joints; ++j) {
     const double rms = j < std::ssize(residuals) ? residuals[j].velocity_rms : kNotMeasured;
-    features.push_back(std::isfinite(rms) ? std::log(std::max(rms, 1e-3)) : 0.0);
+    features.push_back(std::isfinite(rms) ? elementary::log(std::max(rms, 1e-3)) : 0.0);
   }
   return features;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -30,8 +31,9 @@ VectorXd log_odds(const CriterionOptions& options, const OutputMeaning& meaning,
   const Index none = outputs.size() - 1;
   VectorXd odds = VectorXd::Zero(outputs.size());
   for (Index c = 0; c < none; ++c) {
-    odds[c] = std::log(std::max(outputs[c], kLeastOutput) / std::max(outputs[none], kLeastOutput));
-    if (meaning.prior.size() == outputs.size()) odds[c] -= std::log(meaning.prior[c] / meaning.prior[none]);
+    odds[c] = elementary::log(std::max(outputs[c], kLeastOutput) / std::max(outputs[none], kLeastOutput));
+    if (meaning.prior.size() == outputs.size())
+      odds[c] -= elementary::log(meaning.prior[c] / meaning.prior[none]);
     odds[c] = std::clamp(odds[c], -options.sample_cap, options.sample_cap);
   }
   return odds;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/neural/json_matrix.hpp"
@@ -25,7 +26,7 @@ MatrixXd features_of(SampleFeatures kind, const VectorXd& torque_rms, const Resi
   if (kind == SampleFeatures::velocity) return residuals.velocity;
   const Index n = torque_rms.size();
   const auto compressed = [&](const MatrixXd& torque) {
-    return ((torque.array().colwise() / torque_rms.array()).asinh()).matrix().eval();
+    return ((torque.array().colwise() / torque_rms.array()).unaryExpr(&elementary::asinh)).matrix().eval();
   };
   MatrixXd features(3 * n, residuals.count());
   if (kind == SampleFeatures::hypotheses) {

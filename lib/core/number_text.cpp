@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 
 std::string digits_text(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
@@ -24,7 +26,7 @@ std::string time_text(double time_s, double sample_period_s) {
   if (!std::isfinite(time_s)) return "unknown";
   const bool known = std::isfinite(sample_period_s) && sample_period_s > 0.0;
   const int decimals =
-      known ? std::clamp(static_cast<int>(std::ceil(-std::log10(sample_period_s))), 1, 6) : 3;
+      known ? std::clamp(static_cast<int>(std::ceil(-elementary::log10(sample_period_s))), 1, 6) : 3;
   return fmt::format("{:.{}f} s", time_s, std::max(decimals, 3));
 }
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -60,7 +62,7 @@ double Random::normal() {  // Marsaglia's polar method
     v = uniform(-1.0, 1.0);
     s = u * u + v * v;
   } while (s >= 1.0 || s == 0.0);
-  const double scale = std::sqrt(-2.0 * std::log(s) / s);
+  const double scale = std::sqrt(-2.0 * elementary::log(s) / s);
   spare_normal_ = v * scale;
   has_spare_ = true;
   return u * scale;

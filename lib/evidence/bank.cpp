@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/evidence/trigger.hpp"
 
 namespace faultline {
@@ -25,8 +26,8 @@ constexpr double kSmallestShare = 1e-4;
 
 /// Codes so coarse that healthy joints repeat them: the log likelihood of a reading that was certain.
 double certain_code(const FollowedSample& at, int j) {
-  double codes = std::log(kCodesInStd * at.q_std[j]);
-  if (std::isfinite(at.dq[j])) codes += std::log(kCodesInStd * at.dq_std[j]);
+  double codes = elementary::log(kCodesInStd * at.q_std[j]);
+  if (std::isfinite(at.dq[j])) codes += elementary::log(kCodesInStd * at.dq_std[j]);
   return -codes;
 }
 
@@ -39,7 +40,7 @@ double at_most_certain(double log_likelihood, const MotionModel& model, const Fo
 double log_ratio_of_stuck(const MotionModel& model, const FollowedSample& at, int j) {
   if (!at.repeats[j]) return kCodeChanged;
   if (repeats_mean_stuck(model, j))
-    return -std::log(std::max(model.repeat_share[j], kSmallestShare)) + 0.5 * at.chi_square[j];
+    return -elementary::log(std::max(model.repeat_share[j], kSmallestShare)) + 0.5 * at.chi_square[j];
   const double certain = certain_code(at, j);
   return certain - std::min(at.log_likelihood[j], certain);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/html/base64.hpp"
@@ -23,7 +24,7 @@ Json quantised(const std::vector<float>& values, bool logarithmic) {
   std::vector<double> scaled;
   double low = INFINITY, high = -INFINITY;
   for (const float value : values) {
-    scaled.push_back(logarithmic ? std::log10(std::max<double>(value, 1e-6)) : value);
+    scaled.push_back(logarithmic ? elementary::log10(std::max<double>(value, 1e-6)) : value);
     if (!std::isfinite(value)) scaled.back() = NAN;
     low = std::fmin(low, scaled.back());
     high = std::fmax(high, scaled.back());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/identify/extra_stage.hpp"
 #include "lib/identify/gathered.hpp"
@@ -56,7 +57,7 @@ void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eige
     double& width = parameters[space.log_width(j)];
     width = std::max(width, nominal[space.log_width(j)]);
     for (SharedDrive& f : space.chain.shared_drives)
-      if (f.along[j] != 0.0) f.width = std::max(f.width, std::exp(nominal[space.log_width(j)]));
+      if (f.along[j] != 0.0) f.width = std::max(f.width, elementary::exp(nominal[space.log_width(j)]));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/base_candidates.hpp"
 #include "lib/robot/axis_units.hpp"
@@ -178,7 +179,7 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
     chain.friction[i] = {p[space.viscous(i)],
                          p[space.coulomb(i)],
                          p[space.offset(i)],
-                         std::exp(p[space.log_width(i)]),
+                         elementary::exp(p[space.log_width(i)]),
                          p[space.bend(i)],
                          p[space.skew(i)],
                          space.chain.friction[i].bend_width};
@@ -206,7 +207,7 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
     p[space.offset(i)] = chain.friction[i].offset;
     p[space.bend(i)] = chain.friction[i].bend;
     p[space.skew(i)] = chain.friction[i].skew;
-    p[space.log_width(i)] = std::log(chain.friction[i].width);
+    p[space.log_width(i)] = elementary::log(chain.friction[i].width);
   }
   for (int k = space.extra_begin(); k < space.timing(); ++k) {
     const double* const value = extra_value(chain, space.extra_at(k));

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "lib/core/distributions.hpp"
+#include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 namespace {
@@ -40,7 +41,7 @@ std::string why_width(const Identification& id, int p, const TableFacts& facts) 
       id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
       : !facts.fast ? fmt::format("no log is faster than {:g} s a sample", kShowsFriction_s)
                     : "the logs do not tell this joint's Coulomb friction, or the options leave it";
-  return fmt::format("left at {:g}: {}", std::exp(id.estimate[p]), reason);
+  return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
 }
 
 std::string why_not(const Identification& id, int p, const TableFacts& facts) {
@@ -60,7 +61,7 @@ ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Iden
   ParameterEstimate e;
   e.name = id.space.name(p);
   e.unit = id.space.unit(p);
-  e.value = is_width ? std::exp(id.estimate[p]) : id.estimate[p];
+  e.value = is_width ? elementary::exp(id.estimate[p]) : id.estimate[p];
   e.identifiable = is_given(id, p) || (is_free && (is_width || !weak.confounded[p]));
   e.std = std::sqrt(id.covariance(p, p)) * (is_width ? e.value : 1.0);
   if (!e.identifiable) e.why_not = why_not(id, p, facts);

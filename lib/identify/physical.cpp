@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "lib/core/distributions.hpp"
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/physical_equations.hpp"
 
@@ -55,13 +56,13 @@ Eigen::VectorXd solve(const PhysicalEquations& equations) {
   Random random(7);
   Eigen::VectorXd best;
   double best_cost = std::numeric_limits<double>::infinity();
-  const double scale = std::log(equations.scale() + 1e-6);
+  const double scale = elementary::log(equations.scale() + 1e-6);
   for (int s = 0; s < kStarts; ++s) {
     Eigen::VectorXd x(equations.open());
     Eigen::Index k = 0;
     for (const PhysicalUnknown& u : equations.unknowns()) {
       if (u.exact) continue;
-      x[k++] = u.std > 0.0 ? std::log(std::max(u.value, 1e-6))
+      x[k++] = u.std > 0.0 ? elementary::log(std::max(u.value, 1e-6))
                            : (u.kind == 'm' ? scale : -0.7) + (s > 0 ? random.uniform(-1.5, 1.5) : 0.0);
     }
     const double cost = descend(equations, x);
@@ -174,7 +175,7 @@ ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnkno
                             100.0 * doubt);
     return e;
   }
-  e.value = std::exp(s.log_value[k]);
+  e.value = elementary::exp(s.log_value[k]);
   e.std = e.value * s.spread[k];
   e.ci95 = {e.value * (1.0 - doubt), e.value * (1.0 + doubt)};
   return e;
@@ -203,7 +204,7 @@ PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
     ParameterEstimate e = u.exact ? given(u) : solved(equations, u, solution, k);
     e.unit = u.kind == 'l' ? "m" : "kg";
     if (u.kind == 'l' && e.identifiable) fit.lengths[u.index] = e.value;
-    if (u.kind == 'l' && !e.identifiable) guess_length(u, std::exp(solution.log_value[k]), fit);
+    if (u.kind == 'l' && !e.identifiable) guess_length(u, elementary::exp(solution.log_value[k]), fit);
     if (k >= 0 && !e.identifiable && solution.freedom[k] < kMoves) fit.hardly_told.push_back(u.name);
     fit.parameters.push_back(std::move(e));
   }

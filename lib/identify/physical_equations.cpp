@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -100,7 +101,7 @@ Eigen::VectorXd PhysicalEquations::base(const Eigen::VectorXd& log_open, int gro
   double payload = more;
   std::vector<double> mass(robot.joints(), 0.0), length = robot.chain.length;
   for (const PhysicalUnknown& u : unknowns_) {
-    const double value = u.exact ? u.value : std::exp(log_open[next++]);
+    const double value = u.exact ? u.value : elementary::exp(log_open[next++]);
     if (u.kind == 'p') {
       if (u.index == group) payload += value;
       continue;
@@ -167,8 +168,8 @@ void PhysicalEquations::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, E
   for (const PhysicalUnknown& u : unknowns_) {
     if (u.exact) continue;
     if (u.std > 0.0) {
-      r[m + k] = (std::exp(x[k]) - u.value) / u.std;
-      if (j) (*j)(m + k, k) = std::exp(x[k]) / u.std;
+      r[m + k] = (elementary::exp(x[k]) - u.value) / u.std;
+      if (j) (*j)(m + k, k) = elementary::exp(x[k]) / u.std;
     }
     ++k;
   }

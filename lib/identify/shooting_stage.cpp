@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/parameter_table.hpp"
 
@@ -34,7 +35,7 @@ std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& 
       priors.push_back({p, it->second.value, it->second.std});
   }
   for (int j = 0; j < space.joints(); ++j)
-    priors.push_back({space.log_width(j), std::log(robot.chain.friction[j].width), kWidthDoubt});
+    priors.push_back({space.log_width(j), elementary::log(robot.chain.friction[j].width), kWidthDoubt});
   return priors;
 }
 

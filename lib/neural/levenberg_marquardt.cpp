@@ -29,7 +29,8 @@ struct Damping {
   double growth = 2.0;
 
   void accept(double gain_ratio) {
-    value *= std::max(1.0 / 10.0, 1.0 - std::pow(2.0 * gain_ratio - 1.0, 3));
+    const double better = 2.0 * gain_ratio - 1.0;
+    value *= std::max(1.0 / 10.0, 1.0 - better * better * better);
     value = std::max(value, 1e-15);
     growth = 2.0;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/neural/kernels.hpp"
@@ -27,12 +28,12 @@ void apply_tanh(MatrixXd& values) {
 void apply_output(OutputKind kind, double* values, int outputs, int stride) {
   if (kind == OutputKind::linear) return;
   if (kind == OutputKind::logistic) {
-    for (int o = 0; o < outputs; ++o) values[o * stride] = 1.0 / (1.0 + std::exp(-values[o * stride]));
+    for (int o = 0; o < outputs; ++o) values[o * stride] = 1.0 / (1.0 + elementary::exp(-values[o * stride]));
     return;
   }
   double largest = values[0], sum = 0.0;
   for (int o = 1; o < outputs; ++o) largest = std::max(largest, values[o * stride]);
-  for (int o = 0; o < outputs; ++o) sum += values[o * stride] = std::exp(values[o * stride] - largest);
+  for (int o = 0; o < outputs; ++o) sum += values[o * stride] = elementary::exp(values[o * stride] - largest);
   for (int o = 0; o < outputs; ++o) values[o * stride] /= sum;
 }
 
@@ -41,8 +42,9 @@ double loss_of(OutputKind kind, const MatrixXd& outputs, const Eigen::Ref<const 
   const auto y = outputs.array();
   const auto t = targets.array();
   if (kind == OutputKind::linear) return 0.5 * (outputs - targets).squaredNorm();
-  double loss = -(t * y.max(kTiny).log()).sum();
-  if (kind == OutputKind::logistic) loss -= ((1.0 - t) * (1.0 - y).max(kTiny).log()).sum();
+  double loss = -(t * y.max(kTiny).unaryExpr(&elementary::log)).sum();
+  if (kind == OutputKind::logistic)
+    loss -= ((1.0 - t) * (1.0 - y).max(kTiny).unaryExpr(&elementary::log)).sum();
   return loss;
 }
 

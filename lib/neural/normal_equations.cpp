@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/neural/gram.hpp"
 #include "lib/neural/kernels.hpp"
 
@@ -29,7 +30,7 @@ std::vector<MatrixXd> layer_inputs(const Mlp& mlp, const Eigen::Ref<const Matrix
     MatrixXd next = forward(one, values.back());
     if (!last)
       for (Index n = 0; n < next.cols(); ++n)
-        for (Index k = 0; k < next.rows(); ++k) next(k, n) = std::tanh(next(k, n));
+        for (Index k = 0; k < next.rows(); ++k) next(k, n) = elementary::tanh(next(k, n));
     values.push_back(std::move(next));
   }
   return values;
@@ -82,7 +83,7 @@ MatrixXd two_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inpu
     MatrixXd h = forward(front, inputs.middleCols(at, count));
     MatrixXd features = MatrixXd::Zero(padded, count);
     for (Index n = 0; n < count; ++n) {
-      for (Index k = 0; k < hidden; ++k) h(k, n) = std::tanh(h(k, n));
+      for (Index k = 0; k < hidden; ++k) h(k, n) = elementary::tanh(h(k, n));
       const VectorXd slope = (1.0 - h.col(n).array().square()).matrix();
       for (Index i = 0; i + 1 < ins; ++i)
         features.col(n).segment(i * hidden, hidden) = slope * inputs(i, at + n);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 
@@ -20,7 +21,7 @@ void check(const Eigen::Ref<const Eigen::MatrixXd>& inputs, const SomOptions& op
                 "needs at least one pattern and only finite numbers");
 }
 
-double geometric(double from, double to, double share) { return from * std::pow(to / from, share); }
+double geometric(double from, double to, double share) { return from * elementary::pow(to / from, share); }
 
 void pull_neighbours(SelfOrganisingMap& map, const Eigen::Ref<const Eigen::VectorXd>& input, int winner,
                      double rate, double radius) {
@@ -28,7 +29,7 @@ void pull_neighbours(SelfOrganisingMap& map, const Eigen::Ref<const Eigen::Vecto
   for (int node = 0; node < map.count(); ++node) {
     const double exponent = map.grid_distance2(winner, node) / (2.0 * radius * radius);
     if (exponent > kTooFar) continue;
-    map.nodes.col(node) += rate * std::exp(-exponent) * (input - map.nodes.col(node));
+    map.nodes.col(node) += rate * elementary::exp(-exponent) * (input - map.nodes.col(node));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
@@ -54,7 +55,7 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// false alarms so much rarer.
 EvidenceOptions thresholds_for(double alarms_per_hour) {
   EvidenceOptions options;
-  options.threshold += std::log(kUsualAlarmsPerHour / alarms_per_hour);
+  options.threshold += elementary::log(kUsualAlarmsPerHour / alarms_per_hour);
   return options;
 }
 

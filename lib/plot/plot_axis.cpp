@@ -7,13 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
 std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
   std::vector<PlotTick> ticks;
   const double step = tick_step(axis.high - axis.low, count, 0.001);
-  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-elementary::log10(step) - 1e-9)), 0, 12);
   const auto first = static_cast<long long>(std::ceil(axis.low / step - 1e-9));
   const auto last = static_cast<long long>(std::floor(axis.high / step + 1e-9));
   for (long long k = first; k <= last; ++k) {
@@ -25,14 +27,14 @@ std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int count) {
 }
 
 std::vector<PlotTick> log_ticks(const PlotAxis& axis, int count) {
-  const int first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9));
-  const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
+  const int first = static_cast<int>(std::ceil(elementary::log10(axis.low) - 1e-9));
+  const int last = static_cast<int>(std::floor(elementary::log10(axis.high) + 1e-9));
   const int stride = std::max(1, (last - first + count) / std::max(count, 1));
   std::vector<PlotTick> ticks;
   for (int power = first; power <= last; power += stride)
-    ticks.push_back({std::pow(10.0, power), power >= -3 && power <= 4
-                                                ? fmt::format("{:g}", std::pow(10.0, power))
-                                                : fmt::format("1e{}", power)});
+    ticks.push_back({elementary::pow(10.0, power), power >= -3 && power <= 4
+                                                       ? fmt::format("{:g}", elementary::pow(10.0, power))
+                                                       : fmt::format("1e{}", power)});
   return ticks;
 }
 
@@ -40,7 +42,7 @@ std::vector<PlotTick> log_ticks(const PlotAxis& axis, int count) {
 
 double tick_step(double span, int count, double tolerance) {
   const double rough = span / std::max(count, 1);
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double power = elementary::pow(10.0, std::floor(elementary::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * power >= rough * (1.0 - tolerance)) return factor * power;
   return 10.0 * power;
@@ -48,7 +50,7 @@ double tick_step(double span, int count, double tolerance) {
 
 double PlotAxis::px(double value) const {
   const double share =
-      logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+      logarithmic ? elementary::log(value / low) / elementary::log(high / low) : (value - low) / (high - low);
   return from_px + share * (to_px - from_px);
 }
 
@@ -67,8 +69,8 @@ PlotAxis axis_over(const std::vector<const std::vector<double>*>& values, bool l
   PlotAxis axis{.logarithmic = logarithmic};
   if (!(low <= high)) return logarithmic ? PlotAxis{.low = 0.1, .high = 1.0, .logarithmic = true} : axis;
   if (logarithmic) {
-    axis.low = std::pow(10.0, std::floor(std::log10(low)));
-    axis.high = std::pow(10.0, std::ceil(std::log10(high)));
+    axis.low = elementary::pow(10.0, std::floor(elementary::log10(low)));
+    axis.high = elementary::pow(10.0, std::ceil(elementary::log10(high)));
     if (axis.low == axis.high) axis.high *= 10.0;
     return axis;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/residual/physics_step.hpp"
 
 namespace faultline {
@@ -36,8 +37,8 @@ MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& t
   Index extra = inputs.rows() - turning;
   for (Index j = 0; j < n; ++j) {
     if (!generator.turns[j]) continue;
-    inputs.row(j) = transitions.q.row(j).array().sin();
-    inputs.row(extra++) = transitions.q.row(j).array().cos();
+    inputs.row(j) = transitions.q.row(j).array().unaryExpr(&elementary::sin);
+    inputs.row(extra++) = transitions.q.row(j).array().unaryExpr(&elementary::cos);
   }
   return inputs;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/chain.hpp"
 #include "lib/robot/extra_torque.hpp"
 #include "lib/robot/link_pose.hpp"
@@ -62,12 +63,12 @@ JointVector<S> rigid_body_torque(const Chain<S>& chain, const JointVector<S>& q,
 
 template <typename S>
 JointVector<S> friction_torque(const Chain<S>& chain, const JointVector<S>& dq) {
-  using std::abs, std::tanh;
+  using std::abs;
   JointVector<S> torque(chain.joints());
   for (int i = 0; i < chain.joints(); ++i) {
     const Friction<S>& f = chain.friction[i];
-    torque[i] = f.viscous * dq[i] + f.coulomb * tanh(dq[i] / f.width) + f.offset +
-                f.bend * tanh(dq[i] / f.bend_width) + f.skew * abs(dq[i]);
+    torque[i] = f.viscous * dq[i] + f.coulomb * elementary::tanh(dq[i] / f.width) + f.offset +
+                f.bend * elementary::tanh(dq[i] / f.bend_width) + f.skew * abs(dq[i]);
   }
   return torque;
 }

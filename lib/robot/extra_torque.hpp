@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/chain.hpp"
 
 /// Torques that neither rigid bodies nor the friction of one joint alone give.
@@ -12,13 +13,14 @@ namespace faultline {
 template <typename S>
 void add_extra_torque(const Chain<S>& chain, const JointVector<S>& q, const JointVector<S>& dq,
                       JointVector<S>& torque) {
-  using std::cos, std::sin, std::tanh;
-  for (const Ripple& r : chain.ripples)
-    torque[r.joint] += r.cosine * cos(r.rate * q[r.joint]) + r.sine * sin(r.rate * q[r.joint]);
+  for (const Ripple& r : chain.ripples) {
+    const auto [s, c] = elementary::sin_cos(S(r.rate * q[r.joint]));
+    torque[r.joint] += r.cosine * c + r.sine * s;
+  }
   for (const SharedDrive& f : chain.shared_drives) {
     S speed(0.0);
     for (int i = 0; i < chain.joints(); ++i) speed += f.along[i] * dq[i];
-    const S drag = f.viscous * speed + f.coulomb * tanh(speed / f.width);
+    const S drag = f.viscous * speed + f.coulomb * elementary::tanh(speed / f.width);
     for (int i = 0; i < chain.joints(); ++i) torque[i] += f.along[i] * drag;
   }
 }
@@ -45,8 +47,8 @@ void add_shared_rotors(const Chain<S>& chain, JointMatrix<S>& inertia) {
 /// Friction that grows with the load: what a gear loses that carries `carried` = M ddq + h + G.
 template <typename S>
 S load_friction(const Friction<S>& f, const S& dq, const S& carried) {
-  using std::abs, std::tanh;
-  return f.load == S(0.0) ? S(0.0) : f.load * abs(carried) * tanh(dq / f.width);
+  using std::abs;
+  return f.load == S(0.0) ? S(0.0) : f.load * abs(carried) * elementary::tanh(dq / f.width);
 }
 
 /// What a gear carries on of `torque` that loses the share `lost` of what it carries; a share below zero is
@@ -59,9 +61,8 @@ S carried_torque(const S& lost, const S& torque) {
 /// The same at the velocity `dq`; `torque` is the drive's less all other friction.
 template <typename S>
 S carried_torque(const Friction<S>& f, const S& dq, const S& torque) {
-  using std::tanh;
   if (f.load == S(0.0)) return torque;
-  return carried_torque<S>(f.load * tanh(dq / f.width), torque);
+  return carried_torque<S>(f.load * elementary::tanh(dq / f.width), torque);
 }
 
 }  // namespace faultline

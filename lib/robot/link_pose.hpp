@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/chain.hpp"
 
 /// Kinematics from one link to the next, templated on the scalar.
@@ -14,9 +15,8 @@ namespace detail {
 /// Rotation by `angle` about the unit vector `axis` (Rodrigues): child coordinates to parent coordinates.
 template <typename S>
 Matrix3<S> rotation_about(const Eigen::Vector3d& axis, const S& angle) {
-  using std::cos;
-  using std::sin;
-  const S c = cos(angle), s = sin(angle), v = S(1.0) - c;
+  const auto [s, c] = elementary::sin_cos(angle);
+  const S v = S(1.0) - c;
   const double x = axis.x(), y = axis.y(), z = axis.z();
   Matrix3<S> r;
   r << c + v * (x * x), v * (x * y) - s * z, v * (x * z) + s * y,  //

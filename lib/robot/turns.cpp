@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -13,21 +15,24 @@ double clean(double value) { return std::abs(value) < kDust ? 0.0 : value; }
 }  // namespace
 
 Eigen::Matrix3d turn_x(double angle) {
-  const double c = clean(std::cos(angle)), s = clean(std::sin(angle));
+  const auto [sine, cosine] = elementary::sin_cos(angle);
+  const double c = clean(cosine), s = clean(sine);
   Eigen::Matrix3d r;
   r << 1, 0, 0, 0, c, -s, 0, s, c;
   return r;
 }
 
 Eigen::Matrix3d turn_z(double angle) {
-  const double c = clean(std::cos(angle)), s = clean(std::sin(angle));
+  const auto [sine, cosine] = elementary::sin_cos(angle);
+  const double c = clean(cosine), s = clean(sine);
   Eigen::Matrix3d r;
   r << c, -s, 0, s, c, 0, 0, 0, 1;
   return r;
 }
 
 Eigen::Matrix3d turn_rpy(const Eigen::Vector3d& rpy) {
-  const double c = clean(std::cos(rpy.y())), s = clean(std::sin(rpy.y()));
+  const auto [sine, cosine] = elementary::sin_cos(rpy.y());
+  const double c = clean(cosine), s = clean(sine);
   Eigen::Matrix3d pitch;
   pitch << c, 0, s, 0, 1, 0, -s, 0, c;
   return turn_z(rpy.z()) * pitch * turn_x(rpy.x());

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
@@ -32,7 +33,7 @@ void Drives::act(double length_s, JointVector<double>& commanded) {
 double Drives::mean_roughness(int joint, double length_s) {
   if (!(roughness_[joint] > 0.0)) return 0.0;
   const int steps = static_cast<int>(std::ceil(length_s / (kFinestStep * memory_s_[joint])));
-  const double keeps = std::exp(-length_s / (steps * memory_s_[joint]));
+  const double keeps = elementary::exp(-length_s / (steps * memory_s_[joint]));
   const double stirs = roughness_[joint] * std::sqrt(1.0 - keeps * keeps);
   double sum = 0.0;
   for (int k = 0; k < steps; ++k) {

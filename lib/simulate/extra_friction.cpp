@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/simulate/joint_list.hpp"
 
@@ -48,7 +49,7 @@ ExtraFriction::ExtraFriction(const Chain<double>& healthy, const StickSlipSpec& 
 
 void ExtraFriction::set_time(double t) {
   for (std::size_t j = 0; j < cold_.size(); ++j)
-    if (cold_[j] > 0.0) still_cold_[j] = cold_[j] * std::exp(-t / warm_up_s_[j]);
+    if (cold_[j] > 0.0) still_cold_[j] = cold_[j] * elementary::exp(-t / warm_up_s_[j]);
 }
 
 double ExtraFriction::torque(int joint, double speed, const Friction<double>& now) const {
@@ -56,9 +57,9 @@ double ExtraFriction::torque(int joint, double speed, const Friction<double>& no
   double coulomb = cold_coulomb;
   if (breakaway_[joint] > 0.0) {
     const double x = speed / breakaway_speed_[joint];
-    coulomb += breakaway_[joint] * std::exp(-x * x) * (now.coulomb + cold_coulomb);
+    coulomb += breakaway_[joint] * elementary::exp(-x * x) * (now.coulomb + cold_coulomb);
   }
-  return still_cold_[joint] * healthy_[joint].viscous * speed + coulomb * std::tanh(speed / now.width);
+  return still_cold_[joint] * healthy_[joint].viscous * speed + coulomb * elementary::tanh(speed / now.width);
 }
 
 Friction<double> ExtraFriction::worst(int joint, Friction<double> now) const {

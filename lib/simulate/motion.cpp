@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/random.hpp"
 #include "lib/simulate/motion_check.hpp"
 
@@ -87,7 +88,8 @@ void Motion::plan_harmonics(const MotionSpec& spec, const JointRanges& ranges, s
       double value = 0.0;
       for (int k = 0; k < spec.harmonics; ++k) {
         const double angle = 2.0 * std::numbers::pi * (k + 1) * step / 400.0;
-        value += harmonics_[k].cosine[i] * std::cos(angle) + harmonics_[k].sine[i] * std::sin(angle);
+        const auto [sine, cosine] = elementary::sin_cos(angle);
+        value += harmonics_[k].cosine[i] * cosine + harmonics_[k].sine[i] * sine;
       }
       least = step ? std::min(least, value) : value;
       most = step ? std::max(most, value) : value;
@@ -144,7 +146,7 @@ void Motion::harmonics_at(double t, Reference& reference) const {
   reference.q = centre_;
   reference.dq.setZero();
   reference.ddq.setZero();
-  const double c1 = std::cos(base_rate_ * t), s1 = std::sin(base_rate_ * t);
+  const auto [s1, c1] = elementary::sin_cos(base_rate_ * t);
   double c = c1, s = s1;
   for (std::size_t k = 0; k < harmonics_.size(); ++k) {
     const double rate = base_rate_ * static_cast<double>(k + 1);

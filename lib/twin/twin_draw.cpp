@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/evidence/size_scale.hpp"
 
@@ -34,9 +35,10 @@ double draw_change(const SlowState& slow, Random& random) {
 
 double draw_from(const DrawRange& range, Random& random) {
   const double sign = range.either_sign ? random_sign(random) : 1.0;
-  const double size = range.spread == Spread::log_uniform
-                          ? range.low * std::exp(random.uniform() * std::log(range.high / range.low))
-                          : random.uniform(range.low, range.high);
+  const double size =
+      range.spread == Spread::log_uniform
+          ? range.low * elementary::exp(random.uniform() * elementary::log(range.high / range.low))
+          : random.uniform(range.low, range.high);
   return sign * size;
 }
 
@@ -113,7 +115,7 @@ NoiseSpec draw_noise(const Twin& twin, Random& random) {
   NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
   if (motion.usual_noise.q.empty()) return noise;
   const auto& [low, high] = motion.noise_range;
-  const double level = low * std::exp(random.uniform() * std::log(high / low));
+  const double level = low * elementary::exp(random.uniform() * elementary::log(high / low));
   noise.q = scaled(motion.q_std, level);
   if (!noise.dq.empty()) noise.dq = scaled(motion.dq_std, level);
   return noise;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -44,7 +46,7 @@ JointObservation observe_joint(GaussianState& state, int n, const FollowedSample
   };
   take(j, error.on_q, sample.q[j], sample.q_std[j], sample.q_tail[j], out.whitened_q);
   take(n + j, error.on_dq, sample.dq[j], sample.dq_std[j], sample.dq_tail[j], out.whitened_dq);
-  out.log_likelihood = -0.5 * (out.chi_square + std::log(variances) + measured * kLogTwoPi);
+  out.log_likelihood = -0.5 * (out.chi_square + elementary::log(variances) + measured * kLogTwoPi);
   return out;
 }
 
@@ -88,9 +90,9 @@ void Follower::set_measurement_noise(const GaussianState& state, const JointArra
     const double speed = std::clamp(state.mean[n + j], -fastest, fastest);
     const double acceleration =
         std::clamp((state.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
-    out.q_std[j] =
-        std::hypot(q_codes_.noise_factor(j) * noise_.q_scale[j] * model_.q_std[j], model_.clock_std * speed);
-    out.dq_std[j] = std::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
+    out.q_std[j] = elementary::hypot(q_codes_.noise_factor(j) * noise_.q_scale[j] * model_.q_std[j],
+                                     model_.clock_std * speed);
+    out.dq_std[j] = elementary::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
   }
 }
 
@@ -280,7 +282,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
     last_q_[j] = segment.q[j][row];
     last_dq_[j] = velocity_read(segment, row, j);
   }
-  const double passes = out.dt > 0.0 ? std::exp(-out.dt / kDriveLevel_s) : 0.0;
+  const double passes = out.dt > 0.0 ? elementary::exp(-out.dt / kDriveLevel_s) : 0.0;
   for (int j = 0; j < n; ++j) drive_level_[j] = out.torque[j] + passes * (drive_level_[j] - out.torque[j]);
   last_torque_ = out.torque;
   last_torque_missing_ = out.torque_missing;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/evidence/filter/process_noise.hpp"
 #include "lib/evidence/filter/transition.hpp"
 #include "lib/evidence/size_scale.hpp"
@@ -47,7 +48,7 @@ Acceleration move(GaussianState& state, const MotionModel& model, const FaultDyn
 /// stays within a day's spread forgets where it was. The pace of friction is matched to a walk without end,
 /// and what is carried comes and goes: no day holds them.
 double kept_over(const SlowState& slow, const MotionModel& model, double dt) {
-  if (slow.memory_s > 0.0) return std::exp(-dt / slow.memory_s);
+  if (slow.memory_s > 0.0) return elementary::exp(-dt / slow.memory_s);
   const bool carries = slow.kind == SlowKind::tip_mass && !model.work_pieces_kg.empty();
   if (carries || slow.kind == SlowKind::friction || !(slow.day_std > 0.0)) return 1.0;
   const double pace = slow.walk / slow.day_std;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/evidence/filter/fault_load.hpp"
 #include "lib/evidence/filter/small_inverse.hpp"
 #include "lib/robot/extra_torque.hpp"
@@ -18,7 +19,7 @@ constexpr double kLeastFriction = 0.05;  // of the identified: friction never dr
 
 /// tanh, at once where it is 1 to the last bit: a joint that moves.
 double saturating_tanh(double x) {
-  return std::abs(x) > kSaturated ? std::copysign(1.0, x) : 1.0 - 2.0 / (std::exp(2.0 * x) + 1.0);
+  return std::abs(x) > kSaturated ? std::copysign(1.0, x) : 1.0 - 2.0 / (elementary::exp(2.0 * x) + 1.0);
 }
 
 /// Friction beside the viscous and Coulomb kind that fault and slow states scale alike, and its slope.

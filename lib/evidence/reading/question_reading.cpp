@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/evidence/reading/clock_reading.hpp"
 #include "lib/evidence/reading/torque_balance.hpp"
@@ -96,7 +97,8 @@ Score score_of(const Fit& fit) {
     const double usual = std::max(usual_misfit(fit.misfits[j]), apart);
     out.worst = std::max(out.worst, best);
     out.usual = std::max(out.usual, usual);
-    out.log_mean += 0.5 * (std::log(std::max(best, kLeast)) + std::log(std::max(usual, kLeast)));
+    out.log_mean +=
+        0.5 * (elementary::log(std::max(best, kLeast)) + elementary::log(std::max(usual, kLeast)));
     ++told;
   }
   if (told > 0) out.log_mean /= told;
@@ -260,7 +262,7 @@ ReadingDoubt question_reading(LogSource& log, const MotionModel& model, double s
   const double clock = clock_ratio(beginning.rows, sample_period_s);
   const Score as_read = score_of(beginning.fit);
   Best best;
-  best.log_mean = as_read.log_mean + std::log(kClearlyLess);
+  best.log_mean = as_read.log_mean + elementary::log(kClearlyLess);
   try_readings(beginning, model, clock_readings(clock, sample_period_s), false, best);
   if (beginning.fitted || as_read.worst < kFits)
     return best.doubt.is_empty() ? other_torque(beginning.fit, true) : best.doubt;

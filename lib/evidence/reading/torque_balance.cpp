@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/log/memory_source.hpp"
@@ -99,7 +100,7 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
 /// A position that jumps (a sensor's bias) makes of both what is nearly one quantity.
 bool is_other_quantity(const DerivativeAgreement& velocity) {
   return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
-         (velocity.factor < 0.0 || std::abs(std::log(velocity.factor)) > std::log(kOtherUnit));
+         (velocity.factor < 0.0 || std::abs(elementary::log(velocity.factor)) > elementary::log(kOtherUnit));
 }
 
 }  // namespace

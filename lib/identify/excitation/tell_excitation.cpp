@@ -31,7 +31,7 @@ std::string what_lacks(const JointFit& fit, double forward, bool still) {
     square += fit.dq[k] * fit.dq[k];
   }
   const double mean = sum / std::max(count, 1.0);
-  if (square / std::max(count, 1.0) - mean * mean < std::pow(kOneSpeed * mean, 2))
+  if (square / std::max(count, 1.0) - mean * mean < kOneSpeed * kOneSpeed * mean * mean)
     return "it moves at one speed: its viscous friction is not told from its Coulomb friction";
   return "";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 
@@ -72,9 +73,9 @@ class Columns {
 
   void add_load(int j, const Eigen::RowVectorXd& carried, Rows out) const {
     const double width = chain_.friction[j].width;
-    double before = std::tanh(s_.dq_smooth(j, 0) / width);
+    double before = elementary::tanh(s_.dq_smooth(j, 0) / width);
     for (int k = 0; k < out.cols(); ++k) {
-      const double after = std::tanh(s_.dq_smooth(j, k + 1) / width);
+      const double after = elementary::tanh(s_.dq_smooth(j, k + 1) / width);
       out(j, k) = step(k) * std::abs(carried[k]) * 0.5 * (before + after);
       before = after;
     }
@@ -90,7 +91,7 @@ class Columns {
       }
       const double mean = term.kind == ExtraKind::shared_viscous
                               ? 0.5 * (from + to)
-                              : 0.5 * (std::tanh(from / f.width) + std::tanh(to / f.width));
+                              : 0.5 * (elementary::tanh(from / f.width) + elementary::tanh(to / f.width));
       out.col(k) = step(k) * mean * f.along;
     }
   }
@@ -101,9 +102,10 @@ class Columns {
     for (int k = 0; k < out.cols(); ++k) {
       const double from = rate * s_.q_smooth(term.joint, k), to = rate * s_.q_smooth(term.joint, k + 1);
       const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-      const double share = std::abs(half) > 1e-6 ? std::sin(half) / half : 1.0;
+      const double share = std::abs(half) > 1e-6 ? elementary::sin(half) / half : 1.0;
       out(term.joint, k) =
-          step(k) * share * (term.kind == ExtraKind::ripple_cosine ? std::cos(middle) : std::sin(middle));
+          step(k) * share *
+          (term.kind == ExtraKind::ripple_cosine ? elementary::cos(middle) : elementary::sin(middle));
     }
   }
 
@@ -115,7 +117,7 @@ class Columns {
     const double torque =
         (1.0 - setting_.phi) * logged(j, k - shift) + setting_.phi * logged(j, k + 1 - shift);
     const double from = s_.dq_smooth(j, k), to = s_.dq_smooth(j, k + 1), mean = 0.5 * (from + to);
-    return torque - f.viscous * mean - f.coulomb * std::tanh(mean / f.width) - f.offset -
+    return torque - f.viscous * mean - f.coulomb * elementary::tanh(mean / f.width) - f.offset -
            chain_.rotor_inertia[j] * (to - from) / step(k);
   }
 

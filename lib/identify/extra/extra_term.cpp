@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 
 bool is_ripple(ExtraKind kind) { return kind == ExtraKind::ripple_cosine || kind == ExtraKind::ripple_sine; }
@@ -89,7 +91,7 @@ JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& te
   const int j = term.joint;
   switch (term.kind) {
     case ExtraKind::load_friction:
-      out[j] = std::abs(carried[j]) * std::tanh(dq[j] / chain.friction[j].width);
+      out[j] = std::abs(carried[j]) * elementary::tanh(dq[j] / chain.friction[j].width);
       break;
     case ExtraKind::shared_inertia: {
       const SharedDrive& f = chain.shared_drives[term.index];
@@ -100,14 +102,14 @@ JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& te
     case ExtraKind::shared_coulomb: {
       const SharedDrive& f = chain.shared_drives[term.index];
       const double speed = f.speed(dq.data());
-      out = f.along * (term.kind == ExtraKind::shared_viscous ? speed : std::tanh(speed / f.width));
+      out = f.along * (term.kind == ExtraKind::shared_viscous ? speed : elementary::tanh(speed / f.width));
       break;
     }
     case ExtraKind::ripple_cosine:
-      out[j] = std::cos(chain.ripples[term.index].rate * q[j]);
+      out[j] = elementary::cos(chain.ripples[term.index].rate * q[j]);
       break;
     case ExtraKind::ripple_sine:
-      out[j] = std::sin(chain.ripples[term.index].rate * q[j]);
+      out[j] = elementary::sin(chain.ripples[term.index].rate * q[j]);
       break;
     case ExtraKind::gear_compliance:
       break;

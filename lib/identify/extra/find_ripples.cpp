@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/golden_section.hpp"
 #include "lib/core/statistics.hpp"
 
@@ -39,7 +40,7 @@ class WindowShare {
     for (int i = 0; i < kSize; ++i)
       for (int k = 0; k < kPieces; ++k) {
         const double u = (k + 0.5) / kPieces;
-        share_[i] += 30.0 * u * u * (1.0 - u) * (1.0 - u) * std::cos(i * kStep * (u - 0.5)) / kPieces;
+        share_[i] += 30.0 * u * u * (1.0 - u) * (1.0 - u) * elementary::cos(i * kStep * (u - 0.5)) / kPieces;
       }
   }
   double operator()(double x) const {
@@ -90,17 +91,23 @@ Fit fit_at(const Samples& samples, double rate, const WindowShare& share) {
   Fit fit;
   for (std::size_t i = 0; i < samples.q.size(); ++i) {
     const double w = share(rate * samples.turn[i]), angle = rate * samples.q[i];
-    fit.add(samples.residual[i], w * std::cos(angle), w * std::sin(angle));
+    const auto [sine, cosine] = elementary::sin_cos(angle);
+    fit.add(samples.residual[i], w * cosine, w * sine);
   }
   return fit;
+}
+
+std::complex<double> on_circle(double angle) {
+  const auto [sine, cosine] = elementary::sin_cos(angle);
+  return {cosine, sine};
 }
 
 /// How much of the squared residual each rate first + i step tells.
 std::vector<double> periodogram(const Samples& samples, double first, double step, const WindowShare& share) {
   std::vector<Fit> fits(kRates);
   for (std::size_t i = 0; i < samples.q.size(); ++i) {
-    std::complex<double> wave = std::polar(1.0, first * samples.q[i]);
-    const std::complex<double> turn = std::polar(1.0, step * samples.q[i]);
+    std::complex<double> wave = on_circle(first * samples.q[i]);
+    const std::complex<double> turn = on_circle(step * samples.q[i]);
     for (int k = 0; k < kRates; ++k, wave *= turn) {
       const double w = share((first + k * step) * samples.turn[i]);
       fits[k].add(samples.residual[i], w * wave.real(), w * wave.imag());
@@ -133,7 +140,8 @@ std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choi
     const Eigen::Vector2d wave = fit_at(samples, rate, share).solve();
     for (std::size_t k = 0; k < samples.q.size(); ++k) {
       const double w = share(rate * samples.turn[k]), angle = rate * samples.q[k];
-      samples.residual[k] -= w * (wave[0] * std::cos(angle) + wave[1] * std::sin(angle));
+      const auto [sine, cosine] = elementary::sin_cos(angle);
+      samples.residual[k] -= w * (wave[0] * cosine + wave[1] * sine);
     }
     out.push_back({joint, rate, wave[0], wave[1]});
   }

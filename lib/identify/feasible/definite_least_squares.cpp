@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -37,7 +39,7 @@ class Problem {
       const Eigen::LLT<Eigen::MatrixXd> llt(v);
       if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
       divergence += inverse_nominal_[k].cwiseProduct(v).sum() -
-                    2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+                    2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().unaryExpr(&elementary::log).sum();
     }
     const double out = 0.5 * x.dot(h_ * x) - b_.dot(x) + constant_ + prior * divergence;
     return std::isfinite(out) ? out : std::numeric_limits<double>::infinity();

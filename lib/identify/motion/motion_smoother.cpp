@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -51,9 +52,8 @@ Belief first_belief(const JointMotion& m, const MotionNoise& noise) {
   const double span = m.time[last] - m.time[0];
   b.mean[0] = m.q[0];
   b.mean[1] = m.dq.size() > 0 ? m.dq[0] : (m.q[last] - m.q[0]) / span;
-  const double speed = std::abs(b.mean[1]) + noise.q_std / span + noise.dq_std;
-  b.covariance.diagonal() << 100.0 * noise.q_std * noise.q_std, speed * speed,
-      std::pow(10.0 * speed / span, 2);
+  const double speed = std::abs(b.mean[1]) + noise.q_std / span + noise.dq_std, change = 10.0 * speed / span;
+  b.covariance.diagonal() << 100.0 * noise.q_std * noise.q_std, speed * speed, change * change;
   return b;
 }
 
@@ -63,7 +63,7 @@ double update(Belief& b, int i, double measured, double std) {
   const Vector3d gain = b.covariance.col(i) / variance;
   b.mean += gain * error;
   b.covariance -= gain * b.covariance.row(i).eval();
-  return -0.5 * (std::log(variance) + error * error / variance);
+  return -0.5 * (elementary::log(variance) + error * error / variance);
 }
 
 double take_row(Belief& b, const JointMotion& m, const MotionNoise& noise, int k) {
@@ -123,16 +123,16 @@ struct InPeriods {
     return out;
   }
   MotionNoise operator()(const MotionNoise& n) const {
-    return {n.q_std, n.dq_std * period, n.jerk_density * std::pow(period, 5)};
+    return {n.q_std, n.dq_std * period, n.jerk_density * elementary::pow(period, 5.0)};
   }
   MotionNoise back(const MotionNoise& n) const {
-    return {n.q_std, n.dq_std / period, n.jerk_density / std::pow(period, 5)};
+    return {n.q_std, n.dq_std / period, n.jerk_density / elementary::pow(period, 5.0)};
   }
 };
 
 /// Levels in logarithms: q, jerk, dq.
 MotionNoise noise_at(const std::array<double, 3>& level, bool has_dq) {
-  return {std::exp(level[0]), has_dq ? std::exp(level[2]) : 0.0, std::exp(level[1])};
+  return {elementary::exp(level[0]), has_dq ? elementary::exp(level[2]) : 0.0, elementary::exp(level[1])};
 }
 
 }  // namespace
@@ -169,11 +169,12 @@ MotionNoise fit_motion_noise(const JointMotion& measured) {
   const InPeriods in_periods(measured);
   const JointMotion m = in_periods(measured);
   const bool has_dq = m.dq.size() > 0;
-  const double q_floor = std::log(least_std(m.q)), dq_floor = has_dq ? std::log(least_std(m.dq)) : 0.0;
+  const double q_floor = elementary::log(least_std(m.q)),
+               dq_floor = has_dq ? elementary::log(least_std(m.dq)) : 0.0;
   std::array<double, 3> level{};
-  level[0] = std::max(q_floor, std::log(std::max(rough_std(m.q), 1e-300)));
-  level[1] = 2.0 * level[0] + 6.0 * std::log(2.0 * std::numbers::pi * kFirstBandwidth);
-  if (has_dq) level[2] = std::max(dq_floor, std::log(std::max(rough_std(m.dq), 1e-300)));
+  level[0] = std::max(q_floor, elementary::log(std::max(rough_std(m.q), 1e-300)));
+  level[1] = 2.0 * level[0] + 6.0 * elementary::log(2.0 * std::numbers::pi * kFirstBandwidth);
+  if (has_dq) level[2] = std::max(dq_floor, elementary::log(std::max(rough_std(m.dq), 1e-300)));
   double best = log_likelihood(m, noise_at(level, has_dq));
   double step = kFirstStep;
   for (int round = 0; round < kMostRounds && step >= kLastStep; ++round) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -14,12 +16,15 @@ constexpr double kApart = 1.2;  // factor between them that no noise makes
 constexpr double kNear = 0.05;  // of a known factor, in its logarithm
 constexpr double kDegree = 180.0 / std::numbers::pi;
 
-bool is_near(double factor, double known) { return std::abs(std::log(std::abs(factor) / known)) < kNear; }
+bool is_near(double factor, double known) {
+  return std::abs(elementary::log(std::abs(factor) / known)) < kNear;
+}
 
 }  // namespace
 
 bool DerivativeAgreement::disagrees() const {
-  return std::abs(correlation) > kAlike && (factor < 0.0 || std::abs(std::log(factor)) > std::log(kApart));
+  return std::abs(correlation) > kAlike &&
+         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kApart));
 }
 
 DerivativeAgreement velocity_agreement(const JointMotion& motion) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/gathered.hpp"
@@ -55,7 +56,7 @@ struct Explained {
   /// Mean logarithm of what is left.
   double left() const {
     double sum = 0.0;
-    for (const double r : r2) sum += std::log(std::max(1.0 - r, 1e-9));
+    for (const double r : r2) sum += elementary::log(std::max(1.0 - r, 1e-9));
     return r2.empty() ? 1e9 : sum / static_cast<double>(r2.size());
   }
 };
@@ -107,7 +108,7 @@ Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot)
   const Explained now = explain(beginnings, robot);
   Misreading best;
   best.r2_before = now.worst();
-  double least = now.left() + std::log(kClearlyLess);
+  double least = now.left() + elementary::log(kClearlyLess);
   for (const ColumnReading& reading : readings) {
     if (reading.of_robot && !best.what.empty()) break;  // columns first, they are wrong more often
     std::vector<Log> read = beginnings;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -104,12 +105,11 @@ void SegmentModel::pass_torque(Workspace& w) const {
 void SegmentModel::add_extra_slopes(Workspace& w) const {
   const int n = space_.joints();
   for (const Ripple& r : dynamics_.chain().ripples) {
-    const double angle = r.rate * w.q[r.joint];
-    w.rhs_state(r.joint, r.joint) -=
-        w.passed[r.joint] * r.rate * (r.sine * std::cos(angle) - r.cosine * std::sin(angle));
+    const auto [sine, cosine] = elementary::sin_cos(r.rate * w.q[r.joint]);
+    w.rhs_state(r.joint, r.joint) -= w.passed[r.joint] * r.rate * (r.sine * cosine - r.cosine * sine);
   }
   for (const SharedDrive& f : dynamics_.chain().shared_drives) {
-    const double bent = std::tanh(f.speed(w.dq.data()) / f.width);
+    const double bent = elementary::tanh(f.speed(w.dq.data()) / f.width);
     const double slope = f.viscous + f.coulomb * (1.0 - bent * bent) / f.width;
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) w.rhs_state(j, n + k) -= w.passed[j] * slope * f.along[j] * f.along[k];
@@ -136,11 +136,11 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
           dynamics_.body_torque(w.q, down, w.ddq) - dynamics_.body_torque(w.q, up, w.ddq);
     }
     const Friction<double>& f = dynamics_.chain().friction[j];
-    const double bent = std::tanh(w.dq[j] / f.width);
+    const double bent = elementary::tanh(w.dq[j] / f.width);
     const double dry = f.coulomb + f.load * std::abs(w.carried[j]);
     w.rhs_state(j, n + j) -= w.passed[j] * (f.viscous + dry * (1.0 - bent * bent) / f.width);
     if (f.bend == 0.0 && f.skew == 0.0) continue;
-    const double wide = std::tanh(w.dq[j] / f.bend_width);
+    const double wide = elementary::tanh(w.dq[j] / f.bend_width);
     w.rhs_state(j, n + j) -=
         w.passed[j] * (f.bend * (1.0 - wide * wide) / f.bend_width + std::copysign(f.skew, w.dq[j]));
   }
@@ -181,11 +181,11 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
     } else {
       const int joint = space_.joint_of(p);
       const Friction<double>& f = dynamics_.chain().friction[joint];
-      const double u = w.dq[joint] / f.width, bent = std::tanh(u);
+      const double u = w.dq[joint] / f.width, bent = elementary::tanh(u);
       const double dry = f.coulomb + f.load * std::abs(w.carried[joint]);
       column[joint] = p >= space_.log_width(0) ? dry * (1.0 - bent * bent) * u
                       : p >= space_.skew(0)    ? -std::abs(w.dq[joint])
-                      : p >= space_.bend(0)    ? -std::tanh(w.dq[joint] / f.bend_width)
+                      : p >= space_.bend(0)    ? -elementary::tanh(w.dq[joint] / f.bend_width)
                       : p >= space_.offset(0)  ? -1.0
                       : p >= space_.coulomb(0) ? -bent
                                                : -w.dq[joint];

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -75,8 +77,8 @@ void add_costs(const ShootingProblem& problem, ShootingEvaluation& evaluation, c
   }
   for (int j = 0; j < space.joints(); ++j)
     if (const int k = index_of(space.log_width(j)); k >= 0) {
-      costs.SetParameterLowerBound(parameters, k, std::log(evaluation.narrowest_width(j)));
-      costs.SetParameterUpperBound(parameters, k, std::log(0.5));
+      costs.SetParameterLowerBound(parameters, k, elementary::log(evaluation.narrowest_width(j)));
+      costs.SetParameterUpperBound(parameters, k, elementary::log(0.5));
     }
 }
 

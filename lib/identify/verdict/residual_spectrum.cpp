@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -44,7 +45,7 @@ void add_segment(std::span<const double> values, std::vector<double>& power) {
   std::vector<double> tapered(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double x = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-    const double taper = std::pow(std::sin(std::numbers::pi * x), 2);
+    const double arch = elementary::sin(std::numbers::pi * x), taper = arch * arch;
     tapered[i] = taper * (values[i] - mean);
     norm += taper * taper;
   }
@@ -52,8 +53,9 @@ void add_segment(std::span<const double> values, std::vector<double>& power) {
     const double rate = 2.0 * std::numbers::pi * static_cast<double>(f + 1) / static_cast<double>(n);
     double c = 0.0, s = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      c += tapered[i] * std::cos(rate * static_cast<double>(i));
-      s += tapered[i] * std::sin(rate * static_cast<double>(i));
+      const auto [sine, cosine] = elementary::sin_cos(rate * static_cast<double>(i));
+      c += tapered[i] * cosine;
+      s += tapered[i] * sine;
     }
     power[f] += 2.0 * (c * c + s * s) / (norm * static_cast<double>(n));
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -88,7 +90,7 @@ Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {
   std::vector<double> gain;
   for (Eigen::Index fold = 0; fold < without.square.rows(); ++fold)
     if (without.rows(fold, j) > 0.0 && with.square(fold, j) > 0.0)
-      gain.push_back(std::log(without.square(fold, j) / with.square(fold, j)));
+      gain.push_back(elementary::log(without.square(fold, j) / with.square(fold, j)));
   Gain out;
   const double n = static_cast<double>(gain.size());
   for (const double g : gain) out.mean += g / n;

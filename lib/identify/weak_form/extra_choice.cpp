@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/golden_section.hpp"
 
 namespace faultline {
@@ -95,14 +96,14 @@ bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoi
 double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
                  double log_gain) {
   WeakChoice tried = c.weak;
-  tried.gain[j] = std::exp(log_gain);
+  tried.gain[j] = elementary::exp(log_gain);
   return chooser.left(tried, c.wanted, scale);
 }
 
 /// Logarithm of the gain of joint `j` with which least is left.
 double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
-  const double most = std::log(kMostGain), step = 2.0 * most / kGainSteps;
+  const double most = elementary::log(kMostGain), step = 2.0 * most / kGainSteps;
   double best = 0.0, least = left_with(chooser, c, scale, j, 0.0);
   for (int i = 0; i <= kGainSteps; ++i) {
     const double left = left_with(chooser, c, scale, j, -most + i * step);
@@ -142,7 +143,7 @@ void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, Model
   const Eigen::VectorXd torque = chooser.torque(c.weak);
   for (int j = first + 1; j < n; ++j) {
     if (!counts[j]) continue;
-    const double gain = std::exp(best_gain(chooser, c, j));
+    const double gain = elementary::exp(best_gain(chooser, c, j));
     if (!(gain < 0.95 * kMostGain && gain > 1.05 / kMostGain)) continue;
     WeakChoice tried = c.weak;
     tried.gain[j] = gain;

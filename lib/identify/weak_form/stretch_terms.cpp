@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -34,7 +36,7 @@ class StateEvaluation {
     terms.force.noalias() = regressor_ * links_;
     terms.coulomb.resize(space_.joints(), kWidths);
     for (int j = 0; j < space_.joints(); ++j)
-      for (int k = 0; k < kWidths; ++k) terms.coulomb(j, k) = std::tanh(dq[j] / widths_(j, k));
+      for (int k = 0; k < kWidths; ++k) terms.coulomb(j, k) = elementary::tanh(dq[j] / widths_(j, k));
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
 #include "lib/identify/weak_form/extra_choice.hpp"
 
@@ -188,7 +189,7 @@ void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldO
 /// Joints count alike; one that stands still leaves nothing.
 double left_in_all(const HeldOutError& error) {
   constexpr double kNothing = 1e-12;
-  return error.rms().array().max(kNothing).log().sum();
+  return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();
 }
 
 void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c) {

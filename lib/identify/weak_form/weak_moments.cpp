@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -47,8 +49,8 @@ int fold_of(const WeakWindow& w, int logs, double block_s) {
 int nearest_set(const std::vector<WeakWindows>& sets, double length_s) {
   int best = 0;
   for (std::size_t i = 1; i < sets.size(); ++i)
-    if (std::abs(std::log(sets[i].length_s() / length_s)) <
-        std::abs(std::log(sets[best].length_s() / length_s)))
+    if (std::abs(elementary::log(sets[i].length_s() / length_s)) <
+        std::abs(elementary::log(sets[best].length_s() / length_s)))
       best = static_cast<int>(i);
   return best;
 }
@@ -247,7 +249,7 @@ Eigen::VectorXd WeakMoments::torque_std(const WeakChoice& choice) const {
       square += m.sum(y, y);
     }
     rows = std::max(rows, 1.0);
-    out[j] = std::sqrt(std::max(square / rows - std::pow(sum / rows, 2), 0.0));
+    out[j] = std::sqrt(std::max(square / rows - (sum / rows) * (sum / rows), 0.0));
   }
   return out;
 }

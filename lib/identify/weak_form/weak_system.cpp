@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/residual_blocks.hpp"
 
 namespace faultline {
@@ -41,7 +42,7 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
   Eigen::Index rows = 0;
   for (int j = 0; j < s.joints; ++j) {
     rows += static_cast<Eigen::Index>(windows.sets[choice.set[j]].all().size());
-    s.width[j] = std::log(weak_width(space, j, choice.width[j]));
+    s.width[j] = elementary::log(weak_width(space, j, choice.width[j]));
   }
   s.a.setZero(rows, space.linear());
   s.y.resize(rows);

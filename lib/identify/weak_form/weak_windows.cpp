@@ -14,7 +14,10 @@ constexpr double kSlow_s = 0.02;  // at longer periods only the neighbouring sam
 constexpr int kShapedSteps = 4;   // fewer samples are weighted alike
 
 /// Smooth bump over (0, 1), zero with its slope at both ends.
-double bump(double x) { return std::pow(4.0 * x * (1.0 - x), 2); }
+double bump(double x) {
+  const double arch = 4.0 * x * (1.0 - x);
+  return arch * arch;
+}
 
 /// Weights of a window's samples, whose mean over its time is 1.
 Eigen::VectorXd weights(const Eigen::Ref<const Eigen::VectorXd>& step_s) {

@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -100,7 +102,8 @@ double log_likelihood(const TransitionModel& model, const Sample& s, const Vecto
   const MatrixXd scaled = half.cwiseInverse().asDiagonal() * covariance * half.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> factor(scaled);
   const VectorXd whitened = factor.matrixL().solve(off.cwiseQuotient(half));
-  return -0.5 * whitened.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * whitened.squaredNorm() -
+         factor.matrixLLT().diagonal().array().unaryExpr(&elementary::log).sum();
 }
 
 }  // namespace
@@ -128,10 +131,10 @@ MatrixXd transition_posterior(const TransitionModel& model, const Transitions& t
   MatrixXd posterior(kFaultClasses, transitions.count());
   for (int i = 0; i < transitions.count(); ++i) {
     const Sample s = sample(transitions, i);
-    Eigen::Array4d log_probability = prior.log();
+    Eigen::Array4d log_probability = prior.unaryExpr(&elementary::log);
     for (int output = 0; output < kFaultClasses; ++output)
       log_probability[output] += log_likelihood(model, s, half, sigma, output);
-    const Eigen::Array4d share = (log_probability - log_probability.maxCoeff()).exp();
+    const Eigen::Array4d share = (log_probability - log_probability.maxCoeff()).unaryExpr(&elementary::exp);
     posterior.col(i) = (share / share.sum()).matrix();
   }
   return posterior;

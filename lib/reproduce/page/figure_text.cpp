@@ -5,14 +5,16 @@
 
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
 /// 3.4e-3 rather than 3.4e-03.
 std::string scientific(double value) {
   if (value == 0.0) return "0";
-  const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
-  const std::string mantissa = fmt::format("{:.1f}", value / std::pow(10.0, power));
+  const int power = static_cast<int>(std::floor(elementary::log10(std::abs(value)) + 1e-9));
+  const std::string mantissa = fmt::format("{:.1f}", value / elementary::pow(10.0, power));
   return mantissa == "10.0" ? fmt::format("1.0e{}", power + 1) : fmt::format("{}e{}", mantissa, power);
 }
 

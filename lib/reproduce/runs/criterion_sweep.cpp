@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
+
 namespace faultline {
 namespace {
 
@@ -83,10 +85,10 @@ std::vector<Alarms> sweep_consecutive(const OutputMeaning& meaning, const Eigen:
 Eigen::MatrixXd sample_log_odds(const OutputMeaning& meaning, const Eigen::MatrixXd& outputs,
                                 double sample_cap) {
   const Index none = outputs.rows() - 1;
-  const Eigen::ArrayXXd logs = outputs.array().max(kLeastOutput).log();
+  const Eigen::ArrayXXd logs = outputs.array().max(kLeastOutput).unaryExpr(&elementary::log);
   Eigen::ArrayXXd odds = logs.topRows(none).rowwise() - logs.row(none);
   if (meaning.prior.size() == outputs.rows())
-    odds.colwise() -= (meaning.prior.head(none).array() / meaning.prior[none]).log();
+    odds.colwise() -= (meaning.prior.head(none).array() / meaning.prior[none]).unaryExpr(&elementary::log);
   return odds.max(-sample_cap).min(sample_cap).matrix();
 }
 

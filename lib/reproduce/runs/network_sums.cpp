@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
 
 namespace faultline {
@@ -77,10 +78,10 @@ std::vector<std::string> suspicion_feature_names(int faults) {
 Episode episode_of(const Suspicion& s, const std::vector<FaultLabel>& classes, double threshold) {
   Episode episode;
   for (const NetworkSum* network : {&s.mlp, &s.rbfn}) {
-    for (const double sum : network->sum) episode.features.push_back(std::log1p(sum));
+    for (const double sum : network->sum) episode.features.push_back(elementary::log1p(sum));
     episode.features.push_back(network->last);
   }
-  episode.features.push_back(std::log(1.0 + s.samples));
+  episode.features.push_back(elementary::log(1.0 + s.samples));
   episode.mlp = opinion_of(s.mlp, classes, threshold);
   episode.rbfn = opinion_of(s.rbfn, classes, threshold);
   episode.evidence = s.largest();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
 
@@ -44,8 +45,9 @@ RelationKind relation_kind_from(const std::string& name, const std::string& wher
 }
 
 double allowed_mean(const SignalRelation& relation, int window, double torque, double by_speed) {
-  const double by_days = std::hypot(kFarDay * relation.offset_range, kFarDay * relation.gain_range * torque);
-  return std::hypot(relation.windows[window].limit, by_days, by_speed);
+  const double by_days =
+      elementary::hypot(kFarDay * relation.offset_range, kFarDay * relation.gain_range * torque);
+  return elementary::hypot(elementary::hypot(relation.windows[window].limit, by_days), by_speed);
 }
 
 std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded) {
