@@ -16,9 +16,12 @@ struct ScaledExp {
   int power;
 
   double value() const {
-    const double sum = high + low;
-    if (power < -1021 || power > 1022) return std::ldexp(sum, power);
-    return std::bit_cast<double>(std::bit_cast<std::int64_t>(sum) + (static_cast<std::int64_t>(power) << 52));
+    return power < -1021 || power > 1022 ? std::ldexp(high + low, power) : value_of_normal();
+  }
+  /// Where neither it nor twice it is subnormal or infinite.
+  double value_of_normal() const {
+    return std::bit_cast<double>(std::bit_cast<std::int64_t>(high + low) +
+                                 (static_cast<std::int64_t>(power) << 52));
   }
 };
 

@@ -17,7 +17,7 @@ constexpr double kClose =
     0x1p-13;  // nearer to a whole right angle those parts do not reach or are out of order
 
 /// Cody and Waite 1980. |x| below kMedium.
-RightAngles right_angles(double x) {
+[[gnu::always_inline]] inline RightAngles right_angles(double x) {
   constexpr double kRounder = 0x1.8p52;
   constexpr double kPerRightAngle = 0x1.45f306dc9c883p-1;
   constexpr double kFirst = 0x1.921fb544p+0, kSecond = 0x1.0b4611a6p-34, kThird = 0x1.3198a2e037073p-69;
@@ -30,9 +30,11 @@ RightAngles right_angles(double x) {
 }
 
 /// x finite and beyond half a right angle.
-RightAngles reduced(double x) { return std::abs(x) < kMedium ? right_angles(x) : right_angles_of_any(x); }
+[[gnu::always_inline]] inline RightAngles reduced(double x) {
+  return std::abs(x) < kMedium ? right_angles(x) : right_angles_of_any(x);
+}
 
-double sine_of(double x, double more) {
+[[gnu::always_inline]] inline double sine_of(double x, double more) {
   const double z = x * x, z2 = z * z;
   const double tail =
       (-0x1.5555555555555p-3 + z * 0x1.1111111111110p-7) +
@@ -41,7 +43,7 @@ double sine_of(double x, double more) {
   return x + (x * z * tail + more * (1.0 - 0.5 * z));
 }
 
-double cosine_of(double x, double more) {
+[[gnu::always_inline]] inline double cosine_of(double x, double more) {
   const double z = x * x, z2 = z * z, half = 0.5 * z, most = 1.0 - half;
   const double tail =
       (0x1.5555555555555p-5 - z * 0x1.6c16c16c16c16p-10) +

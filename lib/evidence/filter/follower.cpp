@@ -28,6 +28,8 @@ double velocity_read(const Log& segment, int row, int joint) {
   return segment.dq.empty() ? kNaN : segment.dq[joint][row];
 }
 
+double root_of_squares(double a, double b) { return std::sqrt(a * a + b * b); }
+
 }  // namespace
 
 JointObservation observe_joint(GaussianState& state, int n, const FollowedSample& sample, int j,
@@ -90,9 +92,9 @@ void Follower::set_measurement_noise(const GaussianState& state, const JointArra
     const double speed = std::clamp(state.mean[n + j], -fastest, fastest);
     const double acceleration =
         std::clamp((state.mean[n + j] - speed_before[j]) / out.dt, -steepest, steepest);
-    out.q_std[j] = elementary::hypot(q_codes_.noise_factor(j) * noise_.q_scale[j] * model_.q_std[j],
-                                     model_.clock_std * speed);
-    out.dq_std[j] = elementary::hypot(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
+    out.q_std[j] = root_of_squares(q_codes_.noise_factor(j) * noise_.q_scale[j] * model_.q_std[j],
+                                   model_.clock_std * speed);
+    out.dq_std[j] = root_of_squares(noise_.dq_scale[j] * model_.dq_std[j], model_.clock_std * acceleration);
   }
 }
 
