@@ -114,6 +114,7 @@ TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
   const std::string old_name = std::filesystem::path(golden_.file("", "model-")).filename();
   write_file(model, text + " ");
   std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
+  ASSERT_EQ(run_program({"model", "sign", model}).status, 0);
   EXPECT_EQ(golden_.run("accept", {"--all", "--model", model}).status, 0);
   EXPECT_EQ(golden_.run("check").status, 0);
   EXPECT_TRUE(has(read_file(golden_.toml()), "name = \"new.model\""));

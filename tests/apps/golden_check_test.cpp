@@ -116,6 +116,7 @@ TEST(GoldenCheck, AnotherModelIsComparedWithWhatIsExpected) {
   model.insert(number, "1");
   write_file(golden.outside("other.model"), model);
   std::filesystem::copy_file(golden.file("", "cases-"), case_base_path(golden.outside("other.model")));
+  ASSERT_EQ(run_program({"model", "sign", golden.outside("other.model")}).status, 0);
   const ProgramRun run = golden.run("check", {"--model", golden.outside("other.model")});
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_TRUE(has(run.out, "model other.model")) << run.out;
