@@ -18,6 +18,7 @@
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
 #include "lib/cases/case_file.hpp"
+#include "lib/cases/possible_labels.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
@@ -42,11 +43,15 @@ struct OpenLogs {
   std::vector<LabelledLog> labelled;
 };
 
-void check_joint(const LogLabel& label, const Robot& robot, const std::string& log) {
-  if (label.label.joint > robot.joints())
-    throw Error(ErrorCode::input, log,
-                fmt::format("is labelled with a fault of joint {}, but the robot has {}", label.label.joint,
-                            counted(robot.joints(), "joint")));
+/// The label of a log, if there is one that this robot can have. Throws Error(usage).
+std::optional<LogLabel> checked_label(const std::vector<LogLabel>& labels, const Robot& robot,
+                                      const std::string& log) {
+  const LogLabel* const found = label_of(labels, log);
+  if (!found) return {};
+  LogLabel label = *found;
+  label.label = with_tip(label.label, robot.joints());
+  check_place(robot.joints(), label.label, log + ", by its label");
+  return label;
 }
 
 OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
@@ -55,8 +60,7 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   OpenLogs open;
   for (const std::string& log : arguments.logs) {
     open.owners.push_back(open_robot_log(log, robot));
-    const LogLabel* label = label_of(labels, log);
-    if (label) check_joint(*label, robot, log);
+    const std::optional<LogLabel> label = checked_label(labels, robot, log);
     if (label && label->label.kind != FaultKind::none)
       open.labelled.push_back({open.owners.back().get(), label->label, label->onset_s});
     else

@@ -5,29 +5,29 @@
 
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/cases/case_date.hpp"
 #include "apps/cases/case_text.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/terminal.hpp"
+#include "lib/cases/carry_over.hpp"
 #include "lib/cases/case_file.hpp"
+#include "lib/cases/case_hash.hpp"
 #include "lib/cases/case_json.hpp"
-#include "lib/core/atomic_file.hpp"
+#include "lib/cases/case_origin.hpp"
+#include "lib/cases/possible_labels.hpp"
 #include "lib/core/error.hpp"
-#include "lib/model/model.hpp"
-#include "lib/report/case_from_json.hpp"
+#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
 
-void print_case(const CaseBase& base, const Case& c, const CasesArguments& arguments,
-                const std::string& text) {
-  print(arguments.json ? to_json(base, c).dump(2) + "\n" : text);
-}
-
-bool is_asked_for(const Case& c, const CasesArguments& arguments) {
+bool is_asked_for(const CaseBase& base, const Case& c, const CasesArguments& arguments) {
+  if (!arguments.origin.empty() && origin_of(c) != case_origin_from(arguments.origin)) return false;
+  if (!arguments.by.empty() && c.person != arguments.by) return false;
+  if (!arguments.robot.empty() && (c.robot.empty() ? base.robot().name : c.robot) != arguments.robot)
+    return false;
   if (!arguments.outcome.empty() && c.outcome != case_outcome_from(arguments.outcome)) return false;
   if (!arguments.fault.empty() && c.label.kind != fault_kind_from(arguments.fault)) return false;
   return arguments.joint == 0 || c.label.joint == arguments.joint;
@@ -41,24 +41,16 @@ int change_and_print(const CasesArguments& arguments, const std::function<std::i
     id = change(base);
     changed = base;
   });
-  print_case(changed, changed.at(id), arguments, case_line(changed.at(id)));
+  print_case(changed, changed.at(id), arguments, case_line(changed, changed.at(id)));
   return kNothingFound;
 }
 
-Case new_case(const CasesArguments& arguments, const CaseBase& base) {
-  Case c;
-  if (!arguments.diagnosis.empty())
-    c = case_from_json(read_file(arguments.diagnosis), arguments.diagnosis, arguments.fault_id,
-                       base.feature_names());
-  else if (const auto label = arguments.label()) {
-    c.decision = *label;
-    c.episode.features.assign(base.metric().features.size(), std::numeric_limits<double>::quiet_NaN());
-    c.origin = "recorded by hand";
-    tell("the case has no measured features, so no diagnosis will find it similar");
-  } else
-    throw Error(ErrorCode::usage, "faultline cases add", "needs a diagnosis (JSON report) or --fault KIND");
-  c.what_was_done = arguments.done;
-  return c;
+/// Who says it; a date is that of today only where something new is said.
+Signature signature_for(const CasesArguments& arguments, const Case& c, CaseOutcome outcome,
+                        const FaultLabel& label) {
+  const bool is_new = c.outcome != outcome || c.label != label || !arguments.by.empty() ||
+                      (c.person.empty() && c.date.empty());
+  return {arguments.by, is_new || !arguments.date.empty() ? date_or_today(arguments.date) : ""};
 }
 
 }  // namespace
@@ -69,10 +61,17 @@ std::string CasesArguments::path() const {
   return case_base();
 }
 
-std::optional<FaultLabel> CasesArguments::label() const {
+std::optional<FaultLabel> CasesArguments::label(const CaseBase& base) const {
   if (fault.empty() && joint == 0) return {};
   if (fault.empty()) throw Error(ErrorCode::usage, "--joint", "needs --fault KIND beside it");
-  return FaultLabel{fault_kind_from(fault), joint};
+  const FaultLabel label = with_tip({fault_kind_from(fault), joint}, joints_of(base));
+  check_label(base, label, "--fault " + label_text(label));
+  return label;
+}
+
+void print_case(const CaseBase& base, const Case& c, const CasesArguments& arguments,
+                const std::string& text) {
+  print(arguments.json ? to_json(base, c).dump(2) + "\n" : text);
 }
 
 int list_cases(const CasesArguments& arguments) {
@@ -81,12 +80,12 @@ int list_cases(const CasesArguments& arguments) {
   std::string text;
   int shown = 0;
   for (const Case& c : base.cases()) {
-    if (!is_asked_for(c, arguments)) continue;
+    if (!is_asked_for(base, c, arguments)) continue;
     ++shown;
     if (arguments.json)
       json.push_back(to_json(base, c));
     else
-      text += case_line(c);
+      text += case_line(base, c);
   }
   print(arguments.json ? json.dump(2) + "\n"
                        : text + fmt::format("{} of {} cases\n", shown, base.cases().size()));
@@ -100,57 +99,34 @@ int show_case(const CasesArguments& arguments) {
   return kNothingFound;
 }
 
-int add_case(const CasesArguments& arguments) {
-  FileUse()
-      .reads("the report", arguments.diagnosis)
-      .writes_case_base("the case base", arguments.path())
-      .claim();
-  return change_and_print(arguments, [&](CaseBase& base) {
-    const auto id = base.retain(new_case(arguments, base));
-    if (arguments.label()) base.confirm(id, arguments.label());
-    return id;
-  });
-}
-
 int confirm_case(const CasesArguments& arguments) {
   return change_and_print(arguments, [&](CaseBase& base) {
-    base.confirm(arguments.id, arguments.label(), arguments.done);
+    const Case& c = base.at(arguments.id);
+    const FaultLabel label = arguments.label(base).value_or(c.decision);
+    base.confirm(c.id, label, arguments.done, signature_for(arguments, c, CaseOutcome::confirmed, label));
     return arguments.id;
   });
 }
 
 int reject_case(const CasesArguments& arguments) {
   return change_and_print(arguments, [&](CaseBase& base) {
-    base.reject(arguments.id, arguments.label(), arguments.done);
+    const Case& c = base.at(arguments.id);
+    const FaultLabel was = arguments.label(base).value_or(FaultLabel{FaultKind::unknown, 0});
+    base.reject(c.id, was, arguments.done, signature_for(arguments, c, CaseOutcome::rejected, was));
     return arguments.id;
   });
 }
 
-int export_cases(const CasesArguments& arguments) {
-  FileUse().reads(ModelPaths{arguments.model, arguments.path()}).writes("-o", arguments.file).claim();
-  write_file(arguments.file, to_cases_json(read_case_base(arguments.path())));
-  return kNothingFound;
-}
-
-int import_cases(const CasesArguments& arguments) {
-  FileUse()
-      .reads("the export", arguments.file)
-      .reads("the model", arguments.model)
-      .writes_case_base("the case base", arguments.path())
-      .claim();
-  CaseBase imported = from_cases_json(read_file(arguments.file), arguments.file);
-  if (!arguments.model.empty() && !arguments.merge) imported.belong_to(load_model(arguments.model).identity);
-  const std::string path = arguments.path();
-  std::int64_t added = std::ssize(imported.cases());
-  if (arguments.merge)
-    change_case_base(path, [&](CaseBase& base) { added = base.merge(imported); });
-  else if (has_case_base(path) && !arguments.replace)
-    throw Error(ErrorCode::usage, path, "is there already; choose --merge to add to it or --replace");
-  else
-    write_case_base(path, imported);
-  const nlohmann::ordered_json json = {{"read", imported.cases().size()}, {"added", added}};
-  print(arguments.json ? json.dump(2) + "\n"
-                       : fmt::format("{} cases read, {} added\n", imported.cases().size(), added));
+int delete_case(const CasesArguments& arguments) {
+  CaseBase base = read_case_base(arguments.path());
+  const Case deleted = base.at(arguments.id);
+  change_case_base(arguments.path(), [&](CaseBase& there) {
+    if (content_hash(there.at(deleted.id)) != content_hash(deleted))
+      throw Error(ErrorCode::usage, arguments.path(), "was changed meanwhile; look at the case again");
+    there.remove(deleted.id);
+  });
+  print_case(base, deleted, arguments, "deleted " + case_line(base, deleted));
+  if (is_made_by_learn(deleted)) tell("learn had made this case, and makes it again when it is run again");
   return kNothingFound;
 }
 

@@ -12,7 +12,8 @@ namespace {
 constexpr const char* kUnknownModel = "unknown";  // of a base that does not tell its model
 
 bool is_revised(const Case& c) {
-  return c.outcome != CaseOutcome::confirmed || !(c.label == c.decision) || !c.what_was_done.empty();
+  return c.outcome != CaseOutcome::confirmed || !(c.label == c.decision) || !c.what_was_done.empty() ||
+         !c.person.empty() || !c.date.empty();
 }
 
 /// The case that `learn` made of the same fault of the same log; null when there is none. Bases that do not
@@ -56,6 +57,7 @@ CaseBase without_superseded(const CaseBase& old, const CaseBase& fresh) {
   std::erase_if(cases, [&](const Case& c) { return superseded.count(c.id) > 0; });
   CaseBase rest(fresh.metric(), std::move(cases));
   rest.belong_to(fresh.model_identity());
+  rest.describe_robot(fresh.robot());
   return rest;
 }
 
@@ -78,6 +80,7 @@ CarriedCases carry_over(const CaseBase& old, CaseBase& fresh) {
     if (twin) {
       c.episode = twin->episode;
       c.features_by.clear();
+      c.log_name = twin->log_name;
       ++count.recomputed;
     } else {
       c.episode.features = moved_features(c, old, learned);

@@ -39,12 +39,24 @@ struct Case {
   std::string origin;         ///< kSimulatedOrigin, kLabelledOrigin, a log's name, an import
   std::string log_sha256;     ///< of the log that it was seen in; empty where that is not known
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< in that log; NaN where it is not known
-  /// Identity of the earlier model that the features were computed with; empty: of the model of the base.
+  /// Identity of the other model that the features were computed with; empty: of the model of the base.
   std::string features_by;
+  std::string log_name;  ///< of a labelled log; of what was diagnosed, `origin` tells it
+  std::string robot;     ///< that it was seen on; empty: the robot of the base, or not known
+  std::string person;    ///< who added it, or said last what it was; empty where that is not told
+  std::string date;      ///< when, YYYY-MM-DD; empty where that is not told
+};
+
+/// Who says something of a case, and when; each may be empty.
+struct Signature {
+  std::string person{};
+  std::string date{};  ///< YYYY-MM-DD
 };
 
 /// What `learn` says of the cases that it makes; they are made anew each time.
 inline constexpr const char* kSimulatedOrigin = "simulated";
 inline constexpr const char* kLabelledOrigin = "labelled log";
+/// Of a case that was told without a log.
+inline constexpr const char* kByHandOrigin = "recorded by hand";
 
 }  // namespace faultline

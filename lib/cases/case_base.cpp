@@ -2,12 +2,11 @@
 #include "lib/cases/case_base.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 
+#include "lib/cases/case_hash.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/hash.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -37,70 +36,10 @@ bool is_known(const Case& c) {
   return !(c.outcome == CaseOutcome::rejected && c.label.kind == FaultKind::unknown);
 }
 
-/// Numbers and texts in one unambiguous order of bytes.
-class ContentHash {
- public:
-  void add(const std::string& text) {
-    add_bits(text.size());
-    hash_.update(text);
-  }
-  void add(double x) { add_bits(std::bit_cast<std::uint64_t>(std::isnan(x) ? std::nan("") : x + 0.0)); }
-  void add(const FaultLabel& label) {
-    add(std::string(to_string(label.kind)));
-    add_bits(static_cast<std::uint64_t>(label.joint));
-  }
-  void add(const Opinion& opinion) {
-    add(opinion.label);
-    add(opinion.confidence);
-  }
-  void add_bits(std::uint64_t bits) {
-    char bytes[8];
-    for (char& byte : bytes) {
-      byte = static_cast<char>(bits & 0xff);
-      bits >>= 8;
-    }
-    hash_.update({bytes, 8});
-  }
-  std::string hex() const { return hash_.hex(); }
-
- private:
-  Sha256 hash_;
-};
-
-/// Bases without any of these keep the hash that they had before cases knew them.
-bool tells_of_its_log(const Case& c) {
-  return !c.log_sha256.empty() || !std::isnan(c.onset_s) || !c.features_by.empty();
-}
-
-void add_log(ContentHash& hash, const Case& c) {
-  hash.add(c.log_sha256);
-  hash.add(c.onset_s);
-  hash.add(c.features_by);
-}
-
-void add_content(ContentHash& hash, const Case& c) {
-  for (const double x : c.episode.features) hash.add(x);
-  hash.add(c.episode.mlp);
-  hash.add(c.episode.rbfn);
-  hash.add(c.episode.evidence);
-  hash.add(c.decision);
-  hash.add(c.label);
-  hash.add(std::string(to_string(c.outcome)));
-  hash.add(c.what_was_done);
-  hash.add(c.origin);
-}
-
 void mend_texts(Case& c) {
-  for (std::string* text : {&c.what_was_done, &c.origin, &c.log_sha256, &c.features_by})
+  for (std::string* text : {&c.what_was_done, &c.origin, &c.log_sha256, &c.features_by, &c.log_name, &c.robot,
+                            &c.person, &c.date})
     *text = valid_utf8(*text);
-}
-
-/// All of a case but its id.
-std::string content_of(const Case& c) {
-  ContentHash hash;
-  add_content(hash, c);
-  add_log(hash, c);
-  return hash.hex();
 }
 
 }  // namespace
@@ -176,41 +115,49 @@ std::int64_t CaseBase::retain_with_id(Case c) {
   return cases_.back().id;
 }
 
-void CaseBase::confirm(std::int64_t id, std::optional<FaultLabel> label, const std::string& what_was_done) {
-  Case& c = find(id);
-  c.outcome = CaseOutcome::confirmed;
-  c.label = label.value_or(c.decision);
+void CaseBase::revise(Case& c, CaseOutcome outcome, const FaultLabel& label, const std::string& what_was_done,
+                      const Signature& signature) {
+  const bool says_another = c.outcome != outcome || c.label != label;
+  if (says_another || !signature.person.empty()) c.person = valid_utf8(signature.person);
+  if (says_another || !signature.date.empty()) c.date = valid_utf8(signature.date);
+  c.outcome = outcome;
+  c.label = label;
   if (!what_was_done.empty()) c.what_was_done = valid_utf8(what_was_done);
 }
 
-void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std::string& what_was_done) {
+void CaseBase::confirm(std::int64_t id, std::optional<FaultLabel> label, const std::string& what_was_done,
+                       const Signature& signature) {
   Case& c = find(id);
-  c.outcome = CaseOutcome::rejected;
-  c.label = was.value_or(FaultLabel{FaultKind::unknown, 0});
-  if (!what_was_done.empty()) c.what_was_done = valid_utf8(what_was_done);
+  revise(c, CaseOutcome::confirmed, label.value_or(c.decision), what_was_done, signature);
+}
+
+void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std::string& what_was_done,
+                      const Signature& signature) {
+  revise(find(id), CaseOutcome::rejected, was.value_or(FaultLabel{FaultKind::unknown, 0}), what_was_done,
+         signature);
+}
+
+void CaseBase::replace(Case c) {
+  Case& there = find(c.id);
+  check(c);
+  mend_texts(c);
+  there = std::move(c);
+}
+
+void CaseBase::remove(std::int64_t id) { cases_.erase(cases_.begin() + (&at(id) - cases_.data())); }
+
+void CaseBase::describe_robot(const CaseRobot& robot) {
+  robot_ = {valid_utf8(robot.name), valid_utf8(robot.axes)};
 }
 
 void CaseBase::belong_to(const std::string& model_identity) {
-  if (!model_identity_.empty() && model_identity != model_identity_)
-    for (Case& c : cases_)
-      if (c.features_by.empty()) c.features_by = model_identity_;
+  const bool moves = !model_identity_.empty() && model_identity != model_identity_;
+  for (Case& c : cases_)
+    if (c.features_by.empty() && moves)
+      c.features_by = model_identity_;
+    else if (c.features_by == model_identity)
+      c.features_by.clear();
   model_identity_ = model_identity;
-}
-
-std::int64_t CaseBase::merge(const CaseBase& other) {
-  if (feature_names() != other.feature_names())
-    refuse("the cases to be added compare other features; they come from another robot or program version");
-  std::set<std::string> present;
-  for (const Case& c : cases_) present.insert(content_of(c));
-  CaseBase marked = other;
-  marked.belong_to(model_identity_);
-  std::int64_t added = 0;
-  for (const Case& c : marked.cases()) {
-    if (!present.insert(content_of(c)).second) continue;
-    retain(c);
-    ++added;
-  }
-  return added;
 }
 
 void CaseBase::learn() {
@@ -219,24 +166,6 @@ void CaseBase::learn() {
   metric_ = learn_metric(metric_.features, known);
 }
 
-std::string CaseBase::sha256() const {
-  const bool tell_logs = std::any_of(cases_.begin(), cases_.end(), tells_of_its_log);
-  ContentHash hash;
-  hash.add(std::string(tell_logs ? "faultline/cases/2" : "faultline/cases/1"));
-  hash.add_bits(metric_.features.size());
-  for (const Feature& f : metric_.features) {
-    hash.add(f.name);
-    hash.add(f.scale);
-    hash.add(f.weight);
-  }
-  hash.add(metric_.near_similarity);
-  hash.add_bits(cases_.size());
-  for (const Case& c : cases_) {
-    hash.add_bits(static_cast<std::uint64_t>(c.id));
-    add_content(hash, c);
-    if (tell_logs) add_log(hash, c);
-  }
-  return hash.hex();
-}
+std::string CaseBase::sha256() const { return content_hash(*this); }
 
 }  // namespace faultline

@@ -38,7 +38,7 @@ void check_whole(SqliteFile& file, const std::string& path, std::int64_t version
   const std::string check = file.text("PRAGMA quick_check(1)");
   if (check != "ok")
     refuse(path, "is a damaged or truncated case base (" + check + "); restore it from a copy");
-  if (version > 1 && file.text("SELECT digest FROM identity") != case_tables_digest(file))
+  if (version > 1 && file.text("SELECT digest FROM identity") != case_tables_digest(file, version))
     refuse(path,
            "is damaged, or was changed by another program: its content does not fit the digest that it "
            "carries; restore it from a copy or run learn again");
@@ -58,6 +58,8 @@ CaseBase read_content(SqliteFile& file, const std::string& path) try {
   CaseBase base(metric_in_tables(file), cases_in_tables(file, version));
   check_counts(file, path, base);
   if (version > 1) base.belong_to(file.text("SELECT model FROM identity"));
+  if (version > 2)
+    base.describe_robot({file.text("SELECT robot FROM identity"), file.text("SELECT axes FROM identity")});
   return base;
 } catch (const Error& error) {
   if (error.where() == path) throw;
@@ -80,7 +82,11 @@ CaseBase read_in_place(const std::string& path) {
 void fill(SqliteFile& file, const CaseBase& base) {
   create_case_tables(file);
   fill_tables(file, base);
-  SqliteStatement(file, "INSERT INTO identity VALUES (?, '')").bind(base.model_identity()).step();
+  SqliteStatement(file, "INSERT INTO identity VALUES (?, ?, ?, '')")
+      .bind(base.model_identity())
+      .bind(base.robot().name)
+      .bind(base.robot().axes)
+      .step();
   SqliteStatement(file, "UPDATE identity SET digest = ?").bind(case_tables_digest(file)).step();
 }
 

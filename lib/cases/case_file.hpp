@@ -11,10 +11,11 @@ namespace faultline {
 /// Where the case base of a model lies unless the user says otherwise: MODEL.cases.db beside it.
 std::string case_base_path(const std::string& model);
 
-/// The case base as one SQLite file: application id "FLCB", schema version 2 (docs/model-and-case-base.md);
-/// version 1 is read, too, and becomes version 2 when it is changed. All functions throw Error(input) that
-/// says what is wrong with the file: missing, a directory or device, empty, truncated, damaged (its digest
-/// does not fit), with tables of its own, written by another program or by a newer faultline.
+/// The case base as one SQLite file: application id "FLCB", schema version 3 (docs/model-and-case-base.md);
+/// versions 1 and 2 are read, too, and become version 3 when they are changed. All functions throw
+/// Error(input) that says what is wrong with the file: missing, a directory or device, empty, truncated,
+/// damaged (its digest does not fit), with tables of its own, written by another program or by a newer
+/// faultline.
 
 /// Opens the file read-only: it is never changed, not even its time stamp. A change that was interrupted is
 /// undone in a copy, so that who may only read can read.

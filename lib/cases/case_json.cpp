@@ -56,6 +56,10 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   c.log_sha256 = json.value("log_sha256", "");
   if (json.contains("onset_s")) c.onset_s = number_or_nan(json["onset_s"]);
   c.features_by = json.value("features_by", "");
+  c.log_name = json.value("log_name", "");
+  c.robot = json.value("robot", "");
+  c.person = json.value("person", "");
+  c.date = json.value("date", "");
   c.episode.mlp = opinion_from(json.at("opinions").at("mlp"));
   c.episode.rbfn = opinion_from(json.at("opinions").at("rbfn"));
   c.episode.evidence = number_or_nan(json.at("evidence"));
@@ -90,7 +94,12 @@ nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
             {"origin", c.origin}};
   if (!c.log_sha256.empty()) json["log_sha256"] = c.log_sha256;
   if (!std::isnan(c.onset_s)) json["onset_s"] = c.onset_s;
-  if (!c.features_by.empty()) json["features_by"] = c.features_by;
+  for (const auto& [name, text] : {std::pair{"features_by", &c.features_by},
+                                   {"log_name", &c.log_name},
+                                   {"robot", &c.robot},
+                                   {"person", &c.person},
+                                   {"date", &c.date}})
+    if (!text->empty()) json[name] = *text;
   json["opinions"] = {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}};
   json["evidence"] = number_or_null(c.episode.evidence);
   json["features"] = feature_values(base, c);
@@ -100,6 +109,8 @@ nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
 std::string to_cases_json(const CaseBase& base) {
   Json json = {{"schema", kSchema}, {"near_similarity", number_or_null(base.metric().near_similarity)}};
   if (!base.model_identity().empty()) json["model_identity"] = base.model_identity();
+  if (!base.robot().name.empty()) json["robot"] = base.robot().name;
+  if (!base.robot().axes.empty()) json["axes"] = base.robot().axes;
   json["features"] = Json::array();
   for (const Feature& f : base.metric().features)
     json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});
@@ -116,6 +127,7 @@ CaseBase from_cases_json(const std::string& text, const std::string& where) try 
   for (const Json& c : json.at("cases")) cases.push_back(case_from(c, metric.features));
   CaseBase base(std::move(metric), std::move(cases));
   base.belong_to(json.value("model_identity", ""));
+  base.describe_robot({json.value("robot", ""), json.value("axes", "")});
   return base;
 } catch (const nlohmann::json::exception& error) {
   throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());

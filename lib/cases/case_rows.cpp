@@ -52,6 +52,11 @@ Case case_at(const SqliteStatement& row, std::int64_t version) {
   c.log_sha256 = row.text(16);
   c.onset_s = row.real(17);
   c.features_by = row.text(18);
+  if (version == 2) return c;
+  c.log_name = row.text(19);
+  c.robot = row.text(20);
+  c.person = row.text(21);
+  c.date = row.text(22);
   return c;
 }
 
@@ -64,7 +69,8 @@ void write_case(SqliteStatement& row, const Case& c) {
   row.bind(c.episode.mlp.confidence);
   bind_label(row, c.episode.rbfn.label);
   row.bind(c.episode.rbfn.confidence).bind(c.episode.evidence).bind_blob(to_bytes(c.episode.features));
-  row.bind(c.log_sha256).bind(c.onset_s).bind(c.features_by).step();
+  row.bind(c.log_sha256).bind(c.onset_s).bind(c.features_by);
+  row.bind(c.log_name).bind(c.robot).bind(c.person).bind(c.date).step();
 }
 
 void write_metric(SqliteFile& file, const Metric& metric) {
@@ -92,6 +98,7 @@ std::vector<Case> cases_in_tables(SqliteFile& file, std::int64_t version) {
       "id, kind, joint, decision_kind, decision_joint, outcome, what_was_done, origin, mlp_kind, mlp_joint, "
       "mlp_confidence, rbfn_kind, rbfn_joint, rbfn_confidence, evidence, features";
   if (version > 1) columns += ", log_sha256, onset_s, features_by";
+  if (version > 2) columns += ", log_name, robot, person, date";
   std::vector<Case> cases;
   SqliteStatement row(file, ("SELECT " + columns + " FROM fault_case ORDER BY id").c_str());
   while (row.step()) cases.push_back(case_at(row, version));
@@ -100,7 +107,7 @@ std::vector<Case> cases_in_tables(SqliteFile& file, std::int64_t version) {
 
 void fill_tables(SqliteFile& file, const CaseBase& base) {
   write_metric(file, base.metric());
-  SqliteStatement row(file, "INSERT INTO fault_case VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  SqliteStatement row(file, "INSERT INTO fault_case VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const Case& c : base.cases()) write_case(row, c);
   SqliteStatement(file, "INSERT INTO counts VALUES (?, ?)")
       .bind(static_cast<std::int64_t>(base.metric().features.size()))

@@ -26,8 +26,14 @@ std::string tables_of(std::int64_t version) {
       rbfn_kind TEXT NOT NULL, rbfn_joint INTEGER NOT NULL, rbfn_confidence REAL NOT NULL,
       evidence REAL, features BLOB NOT NULL)";
   if (version == 1) return tables + ") STRICT;";
-  return tables + R"(, log_sha256 TEXT NOT NULL, onset_s REAL, features_by TEXT NOT NULL) STRICT;
+  tables += ", log_sha256 TEXT NOT NULL, onset_s REAL, features_by TEXT NOT NULL";
+  if (version == 2)
+    return tables + R"() STRICT;
     CREATE TABLE identity(model TEXT NOT NULL, digest TEXT NOT NULL) STRICT;)";
+  return tables + R"(,
+      log_name TEXT NOT NULL, robot TEXT NOT NULL, person TEXT NOT NULL, date TEXT NOT NULL) STRICT;
+    CREATE TABLE identity(model TEXT NOT NULL, robot TEXT NOT NULL, axes TEXT NOT NULL,
+                          digest TEXT NOT NULL) STRICT;)";
 }
 
 /// Everything in the schema, as one text in which white space does not count.
@@ -103,11 +109,13 @@ std::int64_t checked_case_schema(SqliteFile& file, const std::string& name) {
   return version;
 }
 
-std::string case_tables_digest(SqliteFile& file) {
+std::string case_tables_digest(SqliteFile& file, std::int64_t version) {
+  const char* const identity = version == 2 ? "SELECT model FROM identity ORDER BY rowid"
+                                            : "SELECT model, robot, axes FROM identity ORDER BY rowid";
   Sha256 hash;
-  for (const char* rows : {"SELECT * FROM metric ORDER BY rowid", "SELECT * FROM feature ORDER BY position",
-                           "SELECT * FROM fault_case ORDER BY id", "SELECT * FROM counts ORDER BY rowid",
-                           "SELECT model FROM identity ORDER BY rowid"})
+  for (const char* rows :
+       {"SELECT * FROM metric ORDER BY rowid", "SELECT * FROM feature ORDER BY position",
+        "SELECT * FROM fault_case ORDER BY id", "SELECT * FROM counts ORDER BY rowid", identity})
     add_rows(file, rows, hash);
   return hash.hex();
 }

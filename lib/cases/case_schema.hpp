@@ -9,8 +9,8 @@
 namespace faultline {
 
 /// The tables of a case base file (docs/model-and-case-base.md). Version 1 has no table `identity`
-/// and no columns of the log of a case.
-inline constexpr std::int64_t kCaseSchemaVersion = 2;
+/// and no columns of the log of a case, version 2 none of the robot, and of who says what a case was.
+inline constexpr std::int64_t kCaseSchemaVersion = 3;
 
 /// Makes the tables of the newest version, empty.
 void create_case_tables(SqliteFile& file);
@@ -21,7 +21,7 @@ void drop_case_tables(SqliteFile& file, std::int64_t version);
 /// other table, view, index or trigger. Throws Error(input) with `name`.
 std::int64_t checked_case_schema(SqliteFile& file, const std::string& name);
 
-/// SHA-256 of every value in all tables, with its type, but the digest itself.
-std::string case_tables_digest(SqliteFile& file);
+/// SHA-256 of every value in all tables of a version from 2 on, with its type, but the digest itself.
+std::string case_tables_digest(SqliteFile& file, std::int64_t version = kCaseSchemaVersion);
 
 }  // namespace faultline

@@ -20,6 +20,14 @@ void bind_cases(Model& model, CaseBase& cases) {
   model.identity.clear();
   model.identity = sha256_hex(model_to_json(model)).substr(0, kIdentityLength);
   cases.belong_to(model.identity);
+  cases.describe_robot(case_robot_of(model));
+}
+
+CaseRobot case_robot_of(const Model& model) {
+  CaseRobot robot{model.robot.name, ""};
+  for (const JointGeometry& joint : model.robot.chain.geometry)
+    robot.axes += joint.kind == AxisKind::revolute ? 'R' : 'P';
+  return robot;
 }
 
 ModelFiles load_model_files(const std::string& model, const std::string& cases) {

@@ -9,7 +9,11 @@
 
 namespace faultline {
 
-/// Gives a model and the case base that was learned with it the same identity, which follows from the model.
+/// The robot of a model, as its case base tells it.
+CaseRobot case_robot_of(const Model& model);
+
+/// Gives a model and the case base that was learned with it the same identity, which follows from the model,
+/// and the case base its robot.
 void bind_cases(Model& model, CaseBase& cases);
 
 /// A model with its case base.

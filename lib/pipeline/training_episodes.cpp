@@ -2,6 +2,7 @@
 #include "lib/pipeline/training_episodes.hpp"
 
 #include <array>
+#include <filesystem>
 
 #include "lib/diagnosis/describe_episode.hpp"
 
@@ -22,8 +23,9 @@ std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpi
 }
 
 CaseSource source_of(const MonitoredRun& run) {
-  if (run.origin == kSimulatedOrigin) return {run.origin, "", std::numeric_limits<double>::quiet_NaN()};
-  return {run.origin, run.log.log.sha256, run.onset_s};
+  if (run.origin == kSimulatedOrigin) return {run.origin, "", "", std::numeric_limits<double>::quiet_NaN()};
+  return {run.origin, run.log.log.sha256, std::filesystem::path(run.log.log.path).filename().string(),
+          run.onset_s};
 }
 
 }  // namespace
@@ -53,6 +55,7 @@ CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
     c.outcome = CaseOutcome::confirmed;
     c.origin = training.sources[i].origin;
     c.log_sha256 = training.sources[i].log_sha256;
+    c.log_name = training.sources[i].log_name;
     c.onset_s = training.sources[i].onset_s;
     cases.retain(std::move(c));
   }

@@ -16,6 +16,7 @@ namespace faultline {
 struct CaseSource {
   std::string origin;
   std::string log_sha256;  ///< empty where it was no file
+  std::string log_name;    ///< without folders; empty where it was no file
   double onset_s = std::numeric_limits<double>::quiet_NaN();
 };
 

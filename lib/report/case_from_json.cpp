@@ -49,6 +49,7 @@ Case parsed(const std::string& text, const std::string& where, int fault_id,
   c.episode.evidence = number_or_nan(fault.at("episode").at("evidence"));
   c.episode.features = features_from(fault.at("episode").at("features"), names);
   c.origin = json.at("log").at("path").get<std::string>();
+  c.robot = text_or_empty(json.at("model").at("name"));
   c.log_sha256 = text_or_empty(json.at("log").at("sha256"));
   c.onset_s = number_or_nan(fault.at("onset_s"));
   return c;

@@ -76,7 +76,7 @@ TEST_F(BadLearning, LabelsWithAJointThatIsNoWholeNumber) {
 }
 
 TEST_F(BadLearning, LabelsWithAJointThatTheRobotDoesNotHave) {
-  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,4,2\n"), 3,
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,4,2\n"), 2,
                  {"log.csv", "joint 4", "1 joint"});
 }
 

@@ -59,11 +59,14 @@ TEST_F(CasesCommand, ConfirmAndRejectAreStored) {
 }
 
 TEST_F(CasesCommand, AddTakesAFaultFromADiagnosis) {
-  const std::string report = folder_.write("report.json", render_json(faulty_diagnosis()));
+  Diagnosis diagnosis = faulty_diagnosis();
+  const std::string report = folder_.write("report.json", render_json(diagnosis));
+  diagnosis.log.sha256 = std::string(64, 'e');
+  const std::string other = folder_.write("other.json", render_json(diagnosis));
   const ProgramRun run = cases({"add", report, "--done", "changed the brake", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out).at("outcome"), "unconfirmed");
-  EXPECT_EQ(cases({"add", report, "--fault-id", "1", "--fault", "stuck_encoder", "--joint", "2"}).status, 0);
+  EXPECT_EQ(cases({"add", other, "--fault-id", "1", "--fault", "stuck_encoder", "--joint", "2"}).status, 0);
   const CaseBase base = read_case_base(path_);
   EXPECT_EQ(base.at(7).origin, "bench/locked_2.csv");
   EXPECT_EQ(base.at(7).episode.features[2], -0.5);
@@ -113,7 +116,7 @@ TEST_F(CasesCommand, ErrorsSayWhatIsWrong) {
 }
 
 TEST_F(CasesCommand, HelpShowsAnExampleOfEachAction) {
-  for (const char* action : {"list", "show", "add", "confirm", "reject", "export", "import"}) {
+  for (const char* action : {"list", "show", "add", "confirm", "reject", "delete", "export", "import"}) {
     const ProgramRun run = run_program({"cases", action, "--help"});
     EXPECT_EQ(run.status, 0);
     EXPECT_NE(run.out.find(std::string("Example: faultline cases ") + action), std::string::npos) << run.out;

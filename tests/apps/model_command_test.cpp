@@ -106,6 +106,20 @@ TEST_F(ModelCommand, ImportWithTheModelBindsExportedCasesToIt) {
   EXPECT_NE(diagnose().status, 3) << diagnose().err;
 }
 
+TEST_F(ModelCommand, CasesOfARobotOfAnotherKindAreNotBoundToTheModel) {
+  const std::string exported = folder_.file("cases.json"), other = folder_.file("other.db");
+  CaseBase base = read_case_base(base_);
+  EXPECT_EQ(base.robot().axes, "R") << "learn tells it";
+  base.describe_robot({"gantry", "PPR"});
+  write_case_base(other, base);
+  ASSERT_EQ(run_program({"cases", "export", "-o", exported, "--cases", other}).status, 0);
+  for (const char* how : {"--replace", "--merge"}) {
+    const ProgramRun run = cases({"import", exported, how});
+    EXPECT_EQ(run.status, 2) << how;
+    EXPECT_TRUE(has(run.err, "PPR")) << run.err;
+  }
+}
+
 TEST_F(ModelCommand, LearningAgainKeepsWhatPeopleConfirmedAndSaysSo) {
   ASSERT_EQ(cases({"add", "--fault", "locked", "--joint", "1", "--done", "new brake"}).status, 0);
   const std::string json = folder_.file("learned.json");
@@ -121,7 +135,14 @@ TEST_F(ModelCommand, LearningAgainKeepsWhatPeopleConfirmedAndSaysSo) {
 }
 
 TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
-  ASSERT_EQ(cases({"add", "--fault", "locked", "--joint", "3"}).status, 0);
+  EXPECT_EQ(cases({"add", "--fault", "locked", "--joint", "3"}).status, 2) << "the robot has one joint";
+  change_case_base(base_, [](CaseBase& base) {  // as earlier programs let people do
+    base.describe_robot({});
+    Case c;
+    c.decision = c.label = {FaultKind::locked, 3};
+    c.origin = kByHandOrigin;
+    base.retain(c);
+  });
   const std::string model = read_file(model_), base = read_file(base_);
   const ProgramRun joint = learn({logs_[0], logs_[2]});
   EXPECT_EQ(joint.status, 3);

@@ -54,6 +54,15 @@ TEST(CarryOver, ASimulatedCaseThatSomebodyRevisedStays) {
   EXPECT_EQ(fresh.cases().back().id, 4) << "2 is taken";
 }
 
+TEST(CarryOver, ACaseThatSomebodySignedStaysThoughItsLabelIsTheSame) {
+  CaseBase old = base_of("old"), fresh = base_of("new");
+  fresh.describe_robot({"bench", "RRP"});
+  old.confirm(2, {}, "", {"A. Weber", "2026-03-02"});
+  EXPECT_EQ(carry_over(old, fresh).carried, 1);
+  EXPECT_EQ(fresh.cases().back().person, "A. Weber");
+  EXPECT_EQ(fresh.robot().axes, "RRP");
+}
+
 TEST(CarryOver, FeaturesGoByName) {
   CaseBase old = base_of("old"), fresh = base_of("new", {"noise", "other", "a"});
   old.retain(field_case(2.0));

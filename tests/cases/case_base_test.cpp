@@ -92,6 +92,15 @@ TEST(CaseBase, ContentHashSeesEveryField) {
   EXPECT_TRUE(differs([](Case& c) { c.log_sha256 = "x"; }));
   EXPECT_TRUE(differs([](Case& c) { c.onset_s = 1.5; }));
   EXPECT_TRUE(differs([](Case& c) { c.features_by = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.log_name = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.robot = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.person = "x"; }));
+  EXPECT_TRUE(differs([](Case& c) { c.date = "2026-03-02"; }));
+  for (const CaseRobot& robot : {CaseRobot{"bench", ""}, CaseRobot{"", "RRP"}}) {
+    CaseBase other = base;
+    other.describe_robot(robot);
+    EXPECT_NE(other.sha256(), base.sha256());
+  }
   Metric metric = base.metric();
   metric.near_similarity *= 0.5;
   EXPECT_NE(CaseBase(metric, base.cases()).sha256(), base.sha256());
@@ -99,9 +108,9 @@ TEST(CaseBase, ContentHashSeesEveryField) {
 
 TEST(CaseBase, MergeAddsOnlyWhatIsNew) {
   CaseBase base = example_base(2), other = example_base(3);
-  EXPECT_EQ(base.merge(other), 3);
+  EXPECT_EQ(base.merge(other).added, 3);
   EXPECT_EQ(base.cases().size(), 9u);
-  EXPECT_EQ(base.merge(other), 0);
+  EXPECT_EQ(base.merge(other).added, 0);
   EXPECT_THROW(base.merge(CaseBase({"a", "b"})), Error);
 }
 
@@ -109,10 +118,10 @@ TEST(CaseBase, MergeMarksTheFeaturesOfAnotherModel) {
   CaseBase base = example_base(2), other = example_base(3);
   base.belong_to("one");
   other.belong_to("two");
-  EXPECT_EQ(base.merge(other), 9);
+  EXPECT_EQ(base.merge(other).added, 9);
   EXPECT_EQ(base.cases().back().features_by, "two");
   EXPECT_EQ(base.cases().front().features_by, "");
-  EXPECT_EQ(base.merge(other), 0);
+  EXPECT_EQ(base.merge(other).added, 0);
 }
 
 TEST(CaseBase, LearnLeavesOutCasesOfUnknownFault) {

@@ -39,7 +39,12 @@ CaseBase awkward_base() {
   c.log_sha256 = "ab";
   c.onset_s = 0.1;
   c.features_by = "an earlier model";
+  c.log_name = "night.csv";
+  c.robot = "bench 7";
+  c.person = "J\xc3\xbcrgen";
+  c.date = "2026-03-02";
   base.retain(c);
+  base.describe_robot({"bench", "RRP"});
   return base;
 }
 
@@ -62,6 +67,9 @@ TEST_F(CaseFile, RoundTripKeepsTheContent) {
   EXPECT_EQ(read.sha256(), base.sha256());
   EXPECT_EQ(read.cases().back().what_was_done, base.cases().back().what_was_done);
   EXPECT_EQ(read.feature_names(), base.feature_names());
+  EXPECT_EQ(read.robot(), base.robot());
+  EXPECT_EQ(read.cases().back().person, "J\xc3\xbcrgen");
+  EXPECT_EQ(read.cases().back().date, "2026-03-02");
 }
 
 TEST_F(CaseFile, ExportAndImportLoseNothing) {
@@ -176,7 +184,7 @@ TEST_F(CaseFile, FlippedBitsAreReadOrRefusedButNeverACrash) {
 
 TEST_F(CaseFile, NewerSchema) {
   write_case_base(path_, example_base());
-  SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 3");
+  SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 4");
   EXPECT_NE(refusal(path_).find("newer faultline"), std::string::npos) << refusal(path_);
 }
 

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"
+#include "lib/cases/case_schema.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -111,7 +113,26 @@ TEST_F(HostileCaseFile, ABaseOfAnEarlierVersionIsReadAndBecomesNewWhenItIsChange
   EXPECT_EQ(old.sha256().substr(0, 8), "6f5469ce") << "the content hash of old bases stays";
   change_case_base(path_, [](CaseBase&) {});
   EXPECT_EQ(read_case_base(path_).sha256(), old.sha256());
-  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 2);
+  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 3);
+}
+
+TEST_F(HostileCaseFile, VersionTwoIsReadWithItsDigest) {
+  const std::string content = read_case_base(path_).sha256();
+  for (const char* column : {"log_name", "robot", "person", "date"})
+    run(std::string("ALTER TABLE fault_case DROP COLUMN ") + column);
+  run("ALTER TABLE identity DROP COLUMN robot; ALTER TABLE identity DROP COLUMN axes; PRAGMA user_version = 2");
+  const std::string digest =
+      case_tables_digest(*std::make_unique<SqliteFile>(path_, SqliteMode::read_only), 2);
+  run("UPDATE identity SET digest = '" + digest + "'");
+  EXPECT_EQ(read_case_base(path_).sha256(), content);
+  change_case_base(path_, [](CaseBase& base) { base.confirm(1, {}, "", {"A. Weber", "2026-03-02"}); });
+  EXPECT_EQ(read_case_base(path_).at(1).person, "A. Weber");
+  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 3);
+}
+
+TEST_F(HostileCaseFile, AChangedPersonIsRefused) {
+  run("UPDATE fault_case SET person = 'somebody else' WHERE id = 1");
+  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
 }
 
 TEST_F(HostileCaseFile, LostRowsOfAnEarlierVersion) {

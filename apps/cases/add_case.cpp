@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "apps/cases/case_actions.hpp"
+#include "apps/cases/case_date.hpp"
+#include "apps/cases/case_text.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
+#include "apps/terminal.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/cases/case_origin.hpp"
+#include "lib/cases/possible_labels.hpp"
+#include "lib/cases/same_event.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/report/case_from_json.hpp"
+
+namespace faultline {
+namespace {
+
+Case case_told(const CasesArguments& arguments, const CaseBase& base) {
+  if (!arguments.diagnosis.empty())
+    return case_from_json(read_file(arguments.diagnosis), arguments.diagnosis, arguments.fault_id,
+                          base.feature_names());
+  const auto label = arguments.label(base);
+  if (!label)
+    throw Error(ErrorCode::usage, "faultline cases add", "needs a diagnosis (JSON report) or --fault KIND");
+  Case c;
+  c.decision = *label;
+  c.episode.features.assign(base.metric().features.size(), std::numeric_limits<double>::quiet_NaN());
+  c.origin = kByHandOrigin;
+  c.robot = base.robot().name;
+  return c;
+}
+
+Case new_case(const CasesArguments& arguments, const CaseBase& base) {
+  Case c = case_told(arguments, base);
+  check_joint(joints_of(base), c.decision, arguments.diagnosis);
+  if (const auto label = arguments.label(base)) {
+    c.label = *label;
+    c.outcome = CaseOutcome::confirmed;
+  }
+  c.what_was_done = arguments.done;
+  c.person = arguments.by;
+  c.date = date_or_today(arguments.date);
+  if (!arguments.robot.empty()) c.robot = arguments.robot;
+  return c;
+}
+
+void change(std::string& there, const std::string& told, const char* what,
+            std::vector<std::string>& changes) {
+  if (told.empty() || there == told) return;
+  there = told;
+  changes.push_back(what);
+}
+
+/// An event that is a case already, with what is told of it now.
+struct Retold {
+  Case revised;
+  std::vector<std::string> changes;  ///< empty: all was known
+};
+
+Retold retold(const Case& there, const Case& c, const CasesArguments& arguments) {
+  Retold out{there, {}};
+  Case& revised = out.revised;
+  if (c.outcome == CaseOutcome::confirmed &&
+      (there.outcome != CaseOutcome::confirmed || there.label != c.label)) {
+    revised.outcome = c.outcome;
+    revised.label = c.label;
+    revised.person = c.person;
+    revised.date = c.date;
+    out.changes.push_back(fmt::format("now confirmed as \"{}\" (was {}, \"{}\")", plain_words(c.label),
+                                      to_string(there.outcome), plain_words(there.label)));
+  }
+  change(revised.what_was_done, arguments.done, "what was done", out.changes);
+  change(revised.person, arguments.by, "by whom", out.changes);
+  change(revised.date, arguments.date, "the date", out.changes);
+  change(revised.robot, arguments.robot, "the robot", out.changes);
+  return out;
+}
+
+struct Added {
+  std::int64_t id = 0;
+  std::string message;     ///< what a user would not expect; empty: a new case
+  bool is_changed = true;  ///< the base is
+};
+
+Added add_to(CaseBase& base, const CasesArguments& arguments) {
+  const Case c = new_case(arguments, base);
+  if (const Case* there = find_same_event(base, c)) {
+    const Retold told = retold(*there, c, arguments);
+    const std::string which =
+        fmt::format("this event is case {} already (the same log, onset and fault)", there->id);
+    if (told.changes.empty()) return {there->id, which + "; nothing was changed", false};
+    base.replace(told.revised);
+    std::string list;
+    for (const std::string& what : told.changes) list += (list.empty() ? "" : ", ") + what;
+    return {told.revised.id, which + "; changed: " + list, true};
+  }
+  const bool by_hand = c.origin == kByHandOrigin;
+  return {base.retain(c),
+          by_hand ? "the case has no measured features, so no diagnosis will find it similar" : "", true};
+}
+
+}  // namespace
+
+int add_case(const CasesArguments& arguments) {
+  FileUse()
+      .reads("the report", arguments.diagnosis)
+      .writes_case_base("the case base", arguments.path())
+      .claim();
+  CaseBase base = read_case_base(arguments.path());
+  Added added = add_to(base, arguments);
+  if (added.is_changed)
+    change_case_base(arguments.path(), [&](CaseBase& there) {
+      added = add_to(there, arguments);
+      base = there;
+    });
+  if (!added.message.empty()) tell(added.message);
+  print_case(base, base.at(added.id), arguments, case_line(base, base.at(added.id)));
+  return kNothingFound;
+}
+
+}  // namespace faultline

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Export and import of cases.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/cases/case_actions.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
+#include "apps/terminal.hpp"
+#include "lib/cases/case_file.hpp"
+#include "lib/cases/case_json.hpp"
+#include "lib/cases/case_origin.hpp"
+#include "lib/cases/possible_labels.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/model/model_files.hpp"
+
+namespace faultline {
+namespace {
+
+/// Cases that a person said what they were, seen on the robot at work.
+CaseBase confirmed_of(const CaseBase& base) {
+  std::vector<Case> cases = base.cases();
+  std::erase_if(cases, [](const Case& c) { return origin_of(c) != CaseOrigin::field; });
+  for (Case& c : cases)
+    if (c.robot.empty()) c.robot = base.robot().name;
+  CaseBase confirmed(base.metric(), std::move(cases));
+  confirmed.belong_to(base.model_identity());
+  confirmed.describe_robot(base.robot());
+  return confirmed;
+}
+
+/// The base of an earlier program does not tell its robot; its model does, where that was named.
+void know_robot(CaseBase& base, const std::string& model) {
+  if (base.robot().axes.empty() && !model.empty()) base.describe_robot(case_robot_of(load_model(model)));
+}
+
+/// Writes nothing where nothing is new.
+MergedCases merge_into(const CasesArguments& arguments, const CaseBase& other) {
+  const auto merged_with = [&](CaseBase& base) {
+    know_robot(base, arguments.model);
+    return base.merge(other);
+  };
+  CaseBase there = read_case_base(arguments.path());
+  MergedCases merged = merged_with(there);
+  if (merged.added + merged.updated > 0)
+    change_case_base(arguments.path(), [&](CaseBase& base) { merged = merged_with(base); });
+  return merged;
+}
+
+/// Throws Error(usage) when the cases are of a robot of another kind than the model's.
+void bind_to_model(CaseBase& imported, const std::string& path) {
+  const Model model = load_model(path);
+  const CaseRobot robot = case_robot_of(model);
+  const std::string& axes = imported.robot().axes;
+  if (!axes.empty() && axes != robot.axes)
+    throw Error(
+        ErrorCode::usage, path,
+        "is the model of a robot with the axes " + robot.axes + ", the cases are of one with " + axes);
+  const std::string seen_on = imported.robot().name;
+  if (!seen_on.empty() && seen_on != robot.name)
+    for (Case c : std::vector<Case>(imported.cases())) {
+      if (!c.robot.empty()) continue;
+      c.robot = seen_on;
+      imported.replace(std::move(c));
+    }
+  imported.describe_robot(robot);
+  imported.belong_to(model.identity);
+}
+
+}  // namespace
+
+int export_cases(const CasesArguments& arguments) {
+  FileUse().reads(ModelPaths{arguments.model, arguments.path()}).writes("-o", arguments.file).claim();
+  const CaseBase base = read_case_base(arguments.path());
+  const CaseBase exported = arguments.confirmed ? confirmed_of(base) : base;
+  write_file(arguments.file, to_cases_json(exported));
+  if (arguments.confirmed)
+    tell(fmt::format("{} of {} cases were confirmed or corrected in the field", exported.cases().size(),
+                     base.cases().size()));
+  return kNothingFound;
+}
+
+int import_cases(const CasesArguments& arguments) {
+  FileUse()
+      .reads("the export", arguments.file)
+      .reads("the model", arguments.model)
+      .writes_case_base("the case base", arguments.path())
+      .claim();
+  CaseBase imported = from_cases_json(read_file(arguments.file), arguments.file);
+  for (const Case& c : imported.cases())
+    check_joint(joints_of(imported), c.label, fmt::format("{}, case {}", arguments.file, c.id));
+  if (!arguments.model.empty() && !arguments.merge) bind_to_model(imported, arguments.model);
+  const std::string path = arguments.path();
+  MergedCases merged{std::ssize(imported.cases()), 0};
+  if (arguments.merge)
+    merged = merge_into(arguments, imported);
+  else if (has_case_base(path) && !arguments.replace)
+    throw Error(ErrorCode::usage, path, "is there already; choose --merge to add to it or --replace");
+  else
+    write_case_base(path, imported);
+  const std::size_t read = imported.cases().size();
+  const nlohmann::ordered_json json = {{"read", read}, {"added", merged.added}, {"updated", merged.updated}};
+  const std::string updated = merged.updated > 0 ? fmt::format(", {} updated", merged.updated) : "";
+  print(arguments.json ? json.dump(2) + "\n"
+                       : fmt::format("{} cases read, {} added{}\n", read, merged.added, updated));
+  return kNothingFound;
+}
+
+}  // namespace faultline

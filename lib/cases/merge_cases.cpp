@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// CaseBase::merge(): cases of another base of the same kind of robot.
+#include <set>
+
+#include "lib/cases/case_base.hpp"
+#include "lib/cases/case_hash.hpp"
+#include "lib/cases/case_origin.hpp"
+#include "lib/cases/possible_labels.hpp"
+#include "lib/cases/same_event.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+void check_kind(const CaseBase& base, const CaseBase& other) {
+  const std::string &axes = base.robot().axes, &others = other.robot().axes;
+  if (!axes.empty() && !others.empty() && axes != others)
+    throw Error(ErrorCode::usage, "case base",
+                "the cases to be added are of a robot with the axes " + others + ", those here of one with " +
+                    axes + "; only cases of the same kind of robot can be compared");
+  const int joints = joints_of(base), there = joints_of(other);
+  if (joints > 0 && there > 0 && joints != there)
+    throw Error(ErrorCode::usage, "case base",
+                "the cases to be added are of a robot with " + std::to_string(there) +
+                    " joints, those here of one with " + std::to_string(joints) +
+                    "; only cases of the same kind of robot can be compared");
+  if (base.feature_names() != other.feature_names())
+    throw Error(ErrorCode::input, "case base",
+                "the cases to be added compare other features; they come from another robot, another "
+                "meaning of its torque or another program version");
+}
+
+/// Whether a person said what `c` is, and later than what is said of `there`.
+bool says_more(const Case& c, const Case& there) {
+  if (c.outcome == CaseOutcome::unconfirmed) return false;
+  if (there.outcome == CaseOutcome::unconfirmed) return true;
+  return c.date > there.date &&
+         (c.outcome != there.outcome || c.label != there.label || c.what_was_done != there.what_was_done);
+}
+
+/// Equal for cases that differ in their id alone, or in whether they tell that they are of the robot itself.
+std::string key_of(Case c, const CaseRobot& robot) {
+  if (c.robot == robot.name) c.robot.clear();
+  return content_hash(c);
+}
+
+/// What people said of an event, on the case that tells of it here.
+Case with_word_of(const Case& c, Case there) {
+  there.outcome = c.outcome;
+  there.label = c.label;
+  there.person = c.person;
+  there.date = c.date;
+  if (!c.what_was_done.empty()) there.what_was_done = c.what_was_done;
+  return there;
+}
+
+}  // namespace
+
+MergedCases CaseBase::merge(const CaseBase& other) {
+  check_kind(*this, other);
+  for (const Case& c : other.cases()) check_joint(joints_of(*this), c.label, "case " + std::to_string(c.id));
+  std::set<std::string> present;
+  for (const Case& c : cases_) present.insert(key_of(c, robot_));
+  CaseBase marked = other;
+  marked.belong_to(model_identity_);
+  MergedCases merged;
+  for (Case c : marked.cases()) {
+    if (c.robot.empty()) c.robot = other.robot().name;
+    if (!is_of_field(c) && c.robot == robot_.name) c.robot.clear();
+    if (!present.insert(key_of(c, robot_)).second) continue;
+    if (const Case* there = find_same_event(*this, c)) {
+      if (!says_more(c, *there)) continue;
+      replace(with_word_of(c, *there));
+      ++merged.updated;
+    } else {
+      retain(std::move(c));
+      ++merged.added;
+    }
+  }
+  return merged;
+}
+
+}  // namespace faultline

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "lib/cases/possible_labels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/core/error.hpp"
+#include "tests/cases/example_base.hpp"
+
+namespace faultline {
+namespace {
+
+std::string refusal(const CaseBase& base, const FaultLabel& label) {
+  try {
+    check_label(base, label, "--fault");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    return error.message();
+  }
+  return "";
+}
+
+CaseBase base_of_bank() {
+  return CaseBase(
+      {"behind locked 1", "behind locked 2", "behind payload_change 2", "mlp residual 1", "mlp residual 2"});
+}
+
+TEST(PossibleLabels, JointsAreKnownByTheAxesOrByTheFeatures) {
+  EXPECT_EQ(joints_of(base_of_bank()), 2);
+  EXPECT_EQ(joints_of(CaseBase({"a"})), 0);
+  CaseBase base({"a"});
+  base.describe_robot({"bench", "RRPR"});
+  EXPECT_EQ(joints_of(base), 4);
+}
+
+TEST(PossibleLabels, AJointThatTheRobotHasNotIsRefused) {
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::locked, 2}), "");
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 3}).find("has 2 joints"), std::string::npos);
+}
+
+TEST(PossibleLabels, AJointIsToldWhereTheFaultHasOne) {
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 0}).find("tell which one"), std::string::npos);
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::none, 1}).find("no joint"), std::string::npos);
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::payload_change, 1}).find("joint 2"), std::string::npos);
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::none, 0}), "");
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::unknown, 0}), "");
+  EXPECT_EQ(with_tip({FaultKind::payload_change, 0}, 2).joint, 2);
+  EXPECT_EQ(with_tip({FaultKind::locked, 0}, 2).joint, 0);
+}
+
+TEST(PossibleLabels, AKindThatNothingLooksForIsRefusedUnlessALogShowedIt) {
+  CaseBase base = base_of_bank();
+  const FaultLabel label{FaultKind::torque_sensor_error, 1};
+  EXPECT_NE(refusal(base, label).find("torque_sensor_error 1"), std::string::npos);
+  Case c;
+  c.episode.features.resize(5);
+  c.label = c.decision = label;
+  base.retain(c);
+  EXPECT_EQ(refusal(base, label), "");
+}
+
+}  // namespace
+}  // namespace faultline
