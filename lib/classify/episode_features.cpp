@@ -13,10 +13,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kNearlyAll = 0.9;         // share of lost torque from which the joint swings freely
-constexpr double kUnknownShare = 0.5;      // of the evidence that a known fault must explain
-constexpr double kLargestDeficit = 300.0;  // beyond it a label is out of the question anyway
-constexpr double kSizeFades = 20.0;        // the size of a label this far behind hardly counts
+constexpr double kNearlyAll = 0.9;     // share of lost torque from which the joint swings freely
+constexpr double kUnknownShare = 0.5;  // of the evidence that a known fault must explain
+constexpr double kSizeFades = 20.0;    // the size of a label this far behind hardly counts
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// The labels a hypothesis can stand for: its own, or those of all joints for a push on all of them.
@@ -117,10 +116,9 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   std::vector<double> features;
   for (const LabelEvidence& e : evidence)
-    features.push_back(-elementary::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
+    features.push_back(feature_of_deficit(best - e.log_likelihood_ratio));
   for (const LabelEvidence& e : evidence) {
-    const double counts =
-        elementary::exp(-std::min(best - e.log_likelihood_ratio, kLargestDeficit) / kSizeFades);
+    const double counts = size_counts(best - e.log_likelihood_ratio);
     features.push_back(counts * bounded_size(e.size[0]));
     for (int s = 1; s < describe(e.label.kind).size_count; ++s)
       features.push_back(counts * bounded_size(e.size[s]));
@@ -135,17 +133,51 @@ std::vector<double> episode_features(const EpisodeEvidence& episode,
   return features;
 }
 
+std::vector<EpisodeFeature> episode_feature_list(std::span<const Hypothesis> bank, int joints) {
+  const std::vector<FaultLabel> labels = distinct_labels(bank);
+  std::vector<EpisodeFeature> list;
+  for (const FaultLabel& label : labels) list.push_back({FeatureRole::behind, label});
+  for (const FaultLabel& label : labels)
+    for (int s = 0; s < std::max(describe(label.kind).size_count, 1); ++s)
+      list.push_back({FeatureRole::size, label, s});
+  for (const FeatureRole role : {FeatureRole::strength, FeatureRole::samples, FeatureRole::duration})
+    list.push_back({.role = role});
+  for (int j = 1; j <= joints; ++j) list.push_back({.role = FeatureRole::residual, .joint = j});
+  return list;
+}
+
+std::string name_of(const EpisodeFeature& feature) {
+  switch (feature.role) {
+    case FeatureRole::behind:
+      return "behind " + label_text(feature.label);
+    case FeatureRole::size:
+      return (feature.size == 0 ? "size"
+                                : std::string(describe(feature.label.kind).size[feature.size].feature_name)) +
+             " " + label_text(feature.label);
+    case FeatureRole::strength:
+      return "strength";
+    case FeatureRole::samples:
+      return "samples";
+    case FeatureRole::duration:
+      return "duration";
+    case FeatureRole::residual:
+      return "mlp residual " + std::to_string(feature.joint);
+  }
+  return "";
+}
+
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints) {
   std::vector<std::string> names;
-  for (const FaultLabel& label : distinct_labels(bank)) names.push_back("behind " + label_text(label));
-  for (const FaultLabel& label : distinct_labels(bank)) {
-    names.push_back("size " + label_text(label));
-    for (int s = 1; s < describe(label.kind).size_count; ++s)
-      names.push_back(describe(label.kind).size[s].feature_name + (" " + label_text(label)));
-  }
-  names.insert(names.end(), {"strength", "samples", "duration"});
-  for (int j = 1; j <= joints; ++j) names.push_back("mlp residual " + std::to_string(j));
+  for (const EpisodeFeature& feature : episode_feature_list(bank, joints)) names.push_back(name_of(feature));
   return names;
+}
+
+double feature_of_deficit(double nats) { return -elementary::log1p(std::min(nats, kLargestDeficit)); }
+
+double deficit_of_feature(double feature) { return elementary::exp(-feature) - 1.0; }
+
+double size_counts(double deficit_nats) {
+  return elementary::exp(-std::min(deficit_nats, kLargestDeficit) / kSizeFades);
 }
 
 }  // namespace faultline

@@ -44,6 +44,33 @@ double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& e
 std::vector<double> episode_features(const EpisodeEvidence& episode,
                                      const std::vector<LabelEvidence>& evidence,
                                      std::span<const JointResidual> residuals, int joints);
+
+/// What a number among the features of an episode tells.
+enum class FeatureRole {
+  behind,    ///< how far `label` stays behind the likeliest
+  size,      ///< size number `size` of `label`, as its kind has them
+  strength,  ///< how much likelier the best label is than a healthy robot
+  samples,   ///< from onset to name
+  duration,  ///< the same as time
+  residual,  ///< of the MLP at `joint`
+};
+struct EpisodeFeature {
+  FeatureRole role = FeatureRole::strength;
+  FaultLabel label{};
+  int size = 0;   ///< from 0
+  int joint = 0;  ///< from 1
+};
+
+/// What episode_features() gives, in its order.
+std::vector<EpisodeFeature> episode_feature_list(std::span<const Hypothesis> bank, int joints);
+std::string name_of(const EpisodeFeature& feature);
 std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints);
+
+// How numbers become features, and back as far as that is possible: nats behind the likeliest (at most
+// kLargestDeficit), and how much the size of a label so far behind counts.
+inline constexpr double kLargestDeficit = 300.0;  ///< beyond it a label is out of the question anyway
+double feature_of_deficit(double nats);
+double deficit_of_feature(double feature);
+double size_counts(double deficit_nats);
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include "lib/diagnosis/decision.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
+#include "lib/diagnosis/precedents.hpp"
 
 namespace faultline {
 namespace {
@@ -26,7 +27,9 @@ FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model
   basis.votes = votes_on(basis.episode, cases);
   Decision decision = decide(basis);
   decision.confidence = calibrated(decision, model.confidence);
-  return finding_of({observed, basis, decision}, model);
+  FaultFinding finding = finding_of({observed, basis, decision}, model);
+  finding.precedents = precedents_of(basis, cases, model);
+  return finding;
 }
 
 }  // namespace faultline

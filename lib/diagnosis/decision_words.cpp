@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "lib/cases/case_origin.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -13,6 +16,14 @@ std::string words(const FaultLabel& label) { return label_text(label, " at joint
 std::string disagreement(const Episode& episode) {
   return fmt::format("the networks disagree (MLP {}, RBFN {})", words(episode.mlp.label),
                      words(episode.rbfn.label));
+}
+
+/// ", all simulated," where that is all that voted.
+std::string if_simulated(const Votes& votes) {
+  const bool all = std::all_of(votes.precedents.begin(), votes.precedents.end(), [](const Neighbour& n) {
+    return origin_of(*n.found) == CaseOrigin::simulated;
+  });
+  return all && !votes.precedents.empty() ? ", all simulated," : "";
 }
 
 /// That the size of a torque loss gave the fault another name; empty when it did not.
@@ -40,9 +51,9 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
     case DecisionReason::votes_even:
       return disagreement(episode) + " and the similar cases do not settle it";
     case DecisionReason::votes_settle:
-      return fmt::format("{}; {} similar cases and the opinions give {} {:.0f} % of the votes{}",
-                         disagreement(episode), basis.votes.precedents.size(), words(decision.voted),
-                         100.0 * decision.confidence, renaming(decision));
+      return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes{}",
+                         disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
+                         words(decision.voted), 100.0 * decision.confidence, renaming(decision));
     case DecisionReason::others_refuted:
       return fmt::format("{} leaves far more of the motion unexplained than noise does; {} does not",
                          words(decision.voted), words(decision.label));
@@ -66,7 +77,7 @@ std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes
       warnings.push_back("no recorded case resembles this episode");
     else if (const LabelShare& most = votes.of_cases[0];
              most.label != decision.voted && most.label != decision.label && most.share > options.clear_share)
-      warnings.push_back(fmt::format("most similar cases were {}", words(most.label)));
+      warnings.push_back(fmt::format("most similar cases{} were {}", if_simulated(votes), words(most.label)));
   }
   if (decision.reason == DecisionReason::thin_evidence) return warnings;
   for (const Neighbour& n : votes.precedents)

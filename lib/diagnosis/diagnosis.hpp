@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/cases/case_origin.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/diagnosis/condition.hpp"
 #include "lib/diagnosis/decided_by.hpp"
@@ -25,12 +26,31 @@ enum class Verdict {
 };
 const char* to_string(Verdict verdict);
 
+/// One thing in which a case and an episode agree or differ.
+struct PrecedentFeature {
+  std::string name;  ///< of the feature, as in EpisodeFacts
+  std::string what;  ///< in words
+  std::string unit;
+  double here = std::numeric_limits<double>::quiet_NaN();   ///< in the episode
+  double there = std::numeric_limits<double>::quiet_NaN();  ///< in the case
+  double difference = 0.0;  ///< in units of what cases of the same fault commonly differ by
+};
+
 /// A case of the case base that resembles an episode.
 struct Precedent {
   std::int64_t case_id = 0;
-  FaultLabel label;
+  FaultLabel label{};
   double similarity = 0.0;  ///< 0 to 1
-  std::string what_was_done;
+  std::string what_was_done{};
+  CaseOrigin origin = CaseOrigin::simulated;
+  std::string origin_text{};  ///< in words; who says what it was, and when
+  std::string log{};          ///< that it was seen in; empty where that is not known, as the next three
+  std::string robot{};
+  std::string person{};
+  std::string date{};
+  bool voted = true;                      ///< false: too far behind for a vote, but near and not simulated
+  std::vector<PrecedentFeature> alike{};  ///< a few, those that tell most first
+  std::vector<PrecedentFeature> unlike{};
 };
 
 struct Alternative {
@@ -63,7 +83,7 @@ struct FaultFinding {
   Opinion mlp;
   Opinion rbfn;
   DecidedBy decided_by = DecidedBy::evidence;
-  std::vector<Precedent> precedents;
+  std::vector<Precedent> precedents;  ///< by origin, then the most similar first
   std::vector<Alternative> could_also_be;
   std::vector<EvidenceItem> evidence;
   std::string next_check;  ///< what a technician should look at next

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double kSureOfSlow = 0.95;  // its interval alone leaves less, other kinds leave more
 
-std::vector<Precedent> precedents_of(const Votes& votes) {
-  std::vector<Precedent> precedents;
-  for (const Neighbour& n : votes.precedents)
-    precedents.push_back({n.found->id, n.found->label, n.similarity, n.found->what_was_done});
-  return precedents;
-}
-
 EpisodeFacts facts_of(const Episode& episode, const std::vector<std::string>& feature_names) {
   EpisodeFacts facts;
   facts.evidence = episode.evidence;
@@ -41,7 +34,6 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   finding.mlp = basis.episode.mlp;
   finding.rbfn = basis.episode.rbfn;
   finding.decided_by = decision.decided_by;
-  finding.precedents = precedents_of(basis.votes);
   finding.could_also_be = alternatives_to(decided, model);
   finding.evidence = finding_evidence(decided, model);
   finding.next_check = next_check_for(decision.label);

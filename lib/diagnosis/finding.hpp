@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// All that is said about an episode once the decision stands: precedents, what it could also be, what speaks
-/// for it, and what to check next.
+/// All that is said about an episode once the decision stands, but for similar cases (precedents_of()): what
+/// it could also be, what speaks for it, and what to check next.
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
 
 /// Friction that crept away, or was that high from the first row.

@@ -9,6 +9,7 @@
 #include "lib/html/elements.hpp"
 #include "lib/html/figure.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/precedent_words.hpp"
 
 namespace faultline {
 namespace {
@@ -32,12 +33,35 @@ std::string alternatives(const FaultFinding& f) {
   return html_list(lines);
 }
 
+std::vector<HtmlRow> feature_rows(const char* likeness, const std::vector<PrecedentFeature>& features) {
+  std::vector<HtmlRow> rows;
+  for (const PrecedentFeature& f : features)
+    rows.push_back({likeness, f.what, feature_value_text(f.here, f.unit), feature_value_text(f.there, f.unit),
+                    fmt::format("{:.2g}", f.difference)});
+  return rows;
+}
+
+std::string likeness(const Precedent& p) {
+  std::vector<HtmlRow> rows = feature_rows("alike", p.alike);
+  for (HtmlRow& row : feature_rows("unlike", p.unlike)) rows.push_back(std::move(row));
+  if (rows.empty()) return "";
+  return fmt::format("<details><summary>Why case {} is similar</summary>\n{}</details>\n", p.case_id,
+                     html_table({"", "in", "here", "there", "difference"}, rows));
+}
+
 std::string precedents(const FaultFinding& f) {
   std::vector<HtmlRow> rows;
-  for (const Precedent& p : f.precedents)
+  std::string why;
+  for (const Precedent& p : f.precedents) {
     rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
+                    p.origin_text.empty() ? "-" : p.origin_text,
                     p.what_was_done.empty() ? "-" : p.what_was_done});
-  return html_table({"case", "similarity", "what it was", "what was done then"}, rows);
+    why += likeness(p);
+  }
+  if (!why.empty())
+    why += "<p class=\"sub\">A difference of 1 is what cases of the same fault commonly differ by.</p>\n";
+  return html_table({"case", "similarity", "what it was", "how that is known", "what was done then"}, rows) +
+         why;
 }
 
 std::string evidence(const FaultFinding& f) {
@@ -69,10 +93,10 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
   text += html_plots(figures, f.id, period_s);
   text += "<div class=\"columns\">\n";
   text += column(html_part("It could also be", alternatives(f)));
-  text += column(html_part("Similar cases", precedents(f)));
   text += column(html_part("Evidence", evidence(f)));
   text += column(html_part("What both networks said", opinions(f)));
-  return text + "</div>\n</section>\n";
+  text += "</div>\n" + html_part(precedents_title(f).c_str(), precedents(f));
+  return text + "</section>\n";
 }
 
 std::string html_fault_link(const FaultFinding& f, double zero_s) {

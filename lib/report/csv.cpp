@@ -5,6 +5,7 @@
 
 #include "lib/core/csv_cell.hpp"
 #include "lib/fault/label_text.hpp"
+#include "lib/report/precedent_words.hpp"
 
 namespace faultline {
 namespace {
@@ -21,24 +22,31 @@ std::string alternatives(const FaultFinding& fault) {
   return text;
 }
 
+std::string similar_cases(const FaultFinding& fault) {
+  std::string text;
+  for (const Precedent& p : fault.precedents) text += (text.empty() ? "" : ";") + precedent_code(p);
+  return text;
+}
+
 std::string fault_row(const Diagnosis& d, const FaultFinding& f) {
   return row({d.log.path, to_string(f.label.kind), csv_joint(f.label.joint), csv_cell(f.onset_s),
               csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence), to_string(f.decided_by),
               to_string(f.mlp.label.kind), csv_joint(f.mlp.label.joint), csv_cell(f.mlp.confidence),
               to_string(f.rbfn.label.kind), csv_joint(f.rbfn.label.joint), csv_cell(f.rbfn.confidence),
-              alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256});
+              alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256, similar_cases(f)});
 }
 
 std::string healthy_row(const Diagnosis& d) {
   return row({d.log.path, "none", "", "", "", "", "", "", "", "", "", "", "", "", "", to_string(d.verdict),
-              d.log.sha256, d.model.sha256});
+              d.log.sha256, d.model.sha256, ""});
 }
 
 }  // namespace
 
 std::string csv_header() {
   return "file,fault,joint,onset_s,end_s,alarm_s,confidence,decided_by,mlp_fault,mlp_joint,mlp_confidence,"
-         "rbfn_fault,rbfn_joint,rbfn_confidence,could_also_be,verdict,log_sha256,model_sha256\n";
+         "rbfn_fault,rbfn_joint,rbfn_confidence,could_also_be,verdict,log_sha256,model_sha256,"
+         "similar_cases\n";
 }
 
 std::string csv_rows(const Diagnosis& diagnosis) {

@@ -3,20 +3,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
+namespace {
+
+bool only_simulated_voted(const FaultFinding& fault) {
+  return std::all_of(fault.precedents.begin(), fault.precedents.end(),
+                     [](const Precedent& p) { return !p.voted || p.origin == CaseOrigin::simulated; });
+}
+
+}  // namespace
 
 const char* decided_words(const FaultFinding& fault) {
   switch (fault.decided_by) {
     case DecidedBy::agreement:
       return "both networks agree";
     case DecidedBy::cases:
-      return fault.precedents.empty() ? "the networks disagree and no similar case is known"
-                                      : "the networks disagree; similar cases decided";
+      if (fault.precedents.empty()) return "the networks disagree and no similar case is known";
+      return only_simulated_voted(fault) ? "the networks disagree; similar simulated cases decided"
+                                         : "the networks disagree; similar cases decided";
     case DecidedBy::evidence:
       return "the physical evidence decided";
     case DecidedBy::criterion:

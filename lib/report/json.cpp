@@ -63,12 +63,31 @@ Json opinion_json(const Opinion& opinion) {
   return json;
 }
 
+Json feature_json(const PrecedentFeature& feature) {
+  return {{"name", feature.name},
+          {"what", feature.what},
+          {"here", number_or_null(feature.here)},
+          {"there", number_or_null(feature.there)},
+          {"unit", text_or_null(feature.unit)},
+          {"difference", number_or_null(feature.difference)}};
+}
+
+Json origin_json(const Precedent& precedent) {
+  return {{"kind", to_string(precedent.origin)},      {"text", precedent.origin_text},
+          {"log", text_or_null(precedent.log)},       {"robot", text_or_null(precedent.robot)},
+          {"person", text_or_null(precedent.person)}, {"date", text_or_null(precedent.date)}};
+}
+
 Json precedent_json(const Precedent& precedent) {
   Json json;
   json["case"] = precedent.case_id;
   put_label(json, precedent.label);
   json["similarity"] = number_or_null(precedent.similarity);
   json["what_was_done"] = text_or_null(precedent.what_was_done);
+  json["origin"] = origin_json(precedent);
+  json["voted"] = precedent.voted;
+  json["alike"] = list_of<Json>(precedent.alike, feature_json);
+  json["unlike"] = list_of<Json>(precedent.unlike, feature_json);
   return json;
 }
 

@@ -10,10 +10,13 @@
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/precedent_words.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kShownFeatures = 3;
 
 std::string row(const std::vector<std::string>& cells) {
   std::string text = "|";
@@ -37,6 +40,8 @@ std::string list(const std::string& title, const std::vector<std::string>& lines
   return text + "\n";
 }
 
+std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
+
 std::string fault_table(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
   const double period = d.log.sample_period_s;
@@ -47,6 +52,21 @@ std::string fault_table(const Diagnosis& d) {
   return table({"fault", "what", "onset", "alarm", "end", "confidence", "decided by"}, rows);
 }
 
+std::string similar_cases(const FaultFinding& f) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> why;
+  for (const Precedent& p : f.precedents) {
+    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
+                    or_dash(p.origin_text), or_dash(p.what_was_done)});
+    if (const std::string words = likeness_words(p, kShownFeatures); !words.empty())
+      why.push_back(fmt::format("case {}, {}", p.case_id, words));
+  }
+  const std::string cases =
+      table({"similar case", "similarity", "what it was", "how that is known", "what was done then"}, rows);
+  if (cases.empty()) return "";
+  return "**" + precedents_title(f) + "**\n\n" + cases + list("Why they are similar", why);
+}
+
 std::string finding(const FaultFinding& f) {
   std::string text = fmt::format("### Fault {}: {}\n\n", f.id, escaped_markdown(plain_words(f.label)));
   if (!f.next_check.empty()) text += "**Check next:** " + escaped_markdown(f.next_check) + "\n\n";
@@ -54,11 +74,7 @@ std::string finding(const FaultFinding& f) {
   for (const Alternative& a : f.could_also_be) others.push_back(plain_words(a.label) + ": " + a.why);
   for (const EvidenceItem& item : f.evidence) evidence.push_back(evidence_line(item));
   text += list("It could also be", others);
-  std::vector<std::vector<std::string>> similar;
-  for (const Precedent& p : f.precedents)
-    similar.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
-                       p.what_was_done.empty() ? "-" : p.what_was_done});
-  text += table({"similar case", "similarity", "what it was", "what was done then"}, similar);
+  text += similar_cases(f);
   if (was_asked(f.mlp) || was_asked(f.rbfn))
     text += table({"network", "says", "confidence"},
                   {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},

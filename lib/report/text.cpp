@@ -12,11 +12,12 @@
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/precedent_words.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr std::size_t kShownPrecedents = 3;
+constexpr std::size_t kShownPrecedents = 3, kShownFeatures = 2;
 
 std::string sentence(const std::string& text) {
   std::string s = printable(text);
@@ -93,17 +94,25 @@ class FaultBlock {
     return text.empty() ? "" : "  It could also be\n" + text;
   }
 
+  /// A line more below an item.
+  std::string more(const std::string& text) const {
+    return text.empty() ? "" : wrapped(printable(text), "      ", options_.width);
+  }
+
+  std::string precedent(const Precedent& p) const {
+    const std::string known = p.origin_text.empty() ? "" : "; " + p.origin_text;
+    const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
+    return item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
+                known + done) +
+           more(likeness_words(p, kShownFeatures));
+  }
+
   std::string precedents() const {
     std::string text;
-    for (const Precedent& p : fault_.precedents | std::views::take(kShownPrecedents)) {
-      const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
-      text +=
-          item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
-               done);
-    }
+    for (const Precedent& p : fault_.precedents | std::views::take(kShownPrecedents)) text += precedent(p);
     if (fault_.precedents.size() > kShownPrecedents)
-      text += item(fmt::format("{} more, less similar", fault_.precedents.size() - kShownPrecedents));
-    return text.empty() ? "" : "  Similar cases\n" + text;
+      text += item(fmt::format("{} more", fault_.precedents.size() - kShownPrecedents));
+    return text.empty() ? "" : "  " + precedents_title(fault_) + "\n" + text;
   }
 
   std::string evidence() const {

@@ -32,6 +32,25 @@ inline Diagnosis healthy_diagnosis() {
   return d;
 }
 
+/// One confirmed in the field, and a simulated one that is more like it.
+inline std::vector<Precedent> example_precedents() {
+  const FaultLabel locked{FaultKind::locked, 2};
+  Precedent field{
+      .case_id = 31, .label = locked, .similarity = 0.71, .what_was_done = "changed the brake relay"};
+  field.origin = CaseOrigin::field;
+  field.origin_text = "confirmed in the field by A. Weber on 2026-03-02, robot bench 7, log night.csv";
+  field.log = "night.csv";
+  field.robot = "bench 7";
+  field.person = "A. Weber";
+  field.date = "2026-03-02";
+  field.alike = {{"mlp residual 2", "MLP residual of joint 2", "times healthy", 12.5, 13.25, 0.125}};
+  field.unlike = {{"duration", "time from onset until it was named", "s", 0.5, 2.25, 2.5}};
+  Precedent simulated{.case_id = 12, .label = locked, .similarity = 0.83};
+  simulated.origin_text = "simulated with the robot's model";
+  simulated.alike = field.alike;
+  return {field, simulated};
+}
+
 inline FaultFinding locked_joint() {
   FaultFinding f;
   f.label = {FaultKind::locked, 2};
@@ -42,7 +61,7 @@ inline FaultFinding locked_joint() {
   f.mlp = {f.label, 0.98};
   f.rbfn = {f.label, 0.95};
   f.decided_by = DecidedBy::agreement;
-  f.precedents = {{12, f.label, 0.83, "changed the brake relay"}, {31, f.label, 0.71, ""}};
+  f.precedents = example_precedents();
   const FaultLabel stuck{FaultKind::stuck_encoder, 2};
   f.could_also_be = {{stuck, why_alike(f.label, stuck)}};
   f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
@@ -86,6 +105,8 @@ inline Diagnosis hostile_diagnosis() {
   f.rbfn = {{FaultKind::payload_change, 0}, 0.4};
   f.decided_by = DecidedBy::cases;
   f.precedents = {{7, {FaultKind::collision, 1}, 0.41, "]]> \"done\"\x07\nnext line"}};
+  f.precedents[0].origin_text = "confirmed in the field by <b>|\x1b[31m\nA. & B.</b>";
+  f.precedents[0].alike = {{"a", "<i>|x|\x07", "\"m\"", 1.0, 2.0, 0.5}};
   f.could_also_be = {{{FaultKind::collision, 1}, "the MLP says so"}};
   f.next_check = next_check_for(f.label);
   d.faults.push_back(f);

@@ -91,7 +91,7 @@ TEST(CsvReport, EveryRecordHasTheColumnsOfTheHeader) {
   for (const auto example : kExamples) {
     const auto records = parse_csv(render_csv(example()));
     ASSERT_GE(records.size(), 1u);
-    EXPECT_EQ(records[0].size(), 18u);
+    EXPECT_EQ(records[0].size(), 19u);
     for (const auto& record : records) EXPECT_EQ(record.size(), records[0].size());
   }
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+
+#include "lib/classify/episode_features.hpp"
+
+namespace faultline {
+
+/// A feature of an episode as a person reads it: in words, and in a unit instead of its logarithm.
+struct FeatureReading {
+  std::string what;                                         ///< such as "MLP residual of joint 2"
+  std::string unit;                                         ///< empty for a number without one
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN where the feature does not tell it
+};
+
+/// Feature `which` of `features`, whose meaning is `list`. The size of a fault that stays far behind the
+/// likeliest is not told.
+FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
+                            std::span<const double> features, const MotionModel& model);
+
+}  // namespace faultline
