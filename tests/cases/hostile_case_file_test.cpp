@@ -19,7 +19,7 @@ namespace faultline {
 namespace {
 
 /// Version 1, as programs before the digest wrote it.
-const std::string kOldBase = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden/cases-6f5469ce.db";
+const std::string kOldBase = std::string(FAULTLINE_SOURCE_DIR) + "/tests/cases/earlier_version.cases.db";
 
 class HostileCaseFile : public testing::Test {
  protected:
