@@ -26,7 +26,7 @@ std::string made_by_program(const std::string& robot) {
   return folder + "/";
 }
 
-/// The same channels and numbers, bit for bit; the binary samples are of an earlier version of the format.
+/// The same channels and numbers, bit for bit; in which version of the format does not count.
 void expect_same_rows(const std::string& made, const std::string& kept) {
   Log mine = read_all(*open_log(made)), theirs = read_all(*open_log(kept));
   ASSERT_GT(theirs.rows(), 0) << kept;
