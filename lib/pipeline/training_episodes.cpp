@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/training_episodes.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
+#include "lib/core/error.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
 
 namespace faultline {
@@ -28,6 +32,23 @@ CaseSource source_of(const MonitoredRun& run) {
           run.onset_s};
 }
 
+/// Every classifier, also those of halves, tells at least two kinds of fault apart.
+void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    std::vector<FaultLabel> labels;
+    for (std::size_t i = half; i < episodes.size(); i += 2)
+      if (std::find(labels.begin(), labels.end(), episodes[i].label) == labels.end())
+        labels.push_back(episodes[i].label);
+    if (labels.size() < 2)
+      throw Error(
+          ErrorCode::input, "the healthy logs",
+          fmt::format("are too noisy, or the robot explains too little of them, to tell faults apart: "
+                      "only {} of {} simulated faults show in them. Are units, signs and columns right? "
+                      "Otherwise record longer and faster motions with less noise",
+                      episodes.size(), runs));
+  }
+}
+
 }  // namespace
 
 TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model) {
@@ -40,6 +61,7 @@ TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Mod
     out.evidence.push_back(episode.evidence);
     out.sources.push_back(source_of(run));
   }
+  check_kinds(out.episodes, runs.size());
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
+#include "tests/apps/golden_copy.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -92,8 +93,9 @@ TEST(Inspect, VelocitiesItSaysWillBeDerivedAreDerived) {
   };
   const std::string path = folder.write("run.csv", without("dq"));
   EXPECT_NE(run_program({"inspect", path}).out.find("it will be derived"), std::string::npos);
-  const ProgramRun run = run_program(
-      {"diagnose", path, "--model", golden + "model-54d23e09.json", "--cases", golden + "cases-6f5469ce.db"});
+  const GoldenCopy copy;
+  const ProgramRun run =
+      run_program({"diagnose", path, "--model", copy.file("", "model-"), "--cases", copy.file("", "cases-")});
   EXPECT_EQ(run.status, 1) << run.err;
 }
 
