@@ -32,7 +32,7 @@ Learned* FaultEnd::learned_ = nullptr;
 
 TEST_F(FaultEnd, AShortCollisionEndsWhenItIsOver) {
   for (const double duration_s : {0.05, 0.15}) {
-    const auto faults = found({{FaultKind::collision, 1, 5.0, duration_s, 40.0, 0.0}});
+    const auto faults = found({{FaultKind::collision, 1, 5.0, 5.0 + duration_s, 40.0, 0.0}});
     ASSERT_EQ(faults.size(), 1u) << duration_s;
     EXPECT_NEAR(faults[0].end_s, 5.0 + duration_s, kLate_s) << duration_s;
   }
@@ -48,7 +48,7 @@ TEST_F(FaultEnd, WhatLastsEndsWithTheLog) {
 
 TEST_F(FaultEnd, TwoLossesOfTwoSecondsAreTwo) {
   const auto faults = found(
-      {{FaultKind::torque_loss, 1, 3.0, 2.0, 0.6, 0.0}, {FaultKind::torque_loss, 1, 9.0, 2.0, 0.6, 0.0}});
+      {{FaultKind::torque_loss, 1, 3.0, 5.0, 0.6, 0.0}, {FaultKind::torque_loss, 1, 9.0, 11.0, 0.6, 0.0}});
   ASSERT_EQ(faults.size(), 2u);
   EXPECT_NEAR(faults[0].onset_s, 3.0, kLate_s);
   EXPECT_NEAR(faults[0].end_s, 5.0, kLate_s);
