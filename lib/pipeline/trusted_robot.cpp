@@ -167,11 +167,10 @@ TrustedRobot trusted_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const WatchedRobotOptions& options, const Progress& progress) {
   Trial trial(logs, robot, options);
   trial.learn(part_of(progress, 0.0, kFirst));
-  const Progress rest = part_of(progress, 0.0, 1.0);
   if (trial.keeps_all())
-    trial.doubt(rest);
+    trial.doubt(progress);
   else
-    trial.leave_out_contradicting(rest);
+    trial.leave_out_contradicting(progress);
   return std::move(trial).result();
 }
 
