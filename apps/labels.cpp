@@ -9,6 +9,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/open_ending.hpp"
 
 namespace faultline {
 namespace {
@@ -82,7 +83,9 @@ LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& a
 }  // namespace
 
 std::vector<LogLabel> read_labels(const std::string& path) {
-  std::istringstream text(read_file(path));
+  const std::string bytes = read_file(path);
+  refuse_open_number(bytes, path);
+  std::istringstream text(bytes);
   std::string line;
   std::getline(text, line);
   const std::vector<std::string> header = cells_of(line);

@@ -61,6 +61,8 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   for (const std::string& log : arguments.logs) {
     open.owners.push_back(open_robot_log(log, robot));
     const std::optional<LogLabel> label = checked_label(labels, robot, log);
+    if (!label && !labels.empty())
+      tell(printable(log) + " is not named in " + printable(arguments.labels) + "; it counts as healthy");
     if (label && label->label.kind != FaultKind::none)
       open.labelled.push_back({open.owners.back().get(), label->label, label->onset_s});
     else

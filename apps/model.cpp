@@ -22,7 +22,8 @@ int sign_model(const SignArguments& arguments) {
   const std::string accepted = signed_model_text(text, arguments.why, arguments.model);
   model_from_json(accepted, arguments.model);
   if (accepted == text) {
-    print(printable(arguments.model) + " fits its digest; there is nothing to sign.\n");
+    print(printable(arguments.model) + " fits its digest; there is nothing to sign" +
+          (arguments.why.empty() ? ".\n" : ", and --why is not kept.\n"));
     return kNothingFound;
   }
   write_file(arguments.model, accepted);

@@ -2,18 +2,21 @@
 // Export and import of cases.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/terminal.hpp"
+#include "lib/cases/carry_over.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"
 #include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/model/model_files.hpp"
 
 namespace faultline {
@@ -82,6 +85,20 @@ int export_cases(const CasesArguments& arguments) {
   return kNothingFound;
 }
 
+/// What --replace drops, told before it is gone.
+std::string replaced_text(const std::string& path) {
+  try {
+    const CaseBase old = read_case_base(path);
+    const auto of_people = std::count_if(old.cases().begin(), old.cases().end(),
+                                         [](const Case& c) { return !is_made_by_learn(c); });
+    return fmt::format("; {} that {} there before {} replaced, {} of them by people",
+                       counted(std::ssize(old.cases()), "case"), old.cases().size() == 1 ? "was" : "were",
+                       old.cases().size() == 1 ? "was" : "were", of_people);
+  } catch (const Error&) {
+    return "; what was there before could not be read and was replaced";
+  }
+}
+
 int import_cases(const CasesArguments& arguments) {
   FileUse()
       .reads("the export", arguments.file)
@@ -94,6 +111,7 @@ int import_cases(const CasesArguments& arguments) {
   if (!arguments.model.empty() && !arguments.merge) bind_to_model(imported, arguments.model);
   const std::string path = arguments.path();
   MergedCases merged{std::ssize(imported.cases()), 0};
+  const std::string replaced = has_case_base(path) && !arguments.merge ? replaced_text(path) : "";
   if (arguments.merge)
     merged = merge_into(arguments, imported);
   else if (has_case_base(path) && !arguments.replace)
@@ -104,7 +122,8 @@ int import_cases(const CasesArguments& arguments) {
   const nlohmann::ordered_json json = {{"read", read}, {"added", merged.added}, {"updated", merged.updated}};
   const std::string updated = merged.updated > 0 ? fmt::format(", {} updated", merged.updated) : "";
   print(arguments.json ? json.dump(2) + "\n"
-                       : fmt::format("{} cases read, {} added{}\n", read, merged.added, updated));
+                       : fmt::format("{} read, {} added{}{}\n", counted(std::ssize(imported.cases()), "case"),
+                                     merged.added, updated, replaced));
   return kNothingFound;
 }
 

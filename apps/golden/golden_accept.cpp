@@ -64,6 +64,18 @@ std::vector<std::string> changing(const GoldenCheck& part, bool all) {
   return names;
 }
 
+/// Of --same-verdict: what stays as it was expected.
+std::vector<std::string> found_otherwise(const AcceptArguments& arguments, const GoldenCheck& check) {
+  std::vector<std::string> names;
+  for (const CheckedItem& item : check.items)
+    if (arguments.same_verdict && item.changes_verdict()) names.push_back(item.name);
+  return names;
+}
+
+std::string sentence(const char* what, const std::vector<std::string>& names) {
+  return fmt::format("{}: {}\n", what, printable(fmt::format("{}", fmt::join(names, ", "))));
+}
+
 int run_accept(const AcceptArguments& arguments, ColorChoice color) {
   const GoldenSet set = load_golden(arguments.folder);
   const ModelAndCases subject = golden_subject(arguments, set);
@@ -71,26 +83,32 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
   const GoldenCheck check = check_golden(set, run);
   const GoldenCheck part = only(check, named_items(arguments, check));
   const bool in_color = use_color(color, stdout);
-  print(render_check_text(part, in_color), in_color);
+  print(render_check_text(arguments.same_verdict ? check : part, in_color), in_color);
   if (!arguments.accepts()) {
     print(part.same() ? "There is nothing to accept.\n"
                       : "Nothing was changed. Name the logs to accept, or give --all.\n");
     return part.same() ? kNothingFound : kFindings;
   }
   const bool new_model = !arguments.model.empty();
+  const std::vector<std::string> otherwise = found_otherwise(arguments, check);
+  if (!otherwise.empty() && new_model) {
+    print(sentence("Nothing was changed. This model finds something else in", otherwise));
+    return kFindings;
+  }
+  if (!otherwise.empty()) print(sentence("Not accepted, since something else is found in", otherwise));
+  const int status = otherwise.empty() ? kNothingFound : kFindings;
   const std::vector<std::string> names = changing(part, new_model || !set.tells_reasons);
   if (names.empty()) {
     remove_left_over(arguments.folder, set);
     print("There is nothing to accept.\n");
-    return kNothingFound;
+    return status;
   }
   accept_golden(arguments.folder, set, run, names,
                 new_model ? NewModel{arguments.model, arguments.case_base(), &subject} : NewModel{},
                 default_tolerances(subject.model));
   remove_left_over(arguments.folder, load_golden(arguments.folder));
-  print(fmt::format("Accepted: {}{}\n", printable(fmt::format("{}", fmt::join(names, ", "))),
-                    new_model ? ", and the model" : ""));
-  return kNothingFound;
+  print(sentence(new_model ? "Accepted, with the new model" : "Accepted", names));
+  return status;
 }
 
 }  // namespace
@@ -114,7 +132,8 @@ void add_golden_accept(CLI::App* golden, Program& program) {
                    "Take this model into the folder; what is expected of logs that are not named stays");
   add_golden_threads(*command, *arguments);
   command->footer(
-      "Exit status 0: accepted or nothing to accept, 1: nothing named though something differs.\n"
+      "Exit status 0: accepted or nothing to accept, 1: something that differs was not\n"
+      "accepted.\n"
       "Example: faultline golden accept golden locked_1.csv identification");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_accept(*arguments, program.color); };

@@ -20,6 +20,8 @@ Opinion opinion_from(const Json& json) { return {label_from(json), json.at("conf
 const Json& fault_with_id(const Json& diagnosis, const std::string& where, int id) {
   for (const Json& fault : diagnosis.at("faults"))
     if (fault.at("id") == id) return fault;
+  if (diagnosis.at("faults").empty())
+    throw Error(ErrorCode::usage, where, "names no fault, so there is no case in it");
   throw Error(ErrorCode::usage, where,
               "has no fault " + std::to_string(id) + "; its faults are numbered 1 to " +
                   std::to_string(diagnosis.at("faults").size()));

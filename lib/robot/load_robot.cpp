@@ -3,6 +3,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/open_ending.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/urdf/urdf.hpp"
 
@@ -29,7 +30,9 @@ Robot load_robot_file(const std::string& name, const std::string& folder) {
   }
   if (has_urdf_name(path)) return load_urdf_file(path);
   const std::string text = read_file(path);
-  return is_xml(text) ? robot_from_urdf(text, path) : robot_from_toml(text, path);
+  if (is_xml(text)) return robot_from_urdf(text, path);
+  refuse_open_number(text, path);
+  return robot_from_toml(text, path);
 }
 
 std::string robot_text_for(const std::string& path, const Robot& robot) {

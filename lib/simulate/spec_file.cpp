@@ -9,6 +9,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/open_ending.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -137,8 +138,9 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
 }
 
 SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options) {
-  return simulation_from_toml(read_file(path), path, std::filesystem::path(path).parent_path().string(),
-                              options);
+  const std::string text = read_file(path);
+  refuse_open_number(text, path);
+  return simulation_from_toml(text, path, std::filesystem::path(path).parent_path().string(), options);
 }
 
 }  // namespace faultline

@@ -53,6 +53,11 @@ TEST_F(BadLearning, LabelsWithoutAColumn) {
   expect_refused(learn(kLog, "file,fault\nlog.csv,none\n"), 3, {"labels.csv", "\"joint\"", "onset_s"});
 }
 
+TEST_F(BadLearning, LabelsThatMayBeCutInANumber) {
+  expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,1"), 3,
+                 {"labels.csv", "line break"});
+}
+
 TEST_F(BadLearning, LabelsThatAreEmpty) { expect_refused(learn(kLog, "\n"), 3, {"labels.csv", "\"file\""}); }
 
 TEST_F(BadLearning, LabelsWithAnUnknownFault) {

@@ -128,7 +128,7 @@ TEST_F(GoldenAccept, OneLogIsTakenWithANewModelAndWhatIsExpectedOfOthersStays) {
   ASSERT_EQ(run_program({"model", "sign", model}).status, 0);
   const ProgramRun run = golden_.run("accept", {"locked_1", "--model", model});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(has(run.out, "Accepted: locked_1.csv, and the model")) << run.out;
+  EXPECT_TRUE(has(run.out, "Accepted, with the new model: locked_1.csv")) << run.out;
   EXPECT_TRUE(has(read_file(golden_.toml()), "name = \"new.model\""));
   EXPECT_FALSE(has(golden_.run("check").out, "threshold is"));
 }
@@ -139,9 +139,16 @@ TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
   EXPECT_EQ(check.status, 1);
   EXPECT_TRUE(has(check.out, "4 different (2 also in what is found)")) << check.out;
   const ProgramRun run = golden_.run("accept", {"--same-verdict"});
-  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_TRUE(has(run.out, "found in: locked_1.csv, payload_change.csv")) << run.out;
   EXPECT_TRUE(has(run.out, "Accepted: collision_1.csv, ")) << run.out;
   EXPECT_TRUE(has(golden_.run("check").out, "2 different (2 also in what is found)"));
+  const std::string model = golden_.outside("new.model");
+  write_file(model, read_file(golden_.file("", "model-")));
+  std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
+  const std::string before = read_file(golden_.toml());
+  EXPECT_EQ(golden_.run("accept", {"--same-verdict", "--model", model}).status, 1);
+  EXPECT_EQ(read_file(golden_.toml()), before) << "a model that finds something else is not taken";
 }
 
 TEST(GoldenOfAnEarlierProgram, IsReadAndAcceptingAllBringsItUpToDate) {
