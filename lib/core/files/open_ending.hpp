@@ -12,9 +12,10 @@ namespace faultline {
 /// cut digits off, and nothing would tell. Anything else that is cut does not parse.
 inline void refuse_open_number(const std::string& text, const std::string& path) {
   if (text.empty() || !(std::isdigit(static_cast<unsigned char>(text.back())) || text.back() == '.')) return;
-  throw Error(ErrorCode::input, path,
-              "ends in a number without a line break: was it cut? Restore it, or end its last line with a line "
-              "break");
+  throw Error(
+      ErrorCode::input, path,
+      "ends in a number without a line break: was it cut? Restore it, or end its last line with a line "
+      "break");
 }
 
 }  // namespace faultline
