@@ -40,6 +40,13 @@ std::optional<Sighting> sight(LogSource& log, const HealthyRobot& others) {
   return Sighting{others.model.bank[first.best].label, first.onset_s};
 }
 
+/// A log, and the robot of the others that names a fault in it.
+struct Contradiction {
+  int log = 0;  ///< from 0
+  Sighting seen;
+  WatchedRobot others;
+};
+
 /// Logs given to learn from, by their index from 0, and the robot that those in use make.
 class Trial {
  public:
@@ -64,14 +71,8 @@ class Trial {
   /// Doubts of two logs, or of logs that are all kept.
   void doubt(const Progress& progress) {
     if (in_use_.size() < 2) return;
-    for (const int log : suspects()) {
-      const auto others = learned_without(log, progress);
-      if (!others) continue;
-      if (const auto seen = sight(*logs_[log], others->robot)) {
-        doubts_.push_back(sentence(log, *seen) + "; it was learned from all the same");
-        return;
-      }
-    }
+    if (const auto found = find_contradiction(progress))
+      doubts_.push_back(sentence(found->log, found->seen) + "; it was learned from all the same");
   }
 
   bool keeps_all() const { return options_.identify.keep_all || in_use_.size() == 2; }
@@ -114,21 +115,27 @@ class Trial {
     }
   }
 
-  bool leave_one_out(const Progress& progress) {
+  /// The first suspect in which a robot of the others names a fault.
+  std::optional<Contradiction> find_contradiction(const Progress& progress) const {
     for (const int log : suspects()) {
       auto others = learned_without(log, progress);
       if (!others) continue;
-      const auto seen = sight(*logs_[log], others->robot);
-      if (!seen) continue;
-      issues_.push_back(make_issue(
-          fmt::format("suspicious_log_{}", log + 1), Severity::warning,
-          sentence(log, *seen) +
-              "; it was left out. If it is faulty, diagnose it or name its fault with --labels; if it is "
-              "healthy, --keep-all learns from it, too"));
-      leave_out(log, std::move(*others));
-      return true;
+      if (const auto seen = sight(*logs_[log], others->robot))
+        return Contradiction{log, *seen, std::move(*others)};
     }
-    return false;
+    return std::nullopt;
+  }
+
+  bool leave_one_out(const Progress& progress) {
+    auto found = find_contradiction(progress);
+    if (!found) return false;
+    issues_.push_back(make_issue(
+        fmt::format("suspicious_log_{}", found->log + 1), Severity::warning,
+        sentence(found->log, found->seen) +
+            "; it was left out. If it is faulty, diagnose it or name its fault with --labels; if it is "
+            "healthy, --keep-all learns from it, too"));
+    leave_out(found->log, std::move(found->others));
+    return true;
   }
 
   /// Goes on with the robot that the others made, and without what that left out by itself.

@@ -7,6 +7,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/random.hpp"
 #include "tests/fuzz/readers/readers.hpp"
+#include "tests/fuzz/seed_files.hpp"
 
 /// Seeds, changed at random in the same way each time: what a fuzzer would try first, in every run of the
 /// suite. tests/fuzz/run.sh looks further.
@@ -43,11 +44,9 @@ std::string mutated(std::string bytes, Random& random) {
 class MutatedSeeds : public testing::TestWithParam<FedReader> {};
 
 TEST_P(MutatedSeeds, AreTakenOrRefused) {
-  const std::string folder = std::string(FAULTLINE_SOURCE_DIR "/tests/fuzz/seeds");
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && entry.file_size() <= kLongestSeed) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
+  std::vector<std::string> paths = seed_files();
+  std::erase_if(paths,
+                [](const std::string& path) { return std::filesystem::file_size(path) > kLongestSeed; });
   ASSERT_FALSE(paths.empty());
   Random random(1);
   for (const std::string& path : paths) {

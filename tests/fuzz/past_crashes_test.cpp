@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "lib/core/atomic_file.hpp"
 #include "tests/fuzz/readers/readers.hpp"
+#include "tests/fuzz/seed_files.hpp"
 
 /// Files that once crashed a reader, or took it too long, and one whole file of each kind: every reader takes
 /// or refuses each of them.
@@ -15,19 +14,10 @@ namespace {
 
 constexpr double kLongest_s = 5.0;
 
-std::vector<std::string> seeds() {
-  std::vector<std::string> paths;
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(FAULTLINE_SOURCE_DIR "/tests/fuzz/seeds"))
-    if (entry.is_regular_file()) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
 class PastCrashes : public testing::TestWithParam<FedReader> {};
 
 TEST_P(PastCrashes, NoneIsLeft) {
-  const std::vector<std::string> paths = seeds();
+  const std::vector<std::string> paths = seed_files();
   ASSERT_GT(paths.size(), 8u);
   for (const std::string& path : paths) {
     SCOPED_TRACE(path);
