@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "formats/csv_reader.hpp"
-#include "formats/csv_writer.hpp"
+#include "formats/csv/csv_reader.hpp"
+#include "formats/csv/csv_writer.hpp"
 #include "formats/native/native_reader.hpp"
 #include "formats/native/native_writer.hpp"
 

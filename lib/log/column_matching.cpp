@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/column_families.hpp"
+#include "lib/log/columns/missing_column.hpp"
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/units.hpp"
 
@@ -26,6 +28,7 @@ class Matcher {
 
   Matching run() {
     match_mapped();
+    match_told();
     match_time();
     find_families();
     for (const Quantity quantity : kJointQuantities) {
@@ -38,14 +41,7 @@ class Matcher {
 
  private:
   [[noreturn]] void fail_missing(const std::string& channel, const char* meaning) const {
-    std::string found;
-    for (std::size_t i = 0; i < names_.size() && i < 20; ++i) found += (i ? ", " : "") + quoted(names_[i]);
-    if (names_.size() > 20) found += " and " + std::to_string(names_.size() - 20) + " more";
-    throw Error(
-        ErrorCode::input, path_,
-        "no column for the " + std::string(meaning) + " (" + channel + ") was found; the columns are " +
-            found + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}" +
-            (channel == "t" ? "; without any, t = {name = \"@row\", scale = SAMPLE_PERIOD_IN_S}" : ""));
+    throw Error(ErrorCode::input, path_, missing_column_sentence(names_, channel, meaning));
   }
 
   int column_named(const std::string& name) const {
@@ -109,6 +105,16 @@ class Matcher {
         fail_missing(
             name, ("\"" + spec.name + "\" of the robot file, the " + meaning_of(channel->quantity)).c_str());
       add(*channel, column);
+    }
+  }
+
+  /// What the file itself says of its columns, unless the robot file says otherwise.
+  void match_told() {
+    for (int i = 0; i < std::ssize(columns_); ++i) {
+      const auto& meaning = columns_[i].meaning;
+      if (!meaning || used_.count(i) || named_in_map(meaning->quantity)) continue;
+      add(*meaning, i);
+      told_.insert(meaning->quantity);
     }
   }
 
@@ -190,7 +196,7 @@ class Matcher {
 
   void match_quantity(Quantity quantity) {
     if (named_in_map(quantity)) match_usual_names(quantity);
-    const ColumnFamily* family = family_of(quantity);
+    const ColumnFamily* family = told_.count(quantity) ? nullptr : family_of(quantity);
     if (family) {
       if (quantity == Quantity::q) first_position_ = family->first();
       const int first = first_of(*family);
@@ -271,6 +277,7 @@ class Matcher {
   std::vector<ColumnFamily> misfits_;  ///< whose units say that they are no such quantity
   int first_position_ = 1;             ///< the number of the first position, 0 or 1
   std::set<Channel> taken_;
+  std::set<Quantity> told_;  ///< what the file itself names
   std::set<int> used_;
   Matching matching_;
 };

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/log/channel_names.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -13,6 +15,8 @@ namespace faultline {
 struct RawColumn {
   std::string name;
   std::string unit;
+  /// What the file says that it is, as a ROS JointState does; most files leave that to the name.
+  std::optional<Channel> meaning{};
 };
 
 /// Consecutive rows of a file, one vector a column, of `rows` values. A cell without a number is NaN.

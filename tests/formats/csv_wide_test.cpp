@@ -2,7 +2,7 @@
 // Texts with many columns or long lines.
 #include <fmt/format.h>
 
-#include "formats/csv_fields.hpp"
+#include "formats/csv/csv_fields.hpp"
 #include "tests/formats/read_csv.hpp"
 
 namespace faultline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/line_buffer.hpp"
+#include "formats/csv/line_buffer.hpp"
 
 #include <cstring>
 

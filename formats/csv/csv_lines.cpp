@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_lines.hpp"
+#include "formats/csv/csv_lines.hpp"
 
 #include <map>
 
-#include "formats/csv_fields.hpp"
+#include "formats/csv/csv_fields.hpp"
 
 namespace faultline {
 namespace {

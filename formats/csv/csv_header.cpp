@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_header.hpp"
+#include "formats/csv/csv_header.hpp"
 
-#include "formats/csv_fields.hpp"
+#include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/log/units.hpp"
 

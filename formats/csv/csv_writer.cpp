@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_writer.hpp"
+#include "formats/csv/csv_writer.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "formats/channel_list.hpp"
-#include "formats/csv_provenance.hpp"
+#include "formats/csv/csv_provenance.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/last_cells.hpp"
+#include "formats/csv/last_cells.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_fields.hpp"
+#include "formats/csv/csv_fields.hpp"
 
 #include <fast_float/fast_float.h>
 

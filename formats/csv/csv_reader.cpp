@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_reader.hpp"
+#include "formats/csv/csv_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <cstring>
 #include <map>
 
-#include "formats/csv_dialect.hpp"
-#include "formats/csv_fields.hpp"
-#include "formats/csv_issues.hpp"
-#include "formats/csv_row.hpp"
-#include "formats/line_buffer.hpp"
+#include "formats/csv/csv_dialect.hpp"
+#include "formats/csv/csv_fields.hpp"
+#include "formats/csv/csv_issues.hpp"
+#include "formats/csv/csv_row.hpp"
+#include "formats/csv/line_buffer.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_row.hpp"
+#include "formats/csv/csv_row.hpp"
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "formats/csv_fields.hpp"
-#include "formats/csv_header.hpp"
-#include "formats/csv_provenance.hpp"
+#include "formats/csv/csv_fields.hpp"
+#include "formats/csv/csv_header.hpp"
+#include "formats/csv/csv_provenance.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/csv_dialect.hpp"
-#include "formats/csv_issues.hpp"
+#include "formats/csv/csv_dialect.hpp"
+#include "formats/csv/csv_issues.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {

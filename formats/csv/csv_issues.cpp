@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_issues.hpp"
+#include "formats/csv/csv_issues.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/csv_dialect.hpp"
-#include "formats/csv_lines.hpp"
+#include "formats/csv/csv_dialect.hpp"
+#include "formats/csv/csv_lines.hpp"
 
 namespace faultline {
 

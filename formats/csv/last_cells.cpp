@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "formats/last_cells.hpp"
+#include "formats/csv/last_cells.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-#include "formats/csv_fields.hpp"
+#include "formats/csv/csv_fields.hpp"
 
 namespace faultline {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv_dialect.hpp"
+#include "formats/csv/csv_dialect.hpp"
 
 #include <algorithm>
 
-#include "formats/csv_header.hpp"
-#include "formats/csv_lines.hpp"
+#include "formats/csv/csv_header.hpp"
+#include "formats/csv/csv_lines.hpp"
 
 namespace faultline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/csv_dialect.hpp"
+#include "formats/csv/csv_dialect.hpp"
 #include "lib/core/issue.hpp"
 
 namespace faultline {
