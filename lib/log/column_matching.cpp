@@ -17,8 +17,6 @@ namespace {
 
 constexpr int kMostJoints = 64;
 
-std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
-
 class Matcher {
  public:
   Matcher(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path)
@@ -57,7 +55,7 @@ class Matcher {
   double unit_factor(const std::string& unit, const std::string& channel) const {
     if (const auto factor = si_factor(unit)) return *factor;
     throw Error(ErrorCode::usage, "[log.columns] " + channel,
-                "the unit " + quoted(unit) +
+                "the unit \"" + shortened(unit, kLongestName) + "\"" +
                     " is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
   }
 
