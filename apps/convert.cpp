@@ -58,7 +58,11 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
       .writes("OUT", arguments.out)
       .claim();
   OpenLogOptions options;
-  if (!arguments.robot.empty()) options.columns = load_robot_file(arguments.robot).log.columns;
+  if (!arguments.robot.empty()) {
+    const LogMeaning meaning = load_robot_file(arguments.robot).log;
+    options.columns = meaning.columns;
+    options.recording = meaning.recording;
+  }
   const auto source = open_log(arguments.log, options);
   const auto writer = create_log(arguments.out);
   {

@@ -149,6 +149,8 @@ Inspection inspect_log(const std::string& path, const std::optional<Robot>& robo
   auto reader = open_raw(path);
   MappedSourceOptions options;
   if (robot && !reader->canonical()) options.columns = robot->log.columns;
+  if (robot) options.recording = robot->log.recording;
+  reader->choose(options.recording);
   const auto columns = reader->columns();
   const std::string why_not = why_no_match(columns, options.columns, path);
   if (!why_not.empty()) return inspect_table(*reader, why_not);

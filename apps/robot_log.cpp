@@ -12,6 +12,7 @@ namespace faultline {
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot) {
   OpenLogOptions options;
   options.columns = robot.log.columns;
+  options.recording = robot.log.recording;
   options.keep_extra = false;
   std::unique_ptr<LogSource> log = coupled(open_log(path, options), robot.log.coupling);
   if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;

@@ -1,131 +1,73 @@
 // SPDX-License-Identifier: MIT
 #include "formats/byte_source.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-
-#include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::size_t kHeadBytes = 1 << 16;
-
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::input, path, what);
-}
-
-std::string reason() { return std::strerror(errno); }
+constexpr std::size_t kPassedAtOnce = 1 << 16;
 
 }  // namespace
 
-ByteSource::ByteSource(std::string path) : path_(std::move(path)) {
-  open();
-  try {
-    read_head(kHeadBytes);
-  } catch (...) {
-    close();
-    throw;
-  }
-  if (regular_) close();
+ByteSource::ByteSource(const std::string& path) : file_(path), unpacker_(unpacker_of(file_)) {
+  if (unpacker_) fill_head(kHeadBytes);
 }
 
-ByteSource::~ByteSource() { close(); }
-
-void ByteSource::open() {
-  file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file_ < 0 && errno == ENOENT) fail(path_, "no such file; check the path");
-  if (file_ < 0) fail(path_, "cannot be opened for reading (" + reason() + ")");
-  struct stat facts {};
-  if (::fstat(file_, &facts) != 0) return;
-  if (S_ISDIR(facts.st_mode)) {
-    close();
-    fail(path_, "is a directory, a log file was expected");
-  }
-  regular_ = S_ISREG(facts.st_mode);
-  stamp_ = {facts.st_dev, facts.st_ino, facts.st_size};
-}
-
-/// Goes on behind the head.
-void ByteSource::open_again() {
-  const Stamp before = stamp_;
-  open();
-  if (!(stamp_ == before)) {
-    close();
-    fail(path_, "was replaced or changed while it was read; run again when it is complete");
-  }
-  if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
-    fail(path_, "cannot be read to its end (" + reason() + ")");
-}
-
-void ByteSource::close() {
-  if (file_ >= 0) ::close(file_);
-  file_ = -1;
+void ByteSource::fill_head(std::size_t bytes) {
+  std::size_t got = head_.size();
+  head_.resize(bytes);
+  for (std::size_t more; got < bytes && (more = unpacker_->read(head_.data() + got, bytes - got)) > 0;)
+    got += more;
+  head_.resize(got);
+  file_.pause();
 }
 
 bool ByteSource::extend_head() {
+  if (!unpacker_) return file_.extend_head();
   const std::size_t before = head_.size();
-  if (file_ < 0) open_again();
-  read_head(2 * before);
-  if (regular_) close();
+  fill_head(2 * before);
   return head_.size() > before;
 }
 
-void ByteSource::read_head(std::size_t bytes) {
-  std::size_t got = head_.size();
-  head_.resize(bytes);
-  for (std::size_t more;
-       got < head_.size() && (more = read_some(head_.data() + got, head_.size() - got)) > 0;)
-    got += more;
-  head_.resize(got);
-}
-
-std::size_t ByteSource::read_some(char* to, std::size_t size) {
-  while (true) {
-    const ssize_t got = ::read(file_, to, size);
-    if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) fail(path_, "cannot be read to its end (" + reason() + ")");
-  }
-}
-
 std::size_t ByteSource::read(char* to, std::size_t size) {
-  std::size_t got = std::min(size, head_.size() - head_given_);
+  if (!unpacker_) return file_.read(to, size);
+  const std::size_t got = std::min(size, head_.size() - head_given_);
   if (got > 0) {
     std::memcpy(to, head_.data() + head_given_, got);
     head_given_ += got;
-  } else if (!at_end_) {
-    if (file_ < 0) open_again();
-    got = read_some(to, size);
-    at_end_ = got == 0 && size > 0;
-    if (at_end_ && regular_) close();
+    return got;
   }
-  position_ += static_cast<std::int64_t>(got);
-  if (sha256_.empty()) {
-    hash_.update({to, got});
-    if (got == 0 && size > 0) sha256_ = hash_.hex();
+  const std::size_t more = unpacker_->read(to, size);
+  if (more == 0 && size > 0) note_end();
+  return more;
+}
+
+void ByteSource::note_end() {
+  read_to_end();
+  const std::string damage = unpacker_->damage();
+  if (damage.empty() || issues_.find("compression_damaged")) return;
+  issues_.add({"compression_damaged", "", Severity::severe, damage});
+}
+
+void ByteSource::read_to_end() {
+  std::string passed(kPassedAtOnce, '\0');
+  while (file_.read(passed.data(), passed.size()) > 0) {
   }
-  return got;
 }
 
 void ByteSource::rewind() {
-  if (regular_)
-    close();
-  else if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
-    fail(path_, "cannot be read a second time (" + reason() + "); give a file, not a pipe");
-  at_end_ = false;
+  file_.rewind();
+  issues_ = {};
+  if (!unpacker_) return;
+  unpacker_ = unpacker_of(file_);
   head_given_ = 0;
-  position_ = 0;
-  if (sha256_.empty()) hash_ = Sha256();
-}
-
-double ByteSource::share_read() const {
-  return stamp_.size > 0 ? std::min(1.0, static_cast<double>(position_) / static_cast<double>(stamp_.size))
-                         : 0.0;
+  // What stands in the head has been handed out of the fresh unpacker already.
+  std::string again(head_.size(), '\0');
+  for (std::size_t got = 0, more; got < again.size(); got += more)
+    if ((more = unpacker_->read(again.data() + got, again.size() - got)) == 0) break;
 }
 
 }  // namespace faultline

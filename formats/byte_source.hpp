@@ -1,61 +1,53 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "lib/core/hash.hpp"
+#include "formats/bytes/file_bytes.hpp"
+#include "formats/bytes/unpacker.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
 
-/// The bytes of a file from front to back, hashed as they pass. A regular file is open only while it is being
-/// read, so that a command may have any number of them; one that is another file by then is refused. Every
-/// failure throws Error(input).
+/// The bytes of a log from front to back: those of its file, or where that is compressed as a whole (gzip,
+/// zstd) those inside. Every failure of reading the file throws Error(input); damage of the compression ends
+/// the bytes and is told in issues().
 class ByteSource {
  public:
-  explicit ByteSource(std::string path);
-  ~ByteSource();
-  ByteSource(const ByteSource&) = delete;
-  ByteSource& operator=(const ByteSource&) = delete;
+  explicit ByteSource(const std::string& path);
 
-  const std::string& path() const { return path_; }
-  /// The first bytes of the file, up to 64 KiB unless extended, whatever was read before.
-  std::string_view head() const { return head_; }
-  /// Doubles the head, as far as the file goes; false at its end. Only before the first read(); views of the
+  const std::string& path() const { return file_.path(); }
+  /// The first bytes, up to 64 KiB unless extended, whatever was read before.
+  std::string_view head() const { return unpacker_ ? std::string_view(head_) : file_.head(); }
+  /// Doubles the head, as far as the bytes go; false at their end. Only before the first read(); views of the
   /// head end here.
   bool extend_head();
-  /// Copies up to `size` of the next bytes to `to`; 0 at the end of the file.
+  /// Copies up to `size` of the next bytes to `to`; 0 at the end.
   std::size_t read(char* to, std::size_t size);
   void rewind();
-  /// Of all bytes once the end was reached, empty before.
-  const std::string& sha256() const { return sha256_; }
-  double share_read() const;
+  /// Of the file once its end was reached, empty before.
+  const std::string& sha256() const { return file_.sha256(); }
+  /// Reads what is left of the file, for its hash.
+  void read_to_end();
+  double share_read() const { return file_.share_read(); }
+  /// Size of the file, 0 for a pipe.
+  std::int64_t file_size() const { return file_.size(); }
+  /// Name of the compression around the bytes, null for none: then a library may read the file by its path.
+  const char* compression() const { return unpacker_ ? unpacker_->name() : nullptr; }
+  /// Damage of the compression met so far.
+  const Issues& issues() const { return issues_; }
 
  private:
-  /// Of the file, to tell whether it is still the same.
-  struct Stamp {
-    std::uint64_t device = 0, inode = 0;
-    std::int64_t size = 0;
-    bool operator==(const Stamp&) const = default;
-  };
+  void fill_head(std::size_t bytes);
+  void note_end();
 
-  void open();
-  void open_again();
-  void close();
-  void read_head(std::size_t bytes);
-  std::size_t read_some(char* to, std::size_t size);
-
-  std::string path_;
-  int file_ = -1;
-  bool regular_ = false;
-  bool at_end_ = false;
-  Stamp stamp_;
-  std::int64_t position_ = 0;
-  std::string head_;
-  std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()
-  Sha256 hash_;
-  std::string sha256_;
+  FileBytes file_;
+  std::unique_ptr<Unpacker> unpacker_;  ///< null for bytes that are not compressed
+  std::string head_;                    ///< unpacked
+  std::size_t head_given_ = 0;          ///< bytes of head_ handed out by read()
+  Issues issues_;
 };
 
 }  // namespace faultline

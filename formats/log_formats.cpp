@@ -6,6 +6,7 @@
 
 #include "formats/csv/csv_reader.hpp"
 #include "formats/csv/csv_writer.hpp"
+#include "formats/mcap/mcap_source.hpp"
 #include "formats/native/native_reader.hpp"
 #include "formats/native/native_writer.hpp"
 
@@ -15,6 +16,7 @@ const std::vector<LogFormat>& log_formats() {
   // CSV comes last, as it takes any text.
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
+      {"mcap", "recording of messages", {".mcap"}, looks_like_mcap, open_mcap, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},
   };
   return table;

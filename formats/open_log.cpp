@@ -19,7 +19,8 @@ std::unique_ptr<RawReader> open_raw(const std::string& path) {
 
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
   return std::make_unique<MappedSource>(
-      open_raw(path), MappedSourceOptions{options.columns, options.segment_rows, options.keep_extra});
+      open_raw(path),
+      MappedSourceOptions{options.columns, options.recording, options.segment_rows, options.keep_extra});
 }
 
 }  // namespace faultline

@@ -11,8 +11,9 @@
 namespace faultline {
 
 struct OpenLogOptions {
-  ColumnMap columns{};      ///< [log.columns] of the robot file: robot.log.columns
-  int segment_rows = 4096;  ///< rows of a segment at most; changes no byte of any result
+  ColumnMap columns{};          ///< [log.columns] of the robot file: robot.log.columns
+  RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
+  int segment_rows = 4096;      ///< rows of a segment at most; changes no byte of any result
   bool keep_extra =
       true;  ///< hand out columns without a canonical meaning too; without them reading is faster
 };

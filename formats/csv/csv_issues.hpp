@@ -34,6 +34,8 @@ class CsvIssues {
     if (count_row(code, dropped)) return;
     add_first_row(place, code, what(), dropped, severity);
   }
+  /// Of the bytes that the table stands in.
+  void add_bytes(const Issues& issues) { issues_.merge(issues); }
   /// Of the log that this one was converted from, if it was damaged.
   void add_provenance(std::string_view text);
   const Issues& all() const;

@@ -174,6 +174,7 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
     if (stop) break;
   }
   refuse_mostly_absent();
+  if (row == 0) issues_.add_bytes(bytes_->issues());
   identity_.rows_read = at_.row;
   identity_.sha256 = bytes_->sha256();
   block.rows = row;

@@ -62,6 +62,7 @@ class NativeReader : public RawReader {
   bool next_chunk() {
     given_ = 0;
     if (chunks_->next()) return true;
+    issues_.merge(bytes_->issues());
     identity_.sha256 = bytes_->sha256();
     return false;
   }

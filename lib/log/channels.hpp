@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace faultline {
 
@@ -18,5 +20,17 @@ struct ColumnSpec {
 
 /// The meaning of a log's columns by canonical channel name; what is not named is found by the usual names.
 using ColumnMap = std::map<std::string, ColumnSpec>;
+
+/// Which time of a message counts: that in its header, or that when the recorder received it.
+enum class MessageTime { header, receipt };
+
+const char* to_string(MessageTime time);
+
+/// Which part of a recording of messages is the log.
+struct RecordingChoice {
+  std::string topic{};  ///< whose messages are the rows; empty = the one that looks most like it
+  std::vector<std::string> joints{};  ///< base to tip, as the messages name them; empty = all
+  std::optional<MessageTime> time{};  ///< none = header where it has one
+};
 
 }  // namespace faultline

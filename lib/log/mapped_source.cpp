@@ -17,6 +17,7 @@ namespace faultline {
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
     : reader_(std::move(reader)), options_(options) {
   options_.segment_rows = std::max(options_.segment_rows, 1);
+  reader_->choose(options_.recording);
   matching_ = match_columns(reader_->columns(), reader_->canonical() ? ColumnMap{} : options_.columns,
                             reader_->identity().path);
   if (!options_.keep_extra) matching_.extra.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/log/channel_names.hpp"
+#include "lib/log/channels.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -32,6 +33,8 @@ class RawReader {
  public:
   virtual ~RawReader() = default;
   virtual const std::vector<RawColumn>& columns() const = 0;
+  /// Of a recording of messages, which part is the log; before anything else. Its columns may be others then.
+  virtual void choose(const RecordingChoice&) {}
   /// Columns that are not wanted need not be read; their vectors are then empty. All are wanted at first.
   virtual void want(const std::vector<bool>& columns) = 0;
   /// At most `max_rows` rows, in the block's own storage; false after the last row.

@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
@@ -56,6 +57,20 @@ Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
   return matrix;
 }
 
+/// Which messages of a recording are the log.
+RecordingChoice read_recording(const TomlTable& log, int joints) {
+  RecordingChoice choice;
+  choice.topic = log.text("topic", "");
+  if (log.has("time")) choice.time = log.choice_of("time", {MessageTime::header, MessageTime::receipt});
+  if (!log.has("joints")) return choice;
+  choice.joints = log.texts("joints");
+  if (static_cast<int>(choice.joints.size()) != joints)
+    log.fail("joints", fmt::format("expected {} names, base to tip, found {}", joints, choice.joints.size()));
+  const std::set<std::string> different(choice.joints.begin(), choice.joints.end());
+  if (different.size() != choice.joints.size()) log.fail("joints", "names a joint twice");
+  return choice;
+}
+
 }  // namespace
 
 LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
@@ -67,6 +82,7 @@ LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
     result.torque_between_samples = log.choice_of(
         "torque_between_samples", {TorqueTiming::held, TorqueTiming::linear, TorqueTiming::unknown});
   if (log.has("coupling")) result.coupling = read_coupling(log, joints);
+  result.recording = read_recording(log, joints);
   const TomlTable columns = log.table("columns");
   const auto names = channel_names(joints);
   for (const std::string& channel : columns.keys()) {

@@ -34,6 +34,7 @@ struct LogMeaning {
   TorqueMeaning torque = TorqueMeaning::commanded;
   TorqueTiming torque_between_samples = TorqueTiming::unknown;
   ColumnMap columns;
+  RecordingChoice recording{};
   /// C of drives that move more than one joint, n x n and regular: q = C q_logged (see coupled()); 0 x 0 when
   /// each drive moves its own joint.
   Eigen::MatrixXd coupling;

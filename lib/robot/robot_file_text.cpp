@@ -105,9 +105,20 @@ std::string facts_text(const Robot& robot) {
   return text;
 }
 
+std::string recording_text(const RecordingChoice& choice) {
+  std::string text;
+  if (!choice.topic.empty()) text += fmt::format("topic = {}\n", toml_quoted(choice.topic));
+  if (choice.time) text += fmt::format("time = {}\n", toml_quoted(to_string(*choice.time)));
+  if (choice.joints.empty()) return text;
+  std::string names;
+  for (const std::string& joint : choice.joints) names += (names.empty() ? "" : ", ") + toml_quoted(joint);
+  return text + fmt::format("joints = [{}]\n", names);
+}
+
 std::string log_text(const LogMeaning& log) {
   std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
                                  to_string(log.torque), to_string(log.torque_between_samples));
+  text += recording_text(log.recording);
   if (log.coupling.size() > 0) text += coupling_text(log.coupling);
   if (!log.columns.empty()) text += "\n[log.columns]\n";
   for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);

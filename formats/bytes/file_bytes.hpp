@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lib/core/hash.hpp"
+
+namespace faultline {
+
+/// The bytes of a file from front to back, hashed as they pass. A regular file is open only while it is being
+/// read, so that a command may have any number of them; one that is another file by then is refused. Every
+/// failure throws Error(input).
+class FileBytes {
+ public:
+  explicit FileBytes(std::string path);
+  ~FileBytes();
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+
+  const std::string& path() const { return path_; }
+  /// The first bytes of the file, up to 64 KiB unless extended, whatever was read before.
+  std::string_view head() const { return head_; }
+  /// Doubles the head, as far as the file goes; false at its end. Only before the first read(); views of the
+  /// head end here.
+  bool extend_head();
+  /// Copies up to `size` of the next bytes to `to`; 0 at the end of the file.
+  std::size_t read(char* to, std::size_t size);
+  void rewind();
+  /// Closes a regular file until the next read().
+  void pause();
+  /// Of all bytes once the end was reached, empty before.
+  const std::string& sha256() const { return sha256_; }
+  double share_read() const;
+  /// Of the file, 0 for a pipe.
+  std::int64_t size() const { return regular_ ? stamp_.size : 0; }
+
+ private:
+  /// Of the file, to tell whether it is still the same.
+  struct Stamp {
+    std::uint64_t device = 0, inode = 0;
+    std::int64_t size = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+
+  void open();
+  void open_again();
+  void close();
+  void read_head(std::size_t bytes);
+  std::size_t read_some(char* to, std::size_t size);
+
+  std::string path_;
+  int file_ = -1;
+  bool regular_ = false;
+  bool at_end_ = false;
+  Stamp stamp_;
+  std::int64_t position_ = 0;
+  std::string head_;
+  std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()
+  Sha256 hash_;
+  std::string sha256_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "formats/byte_window.hpp"
+#include "formats/mcap/mcap_record.hpp"
+#include "formats/mcap/mcap_topics.hpp"
+#include "lib/core/issue.hpp"
+
+namespace faultline {
+
+/// The records at the top level of an MCAP file in their order. Behind damage they go on at the next record
+/// that can be found.
+class McapRecords {
+ public:
+  /// All must outlive the object.
+  McapRecords(ByteWindow& bytes, const McapTopics& topics, Issues& issues)
+      : bytes_(bytes), topics_(topics), issues_(issues) {}
+
+  /// Begins at the front of the bytes; `file_size` is 0 when it is not known.
+  void start(std::int64_t file_size);
+  /// Goes on to the next record; false at the end of the file or of its data.
+  bool next();
+  McapOp op() const { return op_; }
+  /// Valid until the next call; shorter than the record where the file ends in it.
+  std::string_view content() const { return bytes_.view().substr(kMcapRecordHead, size_); }
+  /// Whether the file ends in this record.
+  bool is_cut() const { return cut_; }
+  /// Byte of the file at which the record begins.
+  std::int64_t begin() const { return bytes_.position(); }
+  bool damaged() const { return damaged_; }
+  /// Time of the last message that was met, to tell a likely one behind damage.
+  void met_time(std::uint64_t log_time_ns) { last_time_ = log_time_ns; }
+
+ private:
+  std::uint64_t left() const;
+  bool is_record(std::string_view bytes) const;
+  bool find_record();
+  void skip(std::uint64_t size);
+  void end();
+
+  ByteWindow& bytes_;
+  const McapTopics& topics_;
+  Issues& issues_;
+  std::int64_t file_size_ = 0;
+  McapOp op_{};
+  std::size_t size_ = 0;           ///< of the content in view
+  std::uint64_t record_size_ = 0;  ///< with its head; passed at the next call
+  std::uint64_t last_time_ = 0;
+  bool cut_ = false, finished_ = false, damaged_ = false;
+};
+
+}  // namespace faultline

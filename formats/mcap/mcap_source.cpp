@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "formats/mcap/mcap_source.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/unpack_block.hpp"
+#include "formats/mcap/mcap_index.hpp"
+#include "formats/mcap/mcap_records.hpp"
+#include "formats/messages/joint_state_reader.hpp"
+
+namespace faultline {
+namespace {
+
+/// A message inside the present chunk.
+struct ChunkedMessage {
+  std::uint64_t log_time_ns = 0;
+  std::string_view content;  ///< of its record
+};
+
+std::optional<BlockPacking> packing_named(std::string_view name) {
+  if (name.empty()) return BlockPacking::none;
+  if (name == "lz4") return BlockPacking::lz4_frame;
+  if (name == "zstd") return BlockPacking::zstd;
+  return std::nullopt;
+}
+
+std::uint32_t crc_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+class McapSource : public MessageSource {
+ public:
+  explicit McapSource(std::unique_ptr<ByteSource> bytes)
+      : bytes_(std::move(bytes)), window_(*bytes_), records_(window_, topics_, issues_) {
+    records_.start(size_if_known());
+  }
+
+  const std::string& path() const override { return bytes_->path(); }
+  const char* format() const override { return "mcap"; }
+  const std::vector<Topic>& topics() const override { return topics_.all(); }
+  const Issues& issues() const override { return issues_; }
+  const std::string& sha256() const override { return bytes_->sha256(); }
+  double share_read() const override { return bytes_->share_read(); }
+
+  bool next(Message& message) override {
+    while (!at_end_) {
+      if (next_lost_ < lost_.size()) {
+        message = {lost_[next_lost_++], 0, {}, true};
+        return true;
+      }
+      if (next_in_chunk_ < in_chunk_.size()) {
+        if (read_message(in_chunk_[next_in_chunk_++].content, message)) return true;
+      } else if (!next_record(message)) {
+        end();
+      } else if (given_) {
+        given_ = false;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void rewind() override {
+    bytes_->rewind();
+    window_.clear();
+    issues_ = {};
+    index_ = {};
+    in_chunk_.clear();
+    lost_.clear();
+    next_in_chunk_ = next_lost_ = 0;
+    given_ = at_end_ = false;
+    records_.start(size_if_known());
+  }
+
+ private:
+  std::int64_t size_if_known() const { return bytes_->compression() ? 0 : bytes_->file_size(); }
+
+  /// Takes the next record; `given_` when it is a message. False at the end.
+  bool next_record(Message& message) {
+    if (!records_.next()) return false;
+    const std::string_view content = records_.content();
+    switch (records_.op()) {
+      case McapOp::schema:
+        topics_.add_schema(content);
+        break;
+      case McapOp::channel:
+        topics_.add_channel(content);
+        break;
+      case McapOp::message:
+        given_ = read_message(content, message);
+        break;
+      case McapOp::chunk:
+        open_chunk(content);
+        break;
+      case McapOp::message_index:
+        count_lost(content);
+        break;
+      case McapOp::chunk_index:
+        index_.check_chunk_index(content);
+        break;
+      case McapOp::statistics:
+        index_.check_statistics(content);
+        break;
+      default:
+        break;
+    }
+    return true;
+  }
+
+  bool read_message(std::string_view content, Message& message) {
+    ByteCursor record(content);
+    const auto channel = record.take<std::uint16_t>();
+    record.take<std::uint32_t>();
+    const auto log_time = record.take<std::uint64_t>();
+    record.take<std::uint64_t>();
+    if (!record.ok()) return false;
+    index_.met_message();
+    ++met_in_chunk_[channel];
+    message = {topics_.topic_of(channel), static_cast<std::int64_t>(log_time), record.rest(),
+               chunk_doubtful_};
+    if (message.topic >= 0) {
+      records_.met_time(log_time);
+      return true;
+    }
+    issues_.add(
+        {"channel_unknown", "", Severity::warning,
+         fmt::format("a message of channel {} was left out, as the file does not tell what it is", channel)});
+    return false;
+  }
+
+  void open_chunk(std::string_view content) {
+    ByteCursor chunk(content);
+    chunk.take<std::uint64_t>();
+    chunk.take<std::uint64_t>();
+    const auto size = chunk.take<std::uint64_t>();
+    const auto checksum = chunk.take<std::uint32_t>();
+    const auto packing = packing_named(chunk.text());
+    chunk.take<std::uint64_t>();
+    in_chunk_.clear();
+    next_in_chunk_ = 0;
+    met_in_chunk_.clear();
+    chunk_doubtful_ = false;
+    chunk_lost_ = true;
+    if (!chunk.ok() || !packing) return lose_chunk("its head cannot be read");
+    index_.met_chunk(records_.begin(), static_cast<std::int64_t>(kMcapRecordHead + content.size()));
+    std::string_view inside = chunk.rest();
+    bool sound = inside.size() == size;
+    if (*packing != BlockPacking::none) {
+      sound = unpack_block(*packing, inside, size, unpacked_);
+      inside = unpacked_;
+    }
+    const bool wrong = sound && checksum != 0 && crc_of(inside) != checksum;
+    if (records_.is_cut())
+      lose_chunk("the file ends in it; what stands before is read", false);
+    else if (!sound || wrong)
+      lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end");
+    else
+      chunk_lost_ = false;
+    list_messages(inside);
+  }
+
+  void lose_chunk(const char* why, bool doubtful = true) {
+    chunk_doubtful_ = doubtful;
+    issues_.add({"chunk_damaged", "", Severity::severe,
+                 fmt::format("the chunk at byte {}: {}{}", records_.begin(), why,
+                             doubtful ? "; its messages were left out" : "")});
+  }
+
+  /// Finds the messages of the open chunk, in the order of their times.
+  void list_messages(std::string_view inside) {
+    bool sorted = true;
+    while (inside.size() >= kMcapRecordHead) {
+      ByteCursor record(inside);
+      const auto op = static_cast<McapOp>(record.take<unsigned char>());
+      const std::string_view content = record.bytes(record.take<std::uint64_t>());
+      if (!record.ok()) break;
+      inside = record.rest();
+      if (op == McapOp::schema) topics_.add_schema(content);
+      if (op == McapOp::channel) topics_.add_channel(content);
+      if (op != McapOp::message) continue;
+      ByteCursor message(content);
+      message.take<std::uint16_t>();
+      message.take<std::uint32_t>();
+      const auto time = message.take<std::uint64_t>();
+      sorted = sorted && (in_chunk_.empty() || in_chunk_.back().log_time_ns <= time);
+      in_chunk_.push_back({time, content});
+    }
+    if (!sorted)
+      std::stable_sort(
+          in_chunk_.begin(), in_chunk_.end(),
+          [](const ChunkedMessage& a, const ChunkedMessage& b) { return a.log_time_ns < b.log_time_ns; });
+  }
+
+  /// The index behind a damaged chunk tells how many messages it had.
+  void count_lost(std::string_view content) {
+    if (!chunk_lost_) return;
+    ByteCursor record(content);
+    const auto channel = record.take<std::uint16_t>();
+    constexpr std::size_t kEntry = 16;
+    const std::size_t told = record.text().size() / kEntry, met = met_in_chunk_[channel];
+    const int topic = topics_.topic_of(channel);
+    met_in_chunk_[channel] = std::max(told, met);
+    if (!record.ok() || topic < 0) return;
+    if (next_lost_ == lost_.size()) lost_.clear(), next_lost_ = 0;
+    for (std::size_t i = met; i < told; ++i) lost_.push_back(topic);
+  }
+
+  void end() {
+    at_end_ = true;
+    bytes_->read_to_end();
+    index_.tell(records_.damaged() || issues_.find("chunk_damaged"), issues_);
+    issues_.merge(bytes_->issues());
+  }
+
+  std::unique_ptr<ByteSource> bytes_;
+  ByteWindow window_;
+  McapTopics topics_;
+  Issues issues_;
+  McapRecords records_;
+  McapIndex index_;
+  std::string unpacked_;  ///< the open chunk, where it was compressed
+  std::vector<ChunkedMessage> in_chunk_;
+  std::size_t next_in_chunk_ = 0;
+  std::map<std::uint16_t, std::size_t> met_in_chunk_;  ///< messages by channel
+  bool chunk_doubtful_ = false;                        ///< its bytes may be wrong
+  bool chunk_lost_ = false;                            ///< some of its messages may be missing
+  std::vector<int> lost_;                              ///< topics of messages that are missing
+  std::size_t next_lost_ = 0;
+  bool given_ = false, at_end_ = false;
+};
+
+}  // namespace
+
+bool looks_like_mcap(std::string_view head) { return head.starts_with(kMcapMagic); }
+
+std::unique_ptr<RawReader> open_mcap(std::unique_ptr<ByteSource> bytes) {
+  return read_joint_states(std::make_unique<McapSource>(std::move(bytes)));
+}
+
+}  // namespace faultline

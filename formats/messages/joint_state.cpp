@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "formats/messages/joint_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "formats/messages/joint_state_json.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::int64_t kNanoseconds = 1'000'000'000;
+constexpr std::size_t kDoubleBytes = sizeof(double);
+
+/// How the members of a message follow each other.
+struct Wire {
+  std::size_t begin = 0;             ///< byte from which alignment counts
+  std::size_t word_alignment = 1;    ///< of lengths
+  std::size_t double_alignment = 1;  ///< of the numbers of an array
+  bool swapped = false;              ///< big-endian
+  bool sequence_number = false;      ///< before the stamp
+  bool ends_with_nul = false;        ///< texts
+};
+
+constexpr std::uint32_t swap_bytes(std::uint32_t value) {
+  return (value >> 24) | ((value >> 8) & 0xFF00U) | ((value << 8) & 0xFF0000U) | (value << 24);
+}
+
+/// Takes the members of a message in their order; what goes beyond its end leaves `ok` false.
+class Members {
+ public:
+  Members(std::string_view bytes, const Wire& wire) : bytes_(bytes), wire_(wire), at_(wire.begin) {}
+
+  std::uint32_t word() {
+    align(wire_.word_alignment);
+    std::uint32_t value = 0;
+    if (!has(sizeof value)) return 0;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return wire_.swapped ? swap_bytes(value) : value;
+  }
+
+  std::string_view text() {
+    const std::uint32_t size = word();
+    if (!has(size)) return {};
+    const std::string_view all = bytes_.substr(at_, size);
+    at_ += size;
+    return wire_.ends_with_nul && !all.empty() && all.back() == '\0' ? all.substr(0, all.size() - 1) : all;
+  }
+
+  PackedNumbers numbers() {
+    const std::size_t count = word();
+    if (count == 0) return {};
+    align(wire_.double_alignment);
+    if (!ok || count > (bytes_.size() - at_) / kDoubleBytes) return ok = false, PackedNumbers{};
+    const PackedNumbers found{bytes_.data() + at_, count, wire_.swapped};
+    at_ += count * kDoubleBytes;
+    return found;
+  }
+
+  /// Goes on behind `same` when it stands here.
+  bool passes(std::string_view same) {
+    if (same.empty() || bytes_.substr(at_, same.size()) != same) return false;
+    at_ += same.size();
+    return true;
+  }
+
+  void align(std::size_t to) { at_ = std::min(bytes_.size(), at_ + (to - (at_ - wire_.begin) % to) % to); }
+  std::size_t position() const { return at_; }
+
+  bool ok = true;
+
+ private:
+  bool has(std::size_t size) { return ok = ok && size <= bytes_.size() - at_; }
+
+  std::string_view bytes_;
+  Wire wire_;
+  std::size_t at_;
+};
+
+/// Messages of ROS 1, and of ROS 2 behind the four bytes that say their byte order.
+class RosDecoder : public JointStateDecoder {
+ public:
+  explicit RosDecoder(bool cdr) : cdr_(cdr) {}
+
+  bool decode(std::string_view bytes, JointState& state) override {
+    Wire wire;
+    if (!wire_of(bytes, wire)) return false;
+    Members members(bytes, wire);
+    if (wire.sequence_number) members.word();
+    // Seconds are signed in ROS 2, but none are below 0.
+    const std::int64_t seconds = members.word(), nanoseconds = members.word();
+    state.stamp_ns = seconds * kNanoseconds + nanoseconds;
+    members.text();  // the frame
+    members.align(wire.word_alignment);
+    const std::size_t begin = members.position();
+    if (members.ok && !members.passes(last_names_)) {
+      const std::uint32_t count = members.word();
+      for (std::uint32_t i = 0; i < count && members.ok; ++i) members.text();
+      if (members.ok) last_names_.assign(bytes.substr(begin, members.position() - begin));
+    }
+    state.names = bytes.substr(begin, members.position() - begin);
+    state.position = members.numbers();
+    state.velocity = members.numbers();
+    state.effort = members.numbers();
+    last_wire_ = wire;
+    return members.ok;
+  }
+
+  std::vector<std::string> decode_names(const JointState& state) const override {
+    Wire wire = last_wire_;
+    wire.begin = 0;  // they begin aligned
+    Members members(state.names, wire);
+    const std::uint32_t count = members.word();
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < count && members.ok; ++i) names.emplace_back(members.text());
+    return names;
+  }
+
+ private:
+  bool wire_of(std::string_view bytes, Wire& wire) const {
+    if (!cdr_) {
+      wire.sequence_number = true;
+      return true;
+    }
+    constexpr std::size_t kHead = 4;
+    // Second byte of the head: plain CDR and its second version, whose numbers are aligned to 4 bytes only.
+    constexpr unsigned char kBig = 0, kLittle = 1, kBig2 = 6, kLittle2 = 7;
+    if (bytes.size() < kHead || bytes[0] != 0) return false;
+    const auto kind = static_cast<unsigned char>(bytes[1]);
+    if (kind != kBig && kind != kLittle && kind != kBig2 && kind != kLittle2) return false;
+    const bool second = kind == kBig2 || kind == kLittle2;
+    wire = {kHead, 4, second ? std::size_t{4} : kDoubleBytes, kind == kBig || kind == kBig2, false, true};
+    return true;
+  }
+
+  bool cdr_;
+  std::string last_names_;  ///< of the message before, encoded
+  Wire last_wire_;
+};
+
+}  // namespace
+
+double PackedNumbers::operator[](std::size_t i) const {
+  std::array<char, kDoubleBytes> raw;
+  std::memcpy(raw.data(), data + i * kDoubleBytes, kDoubleBytes);
+  if (swapped) std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<double>(raw);
+}
+
+bool is_joint_state(std::string_view type) {
+  return type == "sensor_msgs/JointState" || type == "sensor_msgs/msg/JointState" ||
+         type == "sensor_msgs::msg::JointState" || type == "sensor_msgs.JointState" || type == "JointState";
+}
+
+std::unique_ptr<JointStateDecoder> joint_state_decoder(std::string_view encoding) {
+  if (encoding == "cdr") return std::make_unique<RosDecoder>(true);
+  if (encoding == "ros1" || encoding == "ros1msg") return std::make_unique<RosDecoder>(false);
+  if (encoding == "json") return json_joint_state_decoder();
+  return nullptr;
+}
+
+}  // namespace faultline

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "formats/messages/joint_state_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "formats/messages/joint_layout.hpp"
+#include "formats/messages/receipt_gap.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// Joint states that are looked at to find the joints, and bytes of messages of any kind.
+constexpr std::int64_t kLearnedMessages = 4000;
+constexpr std::uint64_t kLearnedBytes = 1 << 26;
+constexpr std::size_t kNamedTopics = 20;
+
+/// Exact for stamps that count from a start, to 2e-7 s for those since 1970.
+double seconds_of(std::int64_t nanoseconds) {
+  constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
+  if (nanoseconds < kExact) return static_cast<double>(nanoseconds) / 1e9;
+  return static_cast<double>(nanoseconds / kSecond) + static_cast<double>(nanoseconds % kSecond) / 1e9;
+}
+
+std::string topics_sentence(const std::vector<Topic>& topics) {
+  if (topics.empty()) return "it holds no topic at all";
+  std::string text = "its topics are ";
+  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
+    text += fmt::format("{}\"{}\" ({}, {})", i ? ", " : "", shortened(topics[i].name, kLongestName),
+                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
+  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
+  return text;
+}
+
+class JointStateReader : public RawReader {
+ public:
+  explicit JointStateReader(std::unique_ptr<MessageSource> source) : source_(std::move(source)) {
+    identity_.path = source_->path();
+    identity_.format = source_->format();
+    learn_joints();
+    choose({});
+  }
+
+  const std::vector<RawColumn>& columns() const override { return layout_.columns; }
+  const LogIdentity& identity() const override { return identity_; }
+  double share_read() const override { return source_->share_read(); }
+  void want(const std::vector<bool>& columns) override { wanted_ = columns; }
+
+  void choose(const RecordingChoice& choice) override {
+    layout_ = layout_joints(source_->topics(), streams_.streams(), choice, identity_.path);
+    wanted_.assign(layout_.columns.size(), true);
+    find_held_columns();
+    rewind();
+  }
+
+  const Issues& issues() const override {
+    all_issues_ = layout_.issues;
+    all_issues_.merge(source_->issues());
+    all_issues_.merge(issues_);
+    if (at_end_) gap_.tell(all_issues_);
+    return all_issues_;
+  }
+
+  void rewind() override {
+    source_->rewind();
+    issues_ = {};
+    gap_ = {};
+    at_end_ = false;
+    identity_.rows_read = 0;
+    held_.assign(layout_.columns.size(), kNan);
+  }
+
+  bool next(RawBlock& block, int max_rows) override {
+    begin_block(block, max_rows);
+    block.first_row = identity_.rows_read;
+    Message message;
+    while (block.rows < max_rows) {
+      if (!source_->next(message)) {
+        end();
+        break;
+      }
+      if (!take(message, block)) break;
+    }
+    for (std::size_t c = 0; c < block.columns.size(); ++c)
+      if (wanted_[c]) block.columns[c].resize(block.rows);
+    return block.rows > 0;
+  }
+
+ private:
+  void learn_joints() {
+    std::int64_t learned = 0;
+    std::uint64_t bytes = 0;
+    Message message;
+    while (source_->next(message)) {
+      learned += !message.lost && streams_.learn(source_->topics()[message.topic], message);
+      bytes += message.bytes.size();
+      if (learned > 0 && (learned >= kLearnedMessages || bytes >= kLearnedBytes)) break;
+    }
+    if (learned == 0)
+      throw Error(ErrorCode::input, identity_.path,
+                  "has no sensor_msgs/JointState message that can be read; " +
+                      topics_sentence(source_->topics()) +
+                      ". Record the topic of the joint states, or export the signals as CSV");
+    streams_.settle();
+  }
+
+  void begin_block(RawBlock& block, int max_rows) {
+    block.rows = 0;
+    block.columns.resize(layout_.columns.size());
+    values_.assign(layout_.columns.size(), nullptr);
+    for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
+      if (!wanted_[c]) continue;
+      block.columns[c].resize(max_rows);
+      values_[c] = block.columns[c].data();
+    }
+  }
+
+  /// False when the block must end, because a row was lost behind others.
+  bool take(const Message& message, RawBlock& block) {
+    const Topic& topic = source_->topics()[message.topic];
+    bool damaged = message.lost;
+    const JointPlacing* placing = damaged ? nullptr : streams_.read(topic, message, state_, damaged);
+    if (damaged && message.topic == streams_.streams()[layout_.main].topic) {
+      lose_row(message.lost);
+      if (block.rows > 0) return false;
+      block.first_row = identity_.rows_read;
+    } else if (damaged && !message.lost) {
+      issues_.add({"message_damaged", "", Severity::warning,
+                   "a message of \"" + shortened(topic.name, kLongestName) + "\" cannot be read"});
+    } else if (placing && placing->stream < 0) {
+      issues_.add({"joints_appear_late", "", Severity::severe,
+                   "a message of \"" + shortened(topic.name, kLongestName) +
+                       "\" speaks of joints that no earlier one had; it was left out"});
+    } else if (placing && placing->stream == layout_.main) {
+      put_row(message, *placing, block);
+    } else if (placing) {
+      hold(*placing);
+    }
+    return true;
+  }
+
+  void lose_row(bool with_its_block) {
+    ++identity_.rows_read;
+    const std::int64_t row = identity_.rows_read;
+    if (with_its_block)
+      issues_.add({"messages_lost", "", Severity::severe,
+                   fmt::format("message {} of the joints stood in a damaged part of the file", row), row,
+                   kNan, 1, 1});
+    else
+      issues_.add(
+          {"message_damaged", "", Severity::warning,
+           fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row), row,
+           kNan, 1, 1});
+  }
+
+  void put_row(const Message& message, const JointPlacing& placing, RawBlock& block) {
+    const int row = block.rows++;
+    ++identity_.rows_read;
+    gap_.add(state_.stamp_ns, message.receipt_ns);
+    put(layout_.stamp_column, row, seconds_of(state_.stamp_ns));
+    put(layout_.receipt_column, row, seconds_of(message.receipt_ns));
+    const auto& columns = layout_.of_stream[layout_.main];
+    put_array(columns[0], placing, state_.position, row);
+    put_array(columns[1], placing, state_.velocity, row);
+    put_array(columns[2], placing, state_.effort, row);
+    for (const int column : held_columns_) put(column, row, held_[column]);
+    if (!placing.complete) note_partial(placing);
+  }
+
+  void put(int column, int row, double value) {
+    if (double* values = values_[column]) values[row] = value;
+  }
+
+  void put_array(const JointColumns& columns, const JointPlacing& placing, const PackedNumbers& numbers,
+                 int row) {
+    if (!placing.complete || numbers.count < placing.joint_of.size())
+      for (const int column : columns)
+        if (column >= 0) put(column, row, kNan);
+    const std::size_t count = std::min(numbers.count, placing.joint_of.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const int joint = placing.joint_of[i];
+      if (joint >= 0 && columns[joint] >= 0) put(columns[joint], row, numbers[i]);
+    }
+    if (numbers.count > 0 && numbers.count != placing.joint_of.size())
+      issues_.add({"array_length", "", Severity::warning,
+                   fmt::format("message {} has {} values for {} joints; those without a joint were left out, "
+                               "and missing ones are missing",
+                               identity_.rows_read, numbers.count, placing.joint_of.size()),
+                   identity_.rows_read});
+  }
+
+  void note_partial(const JointPlacing& placing) {
+    const auto& joints = streams_.streams()[layout_.main].joints;
+    const bool unknown = std::count(placing.joint_of.begin(), placing.joint_of.end(), -1) > 0;
+    if (unknown)
+      issues_.add(
+          {"joints_appear_late", "", Severity::severe,
+           fmt::format("message {} speaks of joints that no earlier one had; their values were left out",
+                       identity_.rows_read),
+           identity_.rows_read});
+    const auto missing = std::find(placing.is_present.begin(), placing.is_present.end(), false);
+    if (missing == placing.is_present.end()) return;
+    issues_.add(
+        {"joint_missing", "", Severity::warning,
+         fmt::format("message {} does not speak of joint \"{}\"; its values are missing", identity_.rows_read,
+                     shortened(joints[missing - placing.is_present.begin()], kLongestName)),
+         identity_.rows_read});
+  }
+
+  /// Keeps what another stream says until its next message.
+  void hold(const JointPlacing& placing) {
+    const std::array arrays{&state_.position, &state_.velocity, &state_.effort};
+    for (std::size_t a = 0; a < arrays.size(); ++a) {
+      const JointColumns& columns = layout_.of_stream[placing.stream][a];
+      const std::size_t count = std::min(arrays[a]->count, placing.joint_of.size());
+      for (std::size_t i = 0; i < count; ++i)
+        if (const int joint = placing.joint_of[i]; joint >= 0 && columns[joint] >= 0)
+          held_[columns[joint]] = (*arrays[a])[i];
+    }
+  }
+
+  /// Columns of the streams beside the main one.
+  void find_held_columns() {
+    held_columns_.clear();
+    for (int s = 0; s < std::ssize(layout_.of_stream); ++s)
+      for (const JointColumns& array : layout_.of_stream[s])
+        for (const int column : array)
+          if (s != layout_.main && column >= 0) held_columns_.push_back(column);
+  }
+
+  void end() {
+    at_end_ = true;
+    identity_.sha256 = source_->sha256();
+  }
+
+  std::unique_ptr<MessageSource> source_;
+  JointStreams streams_;
+  JointLayout layout_;
+  std::vector<bool> wanted_;
+  std::vector<double*> values_;  ///< of the block that is being filled; null for columns not wanted
+  std::vector<int> held_columns_;
+  std::vector<double> held_;  ///< by column: the latest value of the other streams
+  JointState state_;
+  ReceiptGap gap_;
+  bool at_end_ = false;
+  LogIdentity identity_;
+  Issues issues_;
+  mutable Issues all_issues_;
+};
+
+}  // namespace
+
+std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source) {
+  return std::make_unique<JointStateReader>(std::move(source));
+}
+
+}  // namespace faultline

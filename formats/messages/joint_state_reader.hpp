@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "formats/messages/message_source.hpp"
+#include "lib/log/raw_reader.hpp"
+
+namespace faultline {
+
+/// The sensor_msgs/JointState messages of a recording as a table. The joints are found in its first part;
+/// what speaks of others later is told in the issues. Throws Error(input) when there are none.
+std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source);
+
+}  // namespace faultline

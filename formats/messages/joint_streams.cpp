@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "formats/messages/joint_streams.hpp"
+
+#include <algorithm>
+
+namespace faultline {
+namespace {
+
+/// Lists of names that are told apart in one file; a recording has a few.
+constexpr std::size_t kMostPatterns = 256;
+constexpr std::size_t kMostJoints = 256;
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return index_of(b, name) >= 0; });
+}
+
+void add_to(JointStream& stream, const JointStream& more) {
+  for (const std::string& joint : more.joints)
+    if (index_of(stream.joints, joint) < 0) stream.joints.push_back(joint);
+  stream.messages += more.messages;
+  stream.position = stream.position || more.position;
+  stream.velocity = stream.velocity || more.velocity;
+  stream.effort = stream.effort || more.effort;
+  stream.stamped = stream.stamped || more.stamped;
+}
+
+/// Messages without names count their joints from 1.
+std::vector<std::string> names_in(const JointState& state, const JointStateDecoder& decoder) {
+  std::vector<std::string> names = decoder.decode_names(state);
+  if (!names.empty()) return names;
+  const std::size_t joints = std::max({state.position.count, state.velocity.count, state.effort.count});
+  for (std::size_t j = 1; j <= std::min(joints, kMostJoints); ++j) names.push_back(std::to_string(j));
+  return names;
+}
+
+}  // namespace
+
+JointStateDecoder* JointStreams::decoder_of(const Topic& topic, int index) {
+  const auto at = static_cast<std::size_t>(index);
+  if (at >= asked_.size()) {
+    asked_.resize(at + 1, false);
+    decoders_.resize(at + 1);
+    last_.resize(at + 1, nullptr);
+  }
+  if (!asked_[at] && is_joint_state(topic.type)) decoders_[at] = joint_state_decoder(topic.encoding);
+  asked_[at] = true;
+  return decoders_[at].get();
+}
+
+JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointState& state,
+                                                const JointStateDecoder& decoder) {
+  Pattern*& last = last_[static_cast<std::size_t>(topic)];
+  if (last && last->encoded == state.names) return last;
+  for (const auto& pattern : patterns_)
+    if (pattern->topic == topic && pattern->encoded == state.names) return last = pattern.get();
+  if (patterns_.size() == kMostPatterns) return nullptr;
+  auto fresh = std::make_unique<Pattern>();
+  fresh->topic = topic;
+  fresh->encoded = std::string(state.names);
+  fresh->names = names_in(state, decoder);
+  if (settled_) place(*fresh);
+  patterns_.push_back(std::move(fresh));
+  return last = patterns_.back().get();
+}
+
+bool JointStreams::learn(const Topic& topic, const Message& message) {
+  JointStateDecoder* decoder = decoder_of(topic, message.topic);
+  JointState state;
+  if (!decoder || !decoder->decode(message.bytes, state)) return false;
+  Pattern* pattern = pattern_of(message.topic, state, *decoder);
+  if (!pattern || pattern->names.empty() || pattern->names.size() > kMostJoints) return false;
+  add_to(pattern->counted, {message.topic, pattern->names, 1, state.position.count > 0,
+                            state.velocity.count > 0, state.effort.count > 0, state.stamp_ns != 0});
+  return true;
+}
+
+/// Adds a pattern to the streams; those that it connects become one.
+void JointStreams::join(const Pattern& pattern) {
+  if (pattern.counted.messages == 0) return;
+  JointStream joined = pattern.counted;
+  joined.topic = pattern.topic;
+  std::vector<JointStream> apart;
+  std::size_t place = streams_.size();
+  for (const JointStream& stream : streams_) {
+    if (stream.topic != pattern.topic || !share_a_joint(stream.joints, pattern.names)) {
+      apart.push_back(stream);
+      continue;
+    }
+    JointStream earlier = stream;
+    add_to(earlier, joined);
+    joined = earlier;
+    place = std::min(place, apart.size());
+  }
+  apart.insert(apart.begin() + static_cast<std::ptrdiff_t>(std::min(place, apart.size())), joined);
+  streams_ = std::move(apart);
+}
+
+void JointStreams::place(Pattern& pattern) const {
+  JointPlacing& placing = pattern.placing;
+  placing = {};
+  placing.joint_of.assign(pattern.names.size(), -1);
+  for (std::size_t s = 0; s < streams_.size() && placing.stream < 0; ++s)
+    if (streams_[s].topic == pattern.topic && share_a_joint(streams_[s].joints, pattern.names))
+      placing.stream = static_cast<int>(s);
+  if (placing.stream < 0) return;
+  const std::vector<std::string>& joints = streams_[placing.stream].joints;
+  placing.is_present.assign(joints.size(), false);
+  for (std::size_t i = 0; i < pattern.names.size(); ++i) {
+    const int joint = index_of(joints, pattern.names[i]);
+    placing.joint_of[i] = joint;
+    if (joint >= 0) placing.is_present[joint] = true;
+  }
+  const auto all = [](const auto& values, auto holds) {
+    return std::all_of(values.begin(), values.end(), holds);
+  };
+  placing.complete = all(placing.joint_of, [](int joint) { return joint >= 0; }) &&
+                     all(placing.is_present, [](bool present) { return present; });
+}
+
+void JointStreams::settle() {
+  for (const auto& pattern : patterns_) join(*pattern);
+  for (const auto& pattern : patterns_) place(*pattern);
+  settled_ = true;
+}
+
+const JointPlacing* JointStreams::read(const Topic& topic, const Message& message, JointState& state,
+                                       bool& damaged) {
+  damaged = false;
+  JointStateDecoder* decoder = decoder_of(topic, message.topic);
+  if (!decoder) return nullptr;
+  damaged = !decoder->decode(message.bytes, state);
+  if (damaged) return nullptr;
+  const Pattern* pattern = pattern_of(message.topic, state, *decoder);
+  damaged = pattern == nullptr;
+  return pattern ? &pattern->placing : nullptr;
+}
+
+}  // namespace faultline

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/core/issue.hpp"
+
+namespace faultline {
+
+/// A named stream of messages of one type in a recording.
+struct Topic {
+  std::string name;
+  std::string type;      ///< such as "sensor_msgs/msg/JointState"
+  std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
+};
+
+/// One message. The bytes are valid until the next one is asked for.
+struct Message {
+  int topic = 0;                ///< index in MessageSource::topics()
+  std::int64_t receipt_ns = 0;  ///< when the recorder received it, since 1970 or since some start
+  std::string_view bytes;
+  bool lost = false;  ///< its bytes are damaged or missing; only to be counted
+};
+
+/// A recording of messages in the order in which they were received, up to damage and behind it where the
+/// format allows. Every failure of reading the file throws Error(input).
+class MessageSource {
+ public:
+  virtual ~MessageSource() = default;
+  virtual const std::string& path() const = 0;
+  virtual const char* format() const = 0;
+  /// Those met so far; only ever gets longer.
+  virtual const std::vector<Topic>& topics() const = 0;
+  /// False after the last one.
+  virtual bool next(Message& message) = 0;
+  /// Starts again, with issues empty; the topics stay.
+  virtual void rewind() = 0;
+  virtual const Issues& issues() const = 0;
+  /// Of the file once its end was reached, empty before.
+  virtual const std::string& sha256() const = 0;
+  virtual double share_read() const = 0;
+};
+
+}  // namespace faultline
