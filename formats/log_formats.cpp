@@ -9,6 +9,8 @@
 #include "formats/mcap/mcap_source.hpp"
 #include "formats/native/native_reader.hpp"
 #include "formats/native/native_writer.hpp"
+#include "formats/rosbag/rosbag1_source.hpp"
+#include "formats/rosbag/rosbag2_source.hpp"
 
 namespace faultline {
 
@@ -17,6 +19,8 @@ const std::vector<LogFormat>& log_formats() {
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
       {"mcap", "recording of messages", {".mcap"}, looks_like_mcap, open_mcap, nullptr},
+      {"rosbag1", "ROS 1 bag", {".bag"}, looks_like_rosbag1, open_rosbag1, nullptr},
+      {"rosbag2", "ROS 2 bag in SQLite", {".db3"}, looks_like_rosbag2, open_rosbag2, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},
   };
   return table;

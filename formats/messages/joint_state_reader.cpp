@@ -93,6 +93,21 @@ class JointStateReader : public RawReader {
 
  private:
   void learn_joints() {
+    bool learned = learn_first_messages();
+    if (!learned && source_->issues().find("channel_unknown")) {
+      source_->rewind();  // what the messages are stood behind them
+      learned = learn_first_messages();
+    }
+    if (!learned)
+      throw Error(ErrorCode::input, identity_.path,
+                  "has no sensor_msgs/JointState message that can be read; " +
+                      topics_sentence(source_->topics()) +
+                      ". Record the topic of the joint states, or export the signals as CSV");
+    streams_.settle();
+  }
+
+  /// Whether there was any joint state.
+  bool learn_first_messages() {
     std::int64_t learned = 0;
     std::uint64_t bytes = 0;
     Message message;
@@ -101,12 +116,7 @@ class JointStateReader : public RawReader {
       bytes += message.bytes.size();
       if (learned > 0 && (learned >= kLearnedMessages || bytes >= kLearnedBytes)) break;
     }
-    if (learned == 0)
-      throw Error(ErrorCode::input, identity_.path,
-                  "has no sensor_msgs/JointState message that can be read; " +
-                      topics_sentence(source_->topics()) +
-                      ". Record the topic of the joint states, or export the signals as CSV");
-    streams_.settle();
+    return learned > 0;
   }
 
   void begin_block(RawBlock& block, int max_rows) {

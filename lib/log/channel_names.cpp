@@ -59,8 +59,9 @@ bool among(const std::string& word, std::initializer_list<std::string_view> word
 }
 
 bool is_reference(const std::string& word) {
-  return among(word, {"ref", "reference", "des", "desired", "set", "setpoint", "target", "cmd", "command",
-                      "commanded", "goal", "qg"});
+  return among(
+      word, {"ref", "reference", "des", "desired", "set", "setpoint", "target", "cmd", "command", "commanded",
+             "goal", "qg", "references", "setpoints", "targets", "cmds", "commands", "goals"});
 }
 
 bool is_measurement(const std::string& word) {

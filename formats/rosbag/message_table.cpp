@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "formats/rosbag/message_table.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kLongestMessage = 1 << 28;
+constexpr const char* kFromNumber =
+    "SELECT id, topic_id, timestamp, data FROM messages WHERE id >= ?1 ORDER BY id";
+
+using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
+
+Statement prepared(sqlite3* db, const char* sql) {
+  sqlite3_stmt* statement = nullptr;
+  sqlite3_prepare_v2(db, sql, -1, &statement, nullptr);
+  return {statement, sqlite3_finalize};
+}
+
+std::string text_of(sqlite3_stmt* statement, int column) {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, column));
+  return text ? std::string(text, sqlite3_column_bytes(statement, column)) : std::string();
+}
+
+/// The file as it stands, without locks; what a recorder left in a log beside it counts.
+std::string uri_of(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path)
+    uri += c == '?' || c == '#' || c == '%' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                            : std::string(1, c);
+  std::error_code none;
+  return uri + (std::filesystem::exists(path + "-wal", none) ? "?mode=ro" : "?immutable=1");
+}
+
+}  // namespace
+
+MessageTable::MessageTable(const std::string& path) : path_(path) {
+  try {
+    open(path);
+    read_topics();
+  } catch (...) {
+    sqlite3_close(db_);
+    throw;
+  }
+  rewind();
+}
+
+MessageTable::~MessageTable() {
+  sqlite3_finalize(messages_);
+  sqlite3_close(db_);
+}
+
+void MessageTable::fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
+
+void MessageTable::open(const std::string& path) {
+  if (sqlite3_open_v2(uri_of(path).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
+      SQLITE_OK)
+    fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
+  for (const int off :
+       {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
+    sqlite3_db_config(db_, off, 0, nullptr);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
+  // Nothing is written; it lets SQLite read a file that is shorter than its head says.
+  sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+}
+
+void MessageTable::read_topics() {
+  const Statement topics =
+      prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+  if (!topics || !prepared(db_, kFromNumber))
+    fail(fmt::format(
+        "is an SQLite file, but no rosbag2 recording that can be read ({}); a recording has the tables "
+        "topics and messages. Export it as CSV",
+        sqlite3_errmsg(db_)));
+  while (sqlite3_step(topics.get()) == SQLITE_ROW) {
+    topic_of_id_.emplace(sqlite3_column_int64(topics.get(), 0), static_cast<int>(topics_.size()));
+    topics_.push_back({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)});
+  }
+}
+
+void MessageTable::find_last_number() {
+  const Statement last = prepared(db_, "SELECT max(id) FROM messages");
+  last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
+}
+
+void MessageTable::rewind() {
+  number_ = std::numeric_limits<std::int64_t>::min();
+  find_last_number();
+  seek(number_);
+  at_row_ = at_end_ = false;
+  sqlite3_reset(messages_);
+}
+
+/// Goes to the first message from `number` on; whether there is one that can be read.
+bool MessageTable::seek(std::int64_t number) {
+  sqlite3_finalize(messages_);
+  messages_ = nullptr;
+  sqlite3_prepare_v2(db_, kFromNumber, -1, &messages_, nullptr);
+  sqlite3_bind_int64(messages_, 1, number);
+  return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
+}
+
+/// Steps over messages that cannot be read: ever further, then back to the first one that can be.
+bool MessageTable::pass_damage(Issues& issues) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
+  const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
+  std::int64_t step = 1;
+  while (step < kFarthest && !seek(first + step)) step *= 2;
+  const bool found = at_row_;
+  if (found) {
+    std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at the one, not at the other
+    while (light - dark > 1) {
+      const std::int64_t middle = dark + (light - dark) / 2;
+      (seek(middle) ? light : dark) = middle;
+    }
+    seek(light);
+  }
+  const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
+  const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
+                                        : fmt::format("the messages from number {} on", first);
+  issues.add(
+      {"pages_damaged", "", Severity::severe, lost + " stand on damaged or missing pages and are lost"});
+  return found;
+}
+
+bool MessageTable::next(Message& message, Issues& issues) {
+  while (!at_end_) {
+    if (!at_row_) {
+      const int result = sqlite3_step(messages_);
+      const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
+      at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
+      if (at_end_) break;
+    }
+    at_row_ = false;
+    if (take(message, issues)) return true;
+  }
+  return false;
+}
+
+bool MessageTable::take(Message& message, Issues& issues) {
+  number_ = sqlite3_column_int64(messages_, 0);
+  const std::int64_t id = sqlite3_column_int64(messages_, 1);
+  const auto topic = topic_of_id_.find(id);
+  if (topic == topic_of_id_.end()) {
+    issues.add({"channel_unknown", "", Severity::warning,
+                fmt::format("message {} was left out, as there is no topic {}", number_, id)});
+    return false;
+  }
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
+  message = {topic->second,
+             sqlite3_column_int64(messages_, 2),
+             {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},
+             bytes == nullptr};
+  return true;
+}
+
+double MessageTable::share_read() const {
+  if (last_number_ <= 0 || number_ <= 0) return 0.0;
+  return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
+}
+
+}  // namespace faultline

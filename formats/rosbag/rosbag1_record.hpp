@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace faultline {
+
+/// Kinds of records of a ROS 1 bag, version 2.0 (wiki.ros.org/Bags/Format/2.0).
+enum class Rosbag1Op : unsigned char {
+  message = 0x02,
+  bag_header = 0x03,
+  index = 0x04,
+  chunk = 0x05,
+  chunk_info = 0x06,
+  connection = 0x07,
+};
+
+inline constexpr std::string_view kRosbag1Magic = "#ROSBAG V2.0\n";
+
+/// The fields of a header of name=value pairs, each behind its length. Fields that are not there are empty.
+class Rosbag1Fields {
+ public:
+  explicit Rosbag1Fields(std::string_view header) : header_(header) {}
+  std::string_view text(std::string_view name) const;
+  /// Little-endian; 0 when it is not there or of another size.
+  std::uint32_t word(std::string_view name) const;
+  /// Of a time in seconds and nanoseconds, in ns.
+  std::int64_t time(std::string_view name) const;
+  /// Whether it has an operation code; which one.
+  bool has_op() const { return text("op").size() == 1; }
+  Rosbag1Op op() const { return static_cast<Rosbag1Op>(text("op")[0]); }
+
+ private:
+  std::string_view header_;
+};
+
+/// A record at the front of `bytes`: a header and its data, each behind its length.
+struct Rosbag1Record {
+  Rosbag1Fields fields{""};
+  std::string_view data;
+  std::size_t size = 0;  ///< of the whole record; 0 when it is not whole
+};
+Rosbag1Record rosbag1_record(std::string_view bytes);
+
+/// Bytes that the record at the front of `bytes` takes, as far as its lengths are in view; 0 while the length
+/// of its data is not.
+std::uint64_t rosbag1_record_size(std::string_view bytes);
+
+}  // namespace faultline

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "formats/rosbag/rosbag1_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "formats/byte_window.hpp"
+#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/unpack_block.hpp"
+#include "formats/messages/joint_state_reader.hpp"
+#include "formats/rosbag/rosbag1_record.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+/// Of a record's header; its fields are few and short.
+constexpr std::uint32_t kLongestHeader = 1 << 20;
+constexpr std::size_t kSearchedAtOnce = 1 << 16;
+constexpr std::size_t kLeastRecord = 8;  ///< two lengths
+
+std::optional<BlockPacking> packing_named(std::string_view name) {
+  if (name == "none") return BlockPacking::none;
+  if (name == "lz4") return BlockPacking::lz4_frame;
+  if (name == "bz2") return BlockPacking::bz2;
+  return std::nullopt;
+}
+
+class Rosbag1Source : public MessageSource {
+ public:
+  explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)), window_(*bytes_) {
+    start();
+  }
+
+  const std::string& path() const override { return bytes_->path(); }
+  const char* format() const override { return "rosbag1"; }
+  const std::vector<Topic>& topics() const override { return topics_; }
+  const Issues& issues() const override { return issues_; }
+  const std::string& sha256() const override { return bytes_->sha256(); }
+  double share_read() const override { return bytes_->share_read(); }
+
+  bool next(Message& message) override {
+    while (!at_end_) {
+      if (next_lost_ < lost_.size()) {
+        message = {lost_[next_lost_++], 0, {}, true};
+        return true;
+      }
+      if (!inside_.empty()) {
+        if (next_inside(message)) return true;
+      } else if (!next_record(message)) {
+        end();
+      } else if (given_) {
+        given_ = false;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void rewind() override {
+    bytes_->rewind();
+    window_.clear();
+    issues_ = {};
+    start();
+  }
+
+ private:
+  void start() {
+    inside_ = {};
+    lost_.clear();
+    next_lost_ = 0;
+    given_ = at_end_ = chunk_lost_ = chunk_doubtful_ = false;
+    record_size_ = kRosbag1Magic.size();
+  }
+
+  std::uint64_t left() const {
+    if (bytes_->compression() || bytes_->file_size() == 0) return kLargestBlock;
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes_->file_size() - window_.position()));
+  }
+
+  /// Bytes of the record at the front of the view; 0 for one that cannot be.
+  std::uint64_t likely_size() {
+    if (!window_.fill(sizeof(std::uint32_t))) return 0;
+    const auto header = ByteCursor(window_.view()).take<std::uint32_t>();
+    if (header > kLongestHeader || !window_.fill(header + kLeastRecord)) return 0;
+    if (!Rosbag1Fields(window_.view().substr(sizeof header, header)).has_op()) return 0;
+    const std::uint64_t size = rosbag1_record_size(window_.view());
+    return size <= kLargestBlock ? size : 0;
+  }
+
+  /// Takes the next record; `given_` when it is a message. False at the end.
+  bool next_record(Message& message) {
+    window_.fill(record_size_);
+    window_.advance(std::min<std::size_t>(record_size_, window_.view().size()));
+    record_size_ = 0;
+    if (!window_.fill(1)) return false;
+    const std::uint64_t size = likely_size();
+    if (size == 0) return find_record();
+    const bool whole = size <= left() && window_.fill(size);
+    if (!whole && !is_chunk()) {
+      // Either its length is wrong, then others follow, or the file is cut in it.
+      return find_record();
+    }
+    record_size_ = std::min<std::uint64_t>(size, window_.view().size());
+    take(window_.view().substr(0, record_size_), whole, message);
+    return true;
+  }
+
+  bool is_chunk() {
+    const auto header = ByteCursor(window_.view()).text();
+    return Rosbag1Fields(header).op() == Rosbag1Op::chunk;
+  }
+
+  /// Goes on behind damaged bytes: at the next thing that looks like a record.
+  bool find_record() {
+    const std::int64_t begin = window_.position();
+    bool found = false;
+    do {
+      window_.advance(std::min<std::size_t>(1, window_.view().size()));
+      window_.fill(kSearchedAtOnce);
+      const std::string_view view = window_.view();
+      const auto at = view.find("op=");
+      constexpr std::size_t kBefore = 2 * sizeof(std::uint32_t);
+      // Headers that this program looks for begin with their operation or have it soon.
+      if (at == std::string_view::npos) {
+        window_.advance(view.size() > kSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
+        continue;
+      }
+      found = step_to_header(at);
+    } while (!found && !window_.view().empty());
+    issues_.add(
+        {"records_damaged", "", Severity::severe,
+         fmt::format("bytes {} to {} are no records; what they held is lost", begin, window_.position())});
+    return found;
+  }
+
+  /// Looks for the beginning of the header in which "op=" stands at `at`; else passes it.
+  bool step_to_header(std::size_t at) {
+    constexpr std::size_t kFarthest = 256;
+    for (std::size_t back = 2 * sizeof(std::uint32_t); back <= std::min(at, kFarthest); ++back) {
+      const std::string_view candidate = window_.view().substr(at - back);
+      const auto header = ByteCursor(candidate).take<std::uint32_t>();
+      if (header < back || header > kFarthest) continue;
+      const Rosbag1Fields fields(candidate.substr(sizeof header, header));
+      if (!fields.has_op() || rosbag1_record_size(candidate) == 0) continue;
+      if (rosbag1_record_size(candidate) > left()) continue;
+      window_.advance(at - back);
+      return true;
+    }
+    window_.advance(at + 1);
+    return false;
+  }
+
+  void take(std::string_view bytes, bool whole, Message& message) {
+    const auto header = ByteCursor(bytes).text();
+    const Rosbag1Fields fields(header);
+    const std::string_view data = bytes.substr(header.size() + kLeastRecord);
+    switch (fields.op()) {
+      case Rosbag1Op::connection:
+        add_connection(fields, data);
+        break;
+      case Rosbag1Op::message:
+        given_ = read_message(fields, data, false, message);
+        break;
+      case Rosbag1Op::chunk:
+        open_chunk(fields, data, whole);
+        break;
+      case Rosbag1Op::index:
+        count_lost(fields);
+        break;
+      default:
+        break;
+    }
+  }
+
+  void add_connection(const Rosbag1Fields& fields, std::string_view data) {
+    const std::uint32_t id = fields.word("conn");
+    if (topic_of_.count(id)) return;
+    topic_of_.emplace(id, static_cast<int>(topics_.size()));
+    topics_.push_back(
+        {std::string(fields.text("topic")), std::string(Rosbag1Fields(data).text("type")), "ros1"});
+  }
+
+  bool read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {
+    const std::uint32_t id = fields.word("conn");
+    ++met_in_chunk_[id];
+    const auto topic = topic_of_.find(id);
+    if (topic == topic_of_.end()) {
+      issues_.add(
+          {"channel_unknown", "", Severity::warning,
+           fmt::format("a message of connection {} was left out, as the file does not tell what it is", id)});
+      return false;
+    }
+    message = {topic->second, fields.time("time"), data, lost};
+    return true;
+  }
+
+  void open_chunk(const Rosbag1Fields& fields, std::string_view data, bool whole) {
+    met_in_chunk_.clear();
+    chunk_lost_ = true;
+    const auto packing = packing_named(fields.text("compression"));
+    const std::uint32_t size = fields.word("size");
+    if (!packing) return lose_chunk("its compression is not known");
+    bool sound = data.size() == size;
+    inside_ = data;
+    if (*packing != BlockPacking::none) {
+      sound = unpack_block(*packing, data, size, unpacked_);
+      inside_ = unpacked_;
+    }
+    if (!whole)
+      lose_chunk("the file ends in it; what stands before is read");
+    else if (!sound)
+      lose_chunk("it cannot be unpacked to its end; its messages were left out");
+    else
+      chunk_lost_ = false;
+    chunk_doubtful_ = whole && !sound;
+  }
+
+  void lose_chunk(const char* why) {
+    issues_.add({"chunk_damaged", "", Severity::severe,
+                 fmt::format("the chunk at byte {}: {}", window_.position(), why)});
+  }
+
+  bool next_inside(Message& message) {
+    const Rosbag1Record record = rosbag1_record(inside_);
+    if (record.size == 0 || !record.fields.has_op()) {
+      if (!chunk_lost_) lose_chunk("the records in it are damaged; what stands before is read");
+      chunk_lost_ = true;
+      inside_ = {};
+      return false;
+    }
+    inside_ = inside_.substr(record.size);
+    if (record.fields.op() == Rosbag1Op::connection) add_connection(record.fields, record.data);
+    return record.fields.op() == Rosbag1Op::message &&
+           read_message(record.fields, record.data, chunk_doubtful_, message);
+  }
+
+  /// The index behind a damaged chunk tells how many messages it had.
+  void count_lost(const Rosbag1Fields& fields) {
+    const auto topic = topic_of_.find(fields.word("conn"));
+    if (!chunk_lost_ || topic == topic_of_.end()) return;
+    std::size_t& met = met_in_chunk_[topic->first];
+    // Entries take 12 bytes each in the data, which was read with the record.
+    constexpr std::size_t kEntry = 12;
+    const std::size_t told = std::min<std::size_t>(fields.word("count"), record_size_ / kEntry);
+    if (next_lost_ == lost_.size()) lost_.clear(), next_lost_ = 0;
+    for (; met < told; ++met) lost_.push_back(topic->second);
+  }
+
+  void end() {
+    at_end_ = true;
+    bytes_->read_to_end();
+    issues_.merge(bytes_->issues());
+  }
+
+  std::unique_ptr<ByteSource> bytes_;
+  ByteWindow window_;
+  std::vector<Topic> topics_;
+  std::map<std::uint32_t, int> topic_of_;  ///< by connection
+  Issues issues_;
+  std::uint64_t record_size_ = 0;                      ///< of the present record; passed at the next one
+  std::string unpacked_;                               ///< the open chunk, where it was compressed
+  std::string_view inside_;                            ///< what is left of the open chunk
+  std::map<std::uint32_t, std::size_t> met_in_chunk_;  ///< messages by connection
+  bool chunk_lost_ = false;                            ///< some of its messages are missing
+  bool chunk_doubtful_ = false;                        ///< its bytes may be wrong
+  std::vector<int> lost_;                              ///< topics of messages that are missing
+  std::size_t next_lost_ = 0;
+  bool given_ = false, at_end_ = false;
+};
+
+}  // namespace
+
+bool looks_like_rosbag1(std::string_view head) { return head.starts_with(kRosbag1Magic); }
+
+std::unique_ptr<RawReader> open_rosbag1(std::unique_ptr<ByteSource> bytes) {
+  return read_joint_states(std::make_unique<Rosbag1Source>(std::move(bytes)));
+}
+
+}  // namespace faultline
