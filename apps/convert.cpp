@@ -7,6 +7,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
+#include "apps/log_parts.hpp"
 #include "apps/progress.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
@@ -22,6 +23,7 @@ struct ConvertArguments {
   std::string log;
   std::string out;
   std::string robot;
+  LogParts parts;
 };
 
 /// ".csv (- for standard output) or .flog".
@@ -54,10 +56,12 @@ void tell_losses(const LogSource& source, const ConvertArguments& arguments) {
 int convert(const ConvertArguments& arguments, ColorChoice color) {
   FileUse()
       .reads("the log", arguments.log)
+      .reads("a part of the log", files_of(arguments.parts))
       .reads("the robot file", arguments.robot)
       .writes("OUT", arguments.out)
       .claim();
   OpenLogOptions options;
+  options.parts = arguments.parts;
   if (!arguments.robot.empty()) {
     const LogMeaning meaning = load_robot_file(arguments.robot).log;
     options.columns = meaning.columns;
@@ -86,6 +90,7 @@ void add_convert(CLI::App& app, Program& program) {
   command->add_option("OUT", arguments->out, "The file to write: " + written_extensions())->required();
   command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
       ->type_name("ROBOT.toml");
+  add_log_parts(*command, arguments->parts);
   command->footer(
       "The converted log needs no column mapping any more. Rows without a usable time are left out and "
       "told.\n"

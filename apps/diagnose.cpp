@@ -7,6 +7,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
+#include "apps/log_parts.hpp"
 #include "apps/options.hpp"
 #include "apps/report_options.hpp"
 #include "apps/robot_log.hpp"
@@ -19,13 +20,16 @@ namespace {
 
 struct DiagnoseArguments : ModelPaths {
   std::string log;
+  LogParts parts;
   std::vector<RequestedReport> reports = all_reports();
   DiagnoseOptions options;
 };
 
 void claim_files(const DiagnoseArguments& arguments) {
   FileUse files;
-  files.reads("the log", arguments.log).reads(arguments);
+  files.reads("the log", arguments.log)
+      .reads("a part of the log", files_of(arguments.parts))
+      .reads(arguments);
   for (const RequestedReport& report : arguments.reports)
     files.writes(std::string("--") + report.format->name, report.path);
   files.claim();
@@ -34,7 +38,7 @@ void claim_files(const DiagnoseArguments& arguments) {
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   claim_files(arguments);
   const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
-  const auto log = prefetched(open_robot_log(arguments.log, model.robot));
+  const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
   const Diagnosis diagnosis = diagnose(*log, model, cases, arguments.options);
   write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
   TimelineOptions timeline;
@@ -53,6 +57,7 @@ void add_diagnose(CLI::App& app, Program& program) {
   add_cases_option(*command, *arguments);
   add_report_options(*command, arguments->reports);
   add_diagnose_options(*command, arguments->options);
+  add_log_parts(*command, arguments->parts);
   command->footer(
       "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict inconclusive).\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");

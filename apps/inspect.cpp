@@ -7,6 +7,7 @@
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/inspection.hpp"
+#include "apps/log_parts.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -21,6 +22,7 @@ struct InspectArguments {
   std::vector<std::string> logs;
   std::string robot;
   std::string json;
+  LogParts parts;
 };
 
 /// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
@@ -31,7 +33,7 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
   for (const std::string& log : arguments.logs) {
     const int result = guarded([&] {
       ProgressBar bar(color);
-      inspections.push_back(inspect_log(log, robot, bar.callback()));
+      inspections.push_back(inspect_log(log, robot, bar.callback(), arguments.parts));
       return inspections.back().severe() ? kFindings : kNothingFound;
     });
     status = std::max(status, result);
@@ -42,6 +44,7 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
 int inspect(const InspectArguments& arguments, ColorChoice color) {
   FileUse()
       .reads("the log", arguments.logs)
+      .reads("a part of the log", files_of(arguments.parts))
       .reads("the robot file", arguments.robot)
       .writes("--json", arguments.json)
       .claim();
@@ -69,6 +72,7 @@ void add_inspect(CLI::App& app, Program& program) {
       ->type_name("ROBOT.toml");
   add_file_option(*command, "--json", arguments->json, "Write the findings as JSON",
                   " to this file, - for standard output");
+  add_log_parts(*command, arguments->parts);
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

@@ -145,12 +145,12 @@ bool Inspection::severe() const {
                      [](const Issue& issue) { return issue.severity == Severity::severe; });
 }
 
-Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress) {
-  auto reader = open_raw(path);
+Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
+                       const LogParts& parts) {
+  auto reader = open_parts(path, parts, robot ? robot->log.recording : RecordingChoice{});
   MappedSourceOptions options;
   if (robot && !reader->canonical()) options.columns = robot->log.columns;
-  if (robot) options.recording = robot->log.recording;
-  reader->choose(options.recording);
+  options.run = parts.run;
   const auto columns = reader->columns();
   const std::string why_not = why_no_match(columns, options.columns, path);
   if (!why_not.empty()) return inspect_table(*reader, why_not);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/open_log.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
@@ -38,7 +39,8 @@ struct Inspection {
 };
 
 /// Throws Error(input) when nothing can be read from the file.
-Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress);
+Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
+                       const LogParts& parts = {});
 
 std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);

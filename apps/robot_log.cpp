@@ -9,8 +9,10 @@
 
 namespace faultline {
 
-std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot) {
+std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
+                                          const LogParts& parts) {
   OpenLogOptions options;
+  options.parts = parts;
   options.columns = robot.log.columns;
   options.recording = robot.log.recording;
   options.keep_extra = false;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "formats/open_log.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -11,6 +12,7 @@ namespace faultline {
 
 /// Opens a log of this robot for learning or diagnosis: its columns mean what the robot file says, those
 /// without a meaning are passed over, and coupled drives are turned into joints. Throws as open_log().
-std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot);
+std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
+                                          const LogParts& parts = {});
 
 }  // namespace faultline

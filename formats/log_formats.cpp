@@ -7,6 +7,7 @@
 #include "formats/csv/csv_reader.hpp"
 #include "formats/csv/csv_writer.hpp"
 #include "formats/mcap/mcap_source.hpp"
+#include "formats/mcap/mcap_writer.hpp"
 #include "formats/native/native_reader.hpp"
 #include "formats/native/native_writer.hpp"
 #include "formats/rosbag/rosbag1_source.hpp"
@@ -18,7 +19,7 @@ const std::vector<LogFormat>& log_formats() {
   // CSV comes last, as it takes any text.
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
-      {"mcap", "recording of messages", {".mcap"}, looks_like_mcap, open_mcap, nullptr},
+      {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},
       {"rosbag1", "ROS 1 bag", {".bag"}, looks_like_rosbag1, open_rosbag1, nullptr},
       {"rosbag2", "ROS 2 bag in SQLite", {".db3"}, looks_like_rosbag2, open_rosbag2, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},

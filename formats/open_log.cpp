@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "formats/open_log.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/mapped_source.hpp"
@@ -17,10 +20,30 @@ std::unique_ptr<RawReader> open_raw(const std::string& path) {
               "is of no known format: it is binary, but no faultline log (.flog). Export it as CSV in UTF-8");
 }
 
+std::unique_ptr<RawReader> open_parts(const std::string& path, const LogParts& parts,
+                                      const RecordingChoice& choice) {
+  const auto open_chosen = [&](const std::string& file) {
+    auto reader = open_raw(file);
+    reader->choose(choice);
+    return reader;
+  };
+  auto first = open_chosen(path);
+  if (!parts.then.empty()) {
+    std::vector<std::unique_ptr<RawReader>> files;
+    files.push_back(std::move(first));
+    for (const std::string& file : parts.then) files.push_back(open_chosen(file));
+    first = continue_files(std::move(files));
+  }
+  if (parts.join.empty()) return first;
+  std::vector<std::unique_ptr<RawReader>> others;
+  for (const std::string& file : parts.join) others.push_back(open_raw(file));
+  return join_files(std::move(first), std::move(others), parts.by);
+}
+
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
   return std::make_unique<MappedSource>(
-      open_raw(path),
-      MappedSourceOptions{options.columns, options.recording, options.segment_rows, options.keep_extra});
+      open_parts(path, options.parts, options.recording),
+      MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra});
 }
 
 }  // namespace faultline

@@ -3,14 +3,25 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "formats/parts/joined_reader.hpp"
 #include "lib/log/channels.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 
+/// Of which files a log is made, and which of their runs it is.
+struct LogParts {
+  std::vector<std::string> then{};  ///< files in which it goes on
+  std::vector<std::string> join{};  ///< files with more columns of it
+  JoinBy by = JoinBy::automatic;    ///< how their rows are found
+  int run = 1;                      ///< where the clock restarts, from 1
+};
+
 struct OpenLogOptions {
+  LogParts parts{};
   ColumnMap columns{};          ///< [log.columns] of the robot file: robot.log.columns
   RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
   int segment_rows = 4096;      ///< rows of a segment at most; changes no byte of any result
@@ -24,5 +35,9 @@ std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOption
 
 /// The file's columns before any channel mapping; for looking into files that are no joint log.
 std::unique_ptr<RawReader> open_raw(const std::string& path);
+
+/// The same of a log of several files: `choice` holds for each of them.
+std::unique_ptr<RawReader> open_parts(const std::string& path, const LogParts& parts,
+                                      const RecordingChoice& choice);
 
 }  // namespace faultline

@@ -18,6 +18,7 @@ enum class McapOp : unsigned char {
   chunk_index = 0x08,
   attachment = 0x09,
   statistics = 0x0B,
+  metadata = 0x0C,
   data_end = 0x0F,
 };
 

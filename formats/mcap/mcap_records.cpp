@@ -102,6 +102,16 @@ void McapRecords::end() {
                    bytes_.position() + static_cast<std::int64_t>(bytes_.view().size()))});
 }
 
+/// At the footer, behind which the mark of the beginning stands once more.
+void McapRecords::finish_whole() {
+  bytes_.fill(record_size_ + kMcapMagic.size());
+  finished_ = true;
+  if (bytes_.view().substr(record_size_).starts_with(kMcapMagic)) return;
+  damaged_ = true;
+  issues_.add({"file_truncated", "", Severity::warning,
+               "the last bytes of the file are missing or damaged; they hold no data"});
+}
+
 bool McapRecords::next() {
   skip(record_size_);
   record_size_ = 0;
@@ -129,7 +139,7 @@ bool McapRecords::next() {
     op_ = static_cast<McapOp>(op);
     size_ = std::min<std::size_t>(size, bytes_.view().size() - kMcapRecordHead);
     record_size_ = kMcapRecordHead + size_;
-    finished_ = op_ == McapOp::footer;
+    if (op_ == McapOp::footer) finish_whole();
     return true;
   }
   return false;

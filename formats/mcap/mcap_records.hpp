@@ -40,6 +40,7 @@ class McapRecords {
   bool find_record();
   void skip(std::uint64_t size);
   void end();
+  void finish_whole();
 
   ByteWindow& bytes_;
   const McapTopics& topics_;

@@ -13,7 +13,9 @@
 #include "formats/bytes/unpack_block.hpp"
 #include "formats/mcap/mcap_index.hpp"
 #include "formats/mcap/mcap_records.hpp"
+#include "formats/mcap/mcap_writer.hpp"
 #include "formats/messages/joint_state_reader.hpp"
+#include "formats/provenance.hpp"
 
 namespace faultline {
 namespace {
@@ -105,6 +107,9 @@ class McapSource : public MessageSource {
       case McapOp::chunk_index:
         index_.check_chunk_index(content);
         break;
+      case McapOp::metadata:
+        read_provenance(content);
+        break;
       case McapOp::statistics:
         index_.check_statistics(content);
         break;
@@ -112,6 +117,15 @@ class McapSource : public MessageSource {
         break;
     }
     return true;
+  }
+
+  void read_provenance(std::string_view content) {
+    ByteCursor record(content);
+    if (record.text() != kMcapProvenance) return;
+    ByteCursor map(record.text());
+    const bool is_ours = map.text() == kMcapProvenanceKey;
+    const std::string_view text = map.text();
+    issues_.add(issue_from_provenance(is_ours && map.ok() && record.ok() ? text : ""));
   }
 
   bool read_message(std::string_view content, Message& message) {

@@ -7,14 +7,18 @@
 #include <set>
 #include <tuple>
 
+#include "formats/messages/own_topics.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::array kMeasured{Quantity::q, Quantity::dq, Quantity::tau};
 constexpr std::array kCommanded{Quantity::q_ref, Quantity::dq_ref, Quantity::tau_ref};
+/// Of a stream with torques only.
+constexpr std::array kMeasuredBeside{Quantity::q, Quantity::dq, Quantity::tau_meas};
 constexpr std::array kArrays{"position", "velocity", "effort"};
 
 std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
@@ -35,7 +39,7 @@ int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>
                 const RecordingChoice& choice, const std::string& path) {
   const auto name_of = [&](const JointStream& stream) { return topics[stream.topic].name; };
   const auto rank = [&](const JointStream& stream) {
-    return std::tuple(stream.position, !is_command(name_of(stream)),
+    return std::tuple(stream.position, name_of(stream) != kExtraTopic, !is_command(name_of(stream)),
                       name_of(stream).find("joint_states") != std::string::npos, stream.effort,
                       stream.messages);
   };
@@ -107,7 +111,7 @@ class Layouter {
     layout_.main = choose_main(topics_, streams_, choice, path);
     const JointStream& main = streams_[layout_.main];
     layout_.of_stream.resize(streams_.size());
-    add_time(choice, main.stamped);
+    add_time(choice, main);
     const std::vector<int> order = order_joints(main, choice, path, layout_.issues);
     add_stream(layout_.main, kMeasured, order);
     for (int s = 0; s < std::ssize(streams_); ++s)
@@ -116,29 +120,50 @@ class Layouter {
   }
 
  private:
-  void add_time(const RecordingChoice& choice, bool stamped) {
-    const bool header = choice.time ? *choice.time == MessageTime::header : stamped;
-    layout_.columns.push_back({"stamp", "s"});
-    layout_.columns.push_back({"receipt", "s"});
-    layout_.columns[header ? layout_.stamp_column : layout_.receipt_column].meaning = Channel{};
-    if (!stamped)
+  void add_time(const RecordingChoice& choice, const JointStream& main) {
+    const bool header = choice.time ? *choice.time == MessageTime::header : main.stamped;
+    if (header || main.stamped) add_time_column(layout_.stamp_column, "stamp", header);
+    if (!header || main.received_later) add_time_column(layout_.receipt_column, "receipt", !header);
+    if (!main.stamped)
       layout_.issues.add({"no_stamps", "t", Severity::note,
                           "the messages bear no stamps; the time is that of their receipt"});
   }
 
-  /// A stream of commands for the same joints is the reference of the main one.
+  void add_time_column(int& place, const char* name, bool is_time) {
+    place = static_cast<int>(layout_.columns.size());
+    layout_.columns.push_back({name, "s"});
+    if (is_time) layout_.columns.back().meaning = Channel{};
+  }
+
+  /// A stream of the same joints that was commanded is the reference of the main one; one of measured torques
+  /// alone stands beside its torque.
   void add_other(int s, const std::vector<int>& order) {
-    const JointStream& main = streams_[layout_.main];
-    std::vector<int> matching;
-    for (const int joint : order) {
-      const auto& joints = streams_[s].joints;
-      const auto found = std::find(joints.begin(), joints.end(), main.joints[joint]);
-      if (found != joints.end()) matching.push_back(static_cast<int>(found - joints.begin()));
+    const JointStream& stream = streams_[s];
+    const std::string& topic = topics_[stream.topic].name;
+    const std::vector<int> same = same_joints(stream, order);
+    const bool torques = stream.effort && !stream.position && !stream.velocity;
+    if (!same.empty() && is_command(topic) && !has_reference_) {
+      has_reference_ = true;
+      add_stream(s, kCommanded, same);
+    } else if (!same.empty() && torques && read_name("torque/" + topic).quantity == Quantity::tau_meas &&
+               !has_measured_) {
+      has_measured_ = true;
+      add_stream(s, kMeasuredBeside, same);
+    } else {
+      add_stream(s, kMeasured, {});
     }
-    const bool reference = !has_reference_ && matching.size() == order.size() && !order.empty() &&
-                           is_command(topics_[streams_[s].topic].name);
-    has_reference_ = has_reference_ || reference;
-    add_stream(s, kCommanded, reference ? matching : std::vector<int>{});
+  }
+
+  /// The joints of the log in a stream; empty when it lacks some.
+  std::vector<int> same_joints(const JointStream& stream, const std::vector<int>& order) const {
+    std::vector<int> same;
+    for (const int joint : order) {
+      const std::string& name = streams_[layout_.main].joints[joint];
+      const auto found = std::find(stream.joints.begin(), stream.joints.end(), name);
+      if (found == stream.joints.end()) return {};
+      same.push_back(static_cast<int>(found - stream.joints.begin()));
+    }
+    return same;
   }
 
   /// Columns of a stream: `joints` are the log's, with the meaning `quantities`, others have none.
@@ -160,15 +185,23 @@ class Layouter {
                   std::optional<Channel> meaning) {
     if (place >= 0) return;  // a joint named twice in [log] joints
     place = static_cast<int>(layout_.columns.size());
-    RawColumn column{topics_[stream.topic].name + "/" + stream.joints[joint] + "/" + array, ""};
+    RawColumn column = column_of(stream, joint, array);
     column.meaning = meaning;
     layout_.columns.push_back(column);
+  }
+
+  /// Named by topic, joint and array; what this program wrote beside the joints has its own name again.
+  RawColumn column_of(const JointStream& stream, int joint, const char* array) const {
+    const std::string &topic = topics_[stream.topic].name, &name = stream.joints[joint];
+    if (topic != kExtraTopic) return {topic + "/" + name + "/" + array, ""};
+    const NameAndUnit parts = split_unit(name);
+    return {parts.name, parts.unit};
   }
 
   const std::vector<Topic>& topics_;
   const std::vector<JointStream>& streams_;
   JointLayout layout_;
-  bool has_reference_ = false;
+  bool has_reference_ = false, has_measured_ = false;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ using JointColumns = std::vector<int>;
 struct JointLayout {
   int main = -1;  ///< stream
   std::vector<RawColumn> columns;
-  int stamp_column = 0, receipt_column = 1;  ///< s
+  int stamp_column = -1, receipt_column = -1;  ///< s; -1 where it says nothing
   /// By stream: the columns of position, velocity and effort.
   std::vector<std::array<JointColumns, 3>> of_stream;
   Issues issues;  ///< choices that somebody may want to know of

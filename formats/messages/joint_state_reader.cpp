@@ -183,6 +183,7 @@ class JointStateReader : public RawReader {
   }
 
   void put(int column, int row, double value) {
+    if (column < 0) return;
     if (double* values = values_[column]) values[row] = value;
   }
 

@@ -27,6 +27,7 @@ void add_to(JointStream& stream, const JointStream& more) {
   stream.velocity = stream.velocity || more.velocity;
   stream.effort = stream.effort || more.effort;
   stream.stamped = stream.stamped || more.stamped;
+  stream.received_later = stream.received_later || more.received_later;
 }
 
 /// Messages without names count their joints from 1.
@@ -74,8 +75,9 @@ bool JointStreams::learn(const Topic& topic, const Message& message) {
   if (!decoder || !decoder->decode(message.bytes, state)) return false;
   Pattern* pattern = pattern_of(message.topic, state, *decoder);
   if (!pattern || pattern->names.empty() || pattern->names.size() > kMostJoints) return false;
-  add_to(pattern->counted, {message.topic, pattern->names, 1, state.position.count > 0,
-                            state.velocity.count > 0, state.effort.count > 0, state.stamp_ns != 0});
+  add_to(pattern->counted,
+         {message.topic, pattern->names, 1, state.position.count > 0, state.velocity.count > 0,
+          state.effort.count > 0, state.stamp_ns != 0, state.stamp_ns != message.receipt_ns});
   return true;
 }
 

@@ -19,6 +19,7 @@ struct JointStream {
   std::int64_t messages = 0;
   bool position = false, velocity = false, effort = false;  ///< which of them some message has
   bool stamped = false;                                     ///< some stamp is not 0
+  bool received_later = false;                              ///< some receipt is not the stamp
 };
 
 /// How the messages with one list of joint names go into their stream.

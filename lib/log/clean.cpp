@@ -35,6 +35,26 @@ bool next_is_between(const std::vector<double>& time, std::size_t i, const Clean
   return i + 1 < time.size() && time[i + 1] > state.last_time && time[i + 1] < time[i];
 }
 
+/// Whether the clock may have restarted at this row, which depends on the row after it.
+bool goes_far_back(double t, const CleanState& state) {
+  return state.last_step > 0.0 && state.last_time - t > kLeap * state.last_step &&
+         t < 0.5 * (state.first_time + state.last_time);
+}
+
+bool next_goes_on(const std::vector<double>& time, std::size_t i, const CleanState& state) {
+  return i + 1 < time.size() && time[i + 1] > time[i] && time[i + 1] - time[i] <= kLeap * state.last_step;
+}
+
+void begin_run(std::int64_t row, double t, CleanState& state, Issues& issues) {
+  issues.add(
+      {"clock_restart", "t", Severity::warning,
+       fmt::format("row {}: the clock goes back from {} to {} s and on from there: run {} begins, and run "
+                   "{} is read. To read another: --run N",
+                   row, state.last_time, t, state.run + 1, state.wanted_run),
+       row, t, 1});
+  state = {.wanted_run = state.wanted_run, .run = state.run + 1};
+}
+
 void report(Issues& issues, const char* code, std::int64_t row, double t, const CleanState& state) {
   std::string what = fmt::format("row {}: ", row);
   const std::string code_name = code;
@@ -43,8 +63,18 @@ void report(Issues& issues, const char* code, std::int64_t row, double t, const 
   if (code_name == "time_repeated") what += fmt::format("repeats the time {} s", t);
   if (code_name == "time_backward")
     what += fmt::format("time {} s is before {} s of an earlier row", t, state.last_time);
+  if (code_name == "other_run") what += fmt::format("belongs to run {}", state.run);
   if (code_name == "time_leap") what += fmt::format("time {} s is ahead of the row after it", t);
   issues.add({code, "t", Severity::warning, what + "; the row was left out", row, t, 1, 1});
+}
+
+/// A row in order becomes the one before the next.
+void pass(double t, CleanState& state) {
+  if (state.last_time > -1e300)
+    state.last_step = t - state.last_time;
+  else
+    state.first_time = t;
+  state.last_time = t;
 }
 
 struct JudgedRows {
@@ -58,18 +88,26 @@ JudgedRows judge(const std::vector<double>& time, std::int64_t first_row, bool a
   rows.kept.reserve(time.size());
   for (std::size_t i = 0; i < time.size(); ++i) {
     const char* fault = time_fault(time, i, state);
+    const std::int64_t row = first_row + static_cast<std::int64_t>(i) + 1;
+    if (fault && goes_far_back(time[i], state)) {
+      rows.held = i + 1 == time.size() && !at_end;
+      if (rows.held) return rows;
+      if (next_goes_on(time, i, state)) {
+        begin_run(row, time[i], state, issues);
+        fault = nullptr;
+      }
+    }
     if (!fault && leaps(time[i], state)) {
       rows.held = i + 1 == time.size() && !at_end;
       if (rows.held) return rows;
       if (next_is_between(time, i, state)) fault = "time_leap";
     }
-    if (fault) {
-      report(issues, fault, first_row + static_cast<std::int64_t>(i) + 1, time[i], state);
-      continue;
-    }
-    if (state.last_time > -1e300) state.last_step = time[i] - state.last_time;
-    state.last_time = time[i];
-    rows.kept.push_back(static_cast<int>(i));
+    if (!fault) pass(time[i], state);
+    if (!fault && state.run != state.wanted_run) fault = "other_run";
+    if (fault)
+      report(issues, fault, row, time[i], state);
+    else
+      rows.kept.push_back(static_cast<int>(i));
   }
   return rows;
 }
@@ -104,12 +142,12 @@ void keep_rows(Log& log, const std::vector<int>& kept) {
 
 /// The usual case: every time is finite and after the one before, and none leaps.
 bool all_in_order(const std::vector<double>& time, CleanState& state) {
+  if (state.run != state.wanted_run) return false;
   CleanState after = state;
   for (const double t : time) {
     if (!(t > after.last_time) || !(t <= kImplausible) || !(t >= -kImplausible) || leaps(t, after))
       return false;
-    if (after.last_time > -1e300) after.last_step = t - after.last_time;
-    after.last_time = t;
+    pass(t, after);
   }
   state = after;
   return true;

@@ -127,11 +127,12 @@ class Matcher {
     used_.insert(pair->nanoseconds);
   }
 
+  /// None where the file itself says which columns are the joints'.
   void find_families() {
     const auto is_free = [&](int column) {
       return !used_.count(column) || canonical_channel(names_[column]).has_value();
     };
-    families_ = column_families(names_, is_free);
+    if (!told_.count(Quantity::q)) families_ = column_families(names_, is_free);
     misfits_ = take_misfits(families_, columns_, map_);
   }
 
@@ -194,7 +195,7 @@ class Matcher {
 
   void match_quantity(Quantity quantity) {
     if (named_in_map(quantity)) match_usual_names(quantity);
-    const ColumnFamily* family = told_.count(quantity) ? nullptr : family_of(quantity);
+    const ColumnFamily* family = family_of(quantity);
     if (family) {
       if (quantity == Quantity::q) first_position_ = family->first();
       const int first = first_of(*family);

@@ -17,7 +17,7 @@ namespace faultline {
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
     : reader_(std::move(reader)), options_(options) {
   options_.segment_rows = std::max(options_.segment_rows, 1);
-  reader_->choose(options_.recording);
+  clean_state_.wanted_run = options_.run;
   matching_ = match_columns(reader_->columns(), reader_->canonical() ? ColumnMap{} : options_.columns,
                             reader_->identity().path);
   if (!options_.keep_extra) matching_.extra.clear();
@@ -34,7 +34,7 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
 
 void MappedSource::rewind() {
   reader_->rewind();
-  clean_state_ = {};
+  clean_state_ = {.wanted_run = options_.run};
   waiting_ = {};
   rows_kept_ = 0;
   at_end_ = false;
@@ -68,6 +68,10 @@ void MappedSource::refuse_no_rows() const {
   const LogIdentity& log = reader_->identity();
   if (log.rows_read == 0)
     throw Error(ErrorCode::input, log.path, "has a header but no data row; a log has at least one");
+  if (clean_state_.run < options_.run)
+    throw Error(
+        ErrorCode::input, log.path,
+        fmt::format("has no run {}: its clock restarts {} times", options_.run, clean_state_.run - 1));
   throw Error(
       ErrorCode::input, log.path,
       fmt::format("none of its {} rows has a usable time (seconds as a number, increasing); first: {}",

@@ -11,10 +11,10 @@
 namespace faultline {
 
 struct MappedSourceOptions {
-  ColumnMap columns{};          ///< [log.columns] of the robot file
-  RecordingChoice recording{};  ///< [log] of the robot file
-  int segment_rows = 4096;      ///< at most so many rows a segment; changes no byte of any result
-  bool keep_extra = true;       ///< hand out columns without a canonical meaning too
+  ColumnMap columns{};      ///< [log.columns] of the robot file
+  int run = 1;              ///< of a file in which the clock restarts, from 1
+  int segment_rows = 4096;  ///< at most so many rows a segment; changes no byte of any result
+  bool keep_extra = true;   ///< hand out columns without a canonical meaning too
 };
 
 /// The rows of a file as joint log: columns mapped to channels in SI, rows with unusable time left out.

@@ -58,6 +58,21 @@ TEST_P(MutatedSeeds, AreTakenOrRefused) {
   }
 }
 
+constexpr int kMutationsOfACase = 15;
+
+TEST(MutatedCases, OfLogFormatsAreTakenOrRefused) {
+  Random random(2);
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(FAULTLINE_SOURCE_DIR "/tests/formats/cases")) {
+    if (!entry.path().filename().string().starts_with("input")) continue;
+    const std::string bytes = read_file(entry.path());
+    for (int i = 0; i < kMutationsOfACase; ++i) {
+      SCOPED_TRACE(entry.path().string() + ", mutation " + std::to_string(i));
+      EXPECT_NO_THROW(feed_log(mutated(bytes, random)));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Readers, MutatedSeeds, testing::ValuesIn(fed_readers()),
                          [](const auto& reader) { return reader.param.name; });
 

@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 seconds=${1:-30}
 shift || true
-all=(csv flog robot spec golden labels model network cases)
+all=(csv flog mcap rosbag1 rosbag2 packed robot spec golden labels model network cases)
 targets=("${@:-${all[@]}}")
 
 if ! command -v clang++ >/dev/null; then
@@ -25,6 +25,8 @@ whole_files() {
   case $1 in
     csv) ls $samples/bench/*.csv ;;
     flog) ls $samples/rrpr/*.flog ;;
+    mcap | rosbag1 | rosbag2) ls tests/formats/cases/"$1"_*/input.* ;;
+    packed) ls tests/formats/cases/csv_*/input.* ;;
     robot) ls $samples/*/robot.toml ;;
     spec) ls $samples/*/spec.toml tests/bench/speed/*.toml tests/bench/own/*.toml ;;
     golden) ls $samples/golden/golden.toml $samples/golden/traces/*.csv ;;

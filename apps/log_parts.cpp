@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "apps/log_parts.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+namespace faultline {
+
+void add_log_parts(CLI::App& command, LogParts& parts) {
+  static const std::map<std::string, JoinBy> ways{
+      {"auto", JoinBy::automatic}, {"row", JoinBy::row}, {"time", JoinBy::time}};
+  command.add_option("--join", parts.join, "A file with more columns of the log; may be given several times")
+      ->type_name("FILE")
+      ->expected(1);
+  command
+      .add_option("--join-by", parts.by,
+                  "How rows belong together: time, row, or auto (by time where both have one)")
+      ->transform(CLI::CheckedTransformer(ways))
+      ->type_name("HOW");
+  command.add_option("--then", parts.then, "A file in which the log goes on; may be given several times")
+      ->type_name("FILE")
+      ->expected(1);
+  command.add_option("--run", parts.run, "Which run of a file in which the clock restarts, from 1")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+}
+
+std::vector<std::string> files_of(const LogParts& parts) {
+  std::vector<std::string> files = parts.join;
+  files.insert(files.end(), parts.then.begin(), parts.then.end());
+  return files;
+}
+
+}  // namespace faultline

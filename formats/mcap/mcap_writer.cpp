@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "formats/mcap/mcap_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "formats/mcap/mcap_file.hpp"
+#include "formats/messages/encode_joint_state.hpp"
+#include "formats/messages/own_topics.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+/// Seconds that a stamp can hold: 32 bits, of which the first is the sign.
+constexpr double kMostSeconds = 2147483647.0;
+
+/// A topic of joint states, and where its values are in a log.
+struct StatesTopic {
+  const char* name;
+  const JointSignals Log::*position;
+  const JointSignals Log::*velocity;
+  const JointSignals Log::*effort;
+};
+const JointSignals Log::*const kNothing = nullptr;
+/// What was commanded comes before the states of the same time, so that it is known when they are read.
+const StatesTopic kTopics[] = {{kCommandsTopic, &Log::q_ref, &Log::dq_ref, &Log::tau_ref},
+                               {kMeasuredTopic, kNothing, kNothing, &Log::tau_meas},
+                               {kStatesTopic, &Log::q, &Log::dq, &Log::tau}};
+
+const JointSignals& signals(const Log& log, const JointSignals Log::*member) {
+  static const JointSignals none;
+  return member ? log.*member : none;
+}
+
+bool has(const Log& log, const StatesTopic& topic) {
+  return !signals(log, topic.position).empty() || !signals(log, topic.velocity).empty() ||
+         !signals(log, topic.effort).empty();
+}
+
+void take_row(const JointSignals& values, int row, std::vector<double>& out) {
+  out.clear();
+  for (const std::vector<double>& joint : values) out.push_back(joint[row]);
+}
+
+std::vector<std::string> joint_names(int joints) {
+  std::vector<std::string> names;
+  for (int j = 1; j <= joints; ++j) names.push_back(fmt::format("joint{}", j));
+  return names;
+}
+
+std::vector<std::string> extra_names(const Log& log) {
+  std::vector<std::string> names;
+  for (const ExtraChannel& extra : log.extra)
+    names.push_back(extra.unit.empty() ? extra.name : extra.name + " [" + extra.unit + "]");
+  return names;
+}
+
+class McapWriter : public LogWriter {
+ public:
+  explicit McapWriter(const std::string& path) : path_(path), file_(path) {}
+
+  void write(const Log& segment) override {
+    if (!states_) begin(segment);
+    for (int row = 0; row < segment.rows(); ++row) write_row(segment, row);
+  }
+
+  void note_provenance(const std::string& provenance) override {
+    file_.metadata(kMcapProvenance, kMcapProvenanceKey, provenance);
+  }
+
+  void commit() override { file_.finish(); }
+
+ private:
+  void begin(const Log& log) {
+    states_.emplace(joint_names(log.joints()));
+    for (const StatesTopic& topic : kTopics)
+      channels_.push_back(has(log, topic) ? add_topic(topic.name) : std::uint16_t{0});
+    if (log.extra.empty()) return;
+    extra_.emplace(extra_names(log));
+    extra_channel_ = add_topic(kExtraTopic);
+  }
+
+  std::uint16_t add_topic(const char* name) {
+    return file_.add_topic(
+        {name, JointStateEncoder::kType, "ros2msg", JointStateEncoder::kDefinition, "cdr"});
+  }
+
+  void write_row(const Log& log, int row) {
+    const double time = log.time[row];
+    if (!(time >= 0.0 && time < kMostSeconds))
+      throw Error(
+          ErrorCode::output, path_,
+          fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv or "
+                      ".flog",
+                      time, kMostSeconds));
+    // Seconds and their fraction apart, so that a time since 1970 keeps its bits.
+    const double seconds = std::floor(time);
+    const auto stamp =
+        static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((time - seconds) * 1e9);
+    if (extra_) {
+      row_ = {};
+      for (const ExtraChannel& extra : log.extra) row_.position.push_back(extra.values[row]);
+      put(*extra_, extra_channel_, stamp);
+    }
+    for (std::size_t i = 0; i < std::size(kTopics); ++i) {
+      if (channels_[i] == 0) continue;
+      take_row(signals(log, kTopics[i].position), row, row_.position);
+      take_row(signals(log, kTopics[i].velocity), row, row_.velocity);
+      take_row(signals(log, kTopics[i].effort), row, row_.effort);
+      put(*states_, channels_[i], stamp);
+    }
+  }
+
+  void put(const JointStateEncoder& encoder, std::uint16_t channel, std::int64_t stamp) {
+    message_.clear();
+    encoder.append(stamp, row_, message_);
+    file_.message(channel, static_cast<std::uint64_t>(stamp), message_);
+  }
+
+  std::string path_;
+  McapFile file_;
+  std::optional<JointStateEncoder> states_, extra_;
+  std::vector<std::uint16_t> channels_;  ///< by kTopics; 0 for what the log has not
+  std::uint16_t extra_channel_ = 0;
+  JointRow row_;
+  std::string message_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogWriter> create_mcap(const std::string& path) { return std::make_unique<McapWriter>(path); }
+
+}  // namespace faultline
