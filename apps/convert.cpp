@@ -7,7 +7,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/log_parts.hpp"
+#include "apps/log_selection.hpp"
 #include "apps/progress.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
@@ -23,7 +23,7 @@ struct ConvertArguments {
   std::string log;
   std::string out;
   std::string robot;
-  LogParts parts;
+  LogSelection parts;
 };
 
 /// ".csv (- for standard output) or .flog".
@@ -90,7 +90,7 @@ void add_convert(CLI::App& app, Program& program) {
   command->add_option("OUT", arguments->out, "The file to write: " + written_extensions())->required();
   command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
       ->type_name("ROBOT.toml");
-  add_log_parts(*command, arguments->parts);
+  add_log_selection(*command, arguments->parts);
   command->footer(
       "The converted log needs no column mapping any more. Rows without a usable time are left out and "
       "told.\n"

@@ -7,7 +7,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/log_parts.hpp"
+#include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/report_options.hpp"
 #include "apps/robot_log.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 struct DiagnoseArguments : ModelPaths {
   std::string log;
-  LogParts parts;
+  LogSelection parts;
   std::vector<RequestedReport> reports = all_reports();
   DiagnoseOptions options;
 };
@@ -57,7 +57,7 @@ void add_diagnose(CLI::App& app, Program& program) {
   add_cases_option(*command, *arguments);
   add_report_options(*command, arguments->reports);
   add_diagnose_options(*command, arguments->options);
-  add_log_parts(*command, arguments->parts);
+  add_log_selection(*command, arguments->parts);
   command->footer(
       "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict inconclusive).\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");

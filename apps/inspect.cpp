@@ -7,7 +7,7 @@
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/inspection.hpp"
-#include "apps/log_parts.hpp"
+#include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -22,7 +22,7 @@ struct InspectArguments {
   std::vector<std::string> logs;
   std::string robot;
   std::string json;
-  LogParts parts;
+  LogSelection parts;
 };
 
 /// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
@@ -72,7 +72,7 @@ void add_inspect(CLI::App& app, Program& program) {
       ->type_name("ROBOT.toml");
   add_file_option(*command, "--json", arguments->json, "Write the findings as JSON",
                   " to this file, - for standard output");
-  add_log_parts(*command, arguments->parts);
+  add_log_selection(*command, arguments->parts);
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

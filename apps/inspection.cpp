@@ -146,7 +146,7 @@ bool Inspection::severe() const {
 }
 
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
-                       const LogParts& parts) {
+                       const LogSelection& parts) {
   auto reader = open_parts(path, parts, robot ? robot->log.recording : RecordingChoice{});
   MappedSourceOptions options;
   if (robot && !reader->canonical()) options.columns = robot->log.columns;

@@ -40,7 +40,7 @@ struct Inspection {
 
 /// Throws Error(input) when nothing can be read from the file.
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
-                       const LogParts& parts = {});
+                       const LogSelection& parts = {});
 
 std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);

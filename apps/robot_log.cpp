@@ -10,7 +10,7 @@
 namespace faultline {
 
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
-                                          const LogParts& parts) {
+                                          const LogSelection& parts) {
   OpenLogOptions options;
   options.parts = parts;
   options.columns = robot.log.columns;

@@ -13,6 +13,6 @@ namespace faultline {
 /// Opens a log of this robot for learning or diagnosis: its columns mean what the robot file says, those
 /// without a meaning are passed over, and coupled drives are turned into joints. Throws as open_log().
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
-                                          const LogParts& parts = {});
+                                          const LogSelection& parts = {});
 
 }  // namespace faultline

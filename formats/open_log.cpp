@@ -20,7 +20,7 @@ std::unique_ptr<RawReader> open_raw(const std::string& path) {
               "is of no known format: it is binary, but no faultline log (.flog). Export it as CSV in UTF-8");
 }
 
-std::unique_ptr<RawReader> open_parts(const std::string& path, const LogParts& parts,
+std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
                                       const RecordingChoice& choice) {
   const auto open_chosen = [&](const std::string& file) {
     auto reader = open_raw(file);

@@ -13,7 +13,7 @@
 namespace faultline {
 
 /// Of which files a log is made, and which of their runs it is.
-struct LogParts {
+struct LogSelection {
   std::vector<std::string> then{};  ///< files in which it goes on
   std::vector<std::string> join{};  ///< files with more columns of it
   JoinBy by = JoinBy::automatic;    ///< how their rows are found
@@ -21,7 +21,7 @@ struct LogParts {
 };
 
 struct OpenLogOptions {
-  LogParts parts{};
+  LogSelection parts{};
   ColumnMap columns{};          ///< [log.columns] of the robot file: robot.log.columns
   RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
   int segment_rows = 4096;      ///< rows of a segment at most; changes no byte of any result
@@ -37,7 +37,7 @@ std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOption
 std::unique_ptr<RawReader> open_raw(const std::string& path);
 
 /// The same of a log of several files: `choice` holds for each of them.
-std::unique_ptr<RawReader> open_parts(const std::string& path, const LogParts& parts,
+std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
                                       const RecordingChoice& choice);
 
 }  // namespace faultline

@@ -85,7 +85,7 @@ class RosDecoder : public JointStateDecoder {
  public:
   explicit RosDecoder(bool cdr) : cdr_(cdr) {}
 
-  bool decode(std::string_view bytes, JointState& state) override {
+  bool decode(std::string_view bytes, JointMessage& state) override {
     Wire wire;
     if (!wire_of(bytes, wire)) return false;
     Members members(bytes, wire);
@@ -109,7 +109,7 @@ class RosDecoder : public JointStateDecoder {
     return members.ok;
   }
 
-  std::vector<std::string> decode_names(const JointState& state) const override {
+  std::vector<std::string> decode_names(const JointMessage& state) const override {
     Wire wire = last_wire_;
     wire.begin = 0;  // they begin aligned
     Members members(state.names, wire);

@@ -20,7 +20,7 @@ struct PackedNumbers {
 
 /// What a sensor_msgs/JointState says; valid as long as the bytes of the message and, for JSON, until the
 /// next one is decoded.
-struct JointState {
+struct JointMessage {
   std::int64_t stamp_ns = 0;  ///< of its header
   std::string_view names;     ///< as they are encoded: equal bytes mean equal names; see decode_names()
   PackedNumbers position, velocity, effort;
@@ -31,8 +31,8 @@ class JointStateDecoder {
  public:
   virtual ~JointStateDecoder() = default;
   /// False when the bytes are no whole JointState.
-  virtual bool decode(std::string_view bytes, JointState& state) = 0;
-  virtual std::vector<std::string> decode_names(const JointState& state) const = 0;
+  virtual bool decode(std::string_view bytes, JointMessage& state) = 0;
+  virtual std::vector<std::string> decode_names(const JointMessage& state) const = 0;
 };
 
 /// Whether a type, as ROS 1, ROS 2 or a schema writes it, is a JointState.

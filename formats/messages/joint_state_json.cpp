@@ -50,7 +50,7 @@ PackedNumbers packed(const std::vector<double>& numbers) {
 
 class JsonDecoder : public JointStateDecoder {
  public:
-  bool decode(std::string_view bytes, JointState& state) override {
+  bool decode(std::string_view bytes, JointMessage& state) override {
     const json message = json::parse(bytes, nullptr, false);
     if (!message.is_object()) return false;
     if (!take_names(message)) return false;
@@ -61,7 +61,7 @@ class JsonDecoder : public JointStateDecoder {
     return true;
   }
 
-  std::vector<std::string> decode_names(const JointState&) const override { return names_; }
+  std::vector<std::string> decode_names(const JointMessage&) const override { return names_; }
 
  private:
   bool take_names(const json& message) {

@@ -256,7 +256,7 @@ class JointStateReader : public RawReader {
   std::vector<double*> values_;  ///< of the block that is being filled; null for columns not wanted
   std::vector<int> held_columns_;
   std::vector<double> held_;  ///< by column: the latest value of the other streams
-  JointState state_;
+  JointMessage state_;
   ReceiptGap gap_;
   bool at_end_ = false;
   LogIdentity identity_;

@@ -31,7 +31,7 @@ void add_to(JointStream& stream, const JointStream& more) {
 }
 
 /// Messages without names count their joints from 1.
-std::vector<std::string> names_in(const JointState& state, const JointStateDecoder& decoder) {
+std::vector<std::string> names_in(const JointMessage& state, const JointStateDecoder& decoder) {
   std::vector<std::string> names = decoder.decode_names(state);
   if (!names.empty()) return names;
   const std::size_t joints = std::max({state.position.count, state.velocity.count, state.effort.count});
@@ -53,7 +53,7 @@ JointStateDecoder* JointStreams::decoder_of(const Topic& topic, int index) {
   return decoders_[at].get();
 }
 
-JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointState& state,
+JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointMessage& state,
                                                 const JointStateDecoder& decoder) {
   Pattern*& last = last_[static_cast<std::size_t>(topic)];
   if (last && last->encoded == state.names) return last;
@@ -71,7 +71,7 @@ JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointState& sta
 
 bool JointStreams::learn(const Topic& topic, const Message& message) {
   JointStateDecoder* decoder = decoder_of(topic, message.topic);
-  JointState state;
+  JointMessage state;
   if (!decoder || !decoder->decode(message.bytes, state)) return false;
   Pattern* pattern = pattern_of(message.topic, state, *decoder);
   if (!pattern || pattern->names.empty() || pattern->names.size() > kMostJoints) return false;
@@ -130,7 +130,7 @@ void JointStreams::settle() {
   settled_ = true;
 }
 
-const JointPlacing* JointStreams::read(const Topic& topic, const Message& message, JointState& state,
+const JointPlacing* JointStreams::read(const Topic& topic, const Message& message, JointMessage& state,
                                        bool& damaged) {
   damaged = false;
   JointStateDecoder* decoder = decoder_of(topic, message.topic);

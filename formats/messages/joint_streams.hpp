@@ -41,7 +41,7 @@ class JointStreams {
 
   /// Reads a message; null when it is no JointState, or is damaged (then `damaged` is set). Both results are
   /// valid until the next call.
-  const JointPlacing* read(const Topic& topic, const Message& message, JointState& state, bool& damaged);
+  const JointPlacing* read(const Topic& topic, const Message& message, JointMessage& state, bool& damaged);
 
  private:
   /// Messages of a topic with the same names.
@@ -54,7 +54,7 @@ class JointStreams {
   };
 
   JointStateDecoder* decoder_of(const Topic& topic, int index);
-  Pattern* pattern_of(int topic, const JointState& state, const JointStateDecoder& decoder);
+  Pattern* pattern_of(int topic, const JointMessage& state, const JointStateDecoder& decoder);
   void join(const Pattern& pattern);
   void place(Pattern& pattern) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/log_parts.hpp"
+#include "apps/log_selection.hpp"
 
 #include <CLI/CLI.hpp>
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-void add_log_parts(CLI::App& command, LogParts& parts) {
+void add_log_selection(CLI::App& command, LogSelection& parts) {
   static const std::map<std::string, JoinBy> ways{
       {"auto", JoinBy::automatic}, {"row", JoinBy::row}, {"time", JoinBy::time}};
   command.add_option("--join", parts.join, "A file with more columns of the log; may be given several times")
@@ -26,7 +26,7 @@ void add_log_parts(CLI::App& command, LogParts& parts) {
       ->type_name("N");
 }
 
-std::vector<std::string> files_of(const LogParts& parts) {
+std::vector<std::string> files_of(const LogSelection& parts) {
   std::vector<std::string> files = parts.join;
   files.insert(files.end(), parts.then.begin(), parts.then.end());
   return files;

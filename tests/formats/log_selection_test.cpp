@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 class LogPartsTest : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) { return folder_.write(name, text); }
-  static Log read(const std::string& path, const LogParts& parts) {
+  static Log read(const std::string& path, const LogSelection& parts) {
     OpenLogOptions options;
     options.parts = parts;
     return read_all(*open_log(path, options));
