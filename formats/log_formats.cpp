@@ -10,6 +10,8 @@
 #include "formats/mcap/mcap_writer.hpp"
 #include "formats/native/native_reader.hpp"
 #include "formats/native/native_writer.hpp"
+#include "formats/numpy/npz_writer.hpp"
+#include "formats/numpy/numpy_reader.hpp"
 #include "formats/rosbag/rosbag1_source.hpp"
 #include "formats/rosbag/rosbag2_source.hpp"
 
@@ -22,6 +24,8 @@ const std::vector<LogFormat>& log_formats() {
       {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},
       {"rosbag1", "ROS 1 bag", {".bag"}, looks_like_rosbag1, open_rosbag1, nullptr},
       {"rosbag2", "ROS 2 bag in SQLite", {".db3"}, looks_like_rosbag2, open_rosbag2, nullptr},
+      {"npz", "for NumPy", {".npz"}, looks_like_npz, open_npz, create_npz},
+      {"npy", "one array of NumPy", {".npy"}, looks_like_npy, open_npy, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},
   };
   return table;

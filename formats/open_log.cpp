@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/open_log.hpp"
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "lib/log/mapped_source.hpp"
 
 namespace faultline {
+namespace {
+
+constexpr std::string_view kParquetMagic = "PAR1";
+
+}  // namespace
 
 std::unique_ptr<RawReader> open_raw(const std::string& path) {
   auto bytes = std::make_unique<ByteSource>(path);
@@ -16,8 +22,13 @@ std::unique_ptr<RawReader> open_raw(const std::string& path) {
     throw Error(ErrorCode::input, path, "is empty; a log has a header and at least one row");
   for (const LogFormat& format : log_formats())
     if (format.matches(bytes->head())) return format.open(std::move(bytes));
+  if (bytes->head().starts_with(kParquetMagic))
+    throw Error(ErrorCode::input, path,
+                "is a Parquet file, which is not read directly; convert it, in Python by "
+                "pandas.read_parquet(\"run.parquet\").to_csv(\"run.csv\", index=False)");
   throw Error(ErrorCode::input, path,
-              "is of no known format: it is binary, but no faultline log (.flog). Export it as CSV in UTF-8");
+              "is of no known format: it is binary, but none of " + either_of(log_extensions()) +
+                  ". Export it as CSV in UTF-8");
 }
 
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "formats/arrays/array_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "lib/core/error.hpp"
+#include "lib/core/make_issue.hpp"
+#include "lib/core/text.hpp"
+#include "lib/core/utf8.hpp"
+#include "lib/log/units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::int64_t kMostColumns = 1 << 14;
+constexpr std::size_t kMostTold = 8;  ///< arrays that are left out and named
+
+using Shape = std::vector<std::int64_t>;
+
+std::string leaf_of(const std::string& name) {
+  const auto at = name.find_last_of("/.");
+  return at == std::string::npos || at + 1 == name.size() ? name : name.substr(at + 1);
+}
+
+/// Without dimensions of one, but a vector of one element stays a vector.
+Shape squeezed(const Shape& shape) {
+  Shape kept;
+  for (const std::int64_t size : shape)
+    if (size != 1) kept.push_back(size);
+  if (kept.empty() && !shape.empty()) kept.push_back(1);
+  return kept;
+}
+
+/// Whether a vector of three or more dimensions becomes 1 x N once surplus dimensions of one are taken away,
+/// from the last on.
+bool after_ones(const Shape& shape) { return shape.size() > 2 && shape.back() != 1; }
+
+/// 100 x 3.
+std::string shape_text(const Shape& shape) {
+  std::string text;
+  for (const std::int64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+  return text;
+}
+
+std::string label(const NamedArray& array) {
+  const std::string name =
+      array.name.empty() ? "the array" : "\"" + shortened(array.name, kLongestName) + "\"";
+  return name + " (" + shape_text(array.shape) + ")";
+}
+
+double elements(const Shape& shape) {
+  double count = 1.0;
+  for (const std::int64_t size : shape) count *= static_cast<double>(size);
+  return count;
+}
+
+/// Elements of arrays that have a dimension of each length.
+std::map<std::int64_t, double> votes_of(const std::vector<NamedArray>& arrays) {
+  std::map<std::int64_t, double> votes;
+  for (const NamedArray& array : arrays) {
+    const Shape shape = squeezed(array.shape);
+    for (const std::int64_t size : std::set<std::int64_t>(shape.begin(), shape.end()))
+      votes[size] += elements(shape);
+  }
+  return votes;
+}
+
+bool looks_like_time(const NamedArray& array) {
+  const std::string leaf = split_unit(leaf_of(array.name)).name;
+  return squeezed(array.shape).size() == 1 && find_time_column({leaf}) >= 0;
+}
+
+/// The length that the votes prefer, the largest when they are even.
+std::int64_t preferred(const std::map<std::int64_t, double>& votes) {
+  std::int64_t best = 0;
+  double most = -1.0;
+  for (const auto& [length, count] : votes)
+    if (count >= most) best = length, most = count;
+  return best;
+}
+
+/// Whether most is written as one row: a single time is a sample period otherwise.
+bool is_one_row(const std::vector<NamedArray>& arrays) {
+  double all = 0.0, in_one_row = 0.0;
+  for (const NamedArray& array : arrays) {
+    all += elements(array.shape);
+    if (!array.shape.empty() && array.shape[0] == 1) in_one_row += elements(array.shape);
+  }
+  return in_one_row > 0.5 * all;
+}
+
+std::int64_t rows_of(const std::vector<NamedArray>& arrays) {
+  const std::map<std::int64_t, double> votes = votes_of(arrays);
+  std::map<std::int64_t, double> of_times;
+  for (const NamedArray& array : arrays) {
+    if (!looks_like_time(array)) continue;
+    const std::int64_t length = squeezed(array.shape).front();
+    const bool one = length == 1 && (array.shape.size() > 1 || !is_one_row(arrays));
+    if (!one) of_times[length] = votes.at(length);
+  }
+  return preferred(of_times.empty() ? votes : of_times);
+}
+
+class TableMaker {
+ public:
+  TableMaker(const std::vector<NamedArray>& arrays, const std::string& path) : arrays_(arrays), path_(path) {}
+
+  ArrayTable run() {
+    const bool any = std::any_of(arrays_.begin(), arrays_.end(),
+                                 [](const NamedArray& array) { return !squeezed(array.shape).empty(); });
+    if (!any)
+      throw Error(ErrorCode::input, path_,
+                  "holds no array of numbers; a log has an array of times and one of positions at least");
+    table_.rows = rows_of(arrays_);
+    for (std::size_t i = 0; i < arrays_.size(); ++i) consider(i);
+    name_columns();
+    tell_left_out();
+    find_time();
+    return std::move(table_);
+  }
+
+ private:
+  /// Whether the array's second dimension has the rows; nullopt when none has.
+  std::optional<bool> is_channel_major(const NamedArray& array) const {
+    const Shape shape = squeezed(array.shape);
+    if (shape.empty() || shape.size() > 2) return std::nullopt;
+    if (shape.size() == 1 && shape[0] == table_.rows) {
+      return array.shape.size() == 2 ? array.shape[0] != table_.rows : after_ones(array.shape);
+    }
+    if (shape.size() == 1)  // one row
+      return table_.rows == 1 && array.shape.size() == 2 ? std::optional(array.shape[0] != 1) : std::nullopt;
+    if (shape[0] == table_.rows) return false;
+    return shape[1] == table_.rows ? std::optional(true) : std::nullopt;
+  }
+
+  static std::int64_t width_of(const NamedArray& array, std::int64_t rows) {
+    const Shape shape = squeezed(array.shape);
+    if (shape.size() == 1) return shape[0] == rows ? 1 : shape[0];
+    return shape[0] == rows ? shape[1] : shape[0];
+  }
+
+  void consider(std::size_t index) {
+    const NamedArray& array = arrays_[index];
+    const auto channel_major = is_channel_major(array);
+    if (!channel_major) {
+      if (elements(array.shape) != 1.0) left_out_.push_back(&array);
+      return;
+    }
+    const std::int64_t width = width_of(array, table_.rows);
+    const std::int64_t held =
+        array.columns_held ? std::min(width, array.columns_held(*channel_major)) : width;
+    if (width > kMostColumns - static_cast<std::int64_t>(total_)) {
+      left_out_.push_back(&array);
+      return;
+    }
+    const Shape shape = squeezed(array.shape);
+    if (shape.size() == 2 && shape[0] == shape[1] && table_.rows > 1)
+      table_.issues.add(make_issue(
+          "array_square", Severity::note,
+          label(array) + " has as many rows as columns; its rows were taken as samples", array.name));
+    if (held < width)
+      table_.issues.add(make_issue("file_truncated", Severity::severe,
+                                   fmt::format("the file ends inside {}; {} of its {} columns were left out",
+                                               label(array), width - held, width),
+                                   array.name));
+    if (held <= 0) return;
+    const std::int64_t rows = array.rows_held ? array.rows_held(*channel_major) : table_.rows;
+    table_.arrays.push_back({index, *channel_major, std::clamp<std::int64_t>(rows, 0, table_.rows), total_,
+                             static_cast<std::size_t>(held)});
+    table_.rows_held = std::max(table_.rows_held, table_.arrays.back().rows_held);
+    total_ += static_cast<std::size_t>(held);
+  }
+
+  /// The last part of a name where no other array of the table has the same, else all of it.
+  void name_columns() {
+    std::map<std::string, int> leaves;
+    for (const TableArray& used : table_.arrays) ++leaves[leaf_of(arrays_[used.array].name)];
+    for (const TableArray& used : table_.arrays) {
+      const NamedArray& array = arrays_[used.array];
+      const std::string leaf = leaf_of(array.name);
+      add_columns(array, used.columns, width_of(array, table_.rows), leaves[leaf] == 1 ? leaf : array.name);
+    }
+  }
+
+  void add_columns(const NamedArray& array, std::size_t columns, std::int64_t width,
+                   const std::string& name) {
+    const NameAndUnit parts = split_unit(valid_utf8(name));
+    const std::string stem = parts.name.empty() ? "column" : parts.name;
+    const bool digit = std::isdigit(static_cast<unsigned char>(stem.back())) != 0;
+    const bool plain = width == 1 && !array.name.empty();
+    const bool named = static_cast<std::int64_t>(array.names.size()) == width;
+    for (std::size_t c = 0; c < columns; ++c) {
+      RawColumn column{plain ? stem : stem + (digit ? "_" : "") + std::to_string(c + 1),
+                       array.unit.empty() ? parts.unit : array.unit};
+      if (c < array.units.size() && (array.exact || !array.units[c].empty())) column.unit = array.units[c];
+      if (named && !array.names[c].empty()) take_name(array, c, column);
+      column.name = unique(valid_utf8(column.name), array.name);
+      column.unit = valid_utf8(column.unit);
+      table_.columns.push_back(column);
+    }
+  }
+
+  static void take_name(const NamedArray& array, std::size_t c, RawColumn& column) {
+    const NameAndUnit parts = array.exact ? NameAndUnit{array.names[c], ""} : split_unit(array.names[c]);
+    column.name = parts.name;
+    if (column.unit.empty() && !array.exact) column.unit = parts.unit;
+  }
+
+  /// Two arrays may name their columns alike.
+  std::string unique(const std::string& name, const std::string& array) {
+    std::string tried = name;
+    if (!taken_.insert(tried).second) tried = valid_utf8(array) + "/" + name;
+    for (int i = 2; tried != name && !taken_.insert(tried).second; ++i)
+      tried = name + "#" + std::to_string(i);
+    return tried;
+  }
+
+  void tell_left_out() {
+    if (left_out_.empty()) return;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(kMostTold, left_out_.size()); ++i)
+      names += (i > 0 ? ", " : "") + label(*left_out_[i]);
+    if (left_out_.size() > kMostTold) names += fmt::format(" and {} more", left_out_.size() - kMostTold);
+    table_.issues.add(
+        make_issue("array_left_out", Severity::note,
+                   fmt::format("{} fit no table of {} rows, and were left out", names, table_.rows)));
+  }
+
+  void find_time() {
+    std::vector<std::string> names;
+    for (const RawColumn& column : table_.columns) names.push_back(column.name);
+    table_.time_column = find_time_column(names);
+  }
+
+  const std::vector<NamedArray>& arrays_;
+  const std::string& path_;
+  ArrayTable table_;
+  std::size_t total_ = 0;  ///< columns so far
+  std::vector<const NamedArray*> left_out_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+ArrayTable table_of(const std::vector<NamedArray>& arrays, const std::string& path) {
+  return TableMaker(arrays, path).run();
+}
+
+}  // namespace faultline

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/arrays/array_file.hpp"
+#include "formats/arrays/element_type.hpp"
+#include "formats/arrays/stored_content.hpp"
+
+namespace faultline {
+
+/// An array whose elements lie at even distances in a content.
+struct StoredArray {
+  NamedArray array;  ///< with as many dimensions as `strides`
+  std::size_t content = 0;
+  std::int64_t begin = 0;             ///< of the first record, in the unpacked content
+  std::int64_t in_record = 0;         ///< of the element in its record
+  std::vector<std::int64_t> strides;  ///< bytes from element to element along each dimension
+  ElementType type = ElementType::f8;
+  bool swapped = false;    ///< the byte order is not the processor's
+  bool is_moment = false;  ///< its least integer is none, as numpy's NaT
+};
+
+/// What a file of stored arrays holds, as its format's parser finds it.
+struct StoredList {
+  std::vector<StoredContent> contents;
+  std::vector<StoredArray> arrays;
+  Issues issues;
+  std::string notes;
+};
+
+/// Strides of an array without gaps.
+std::vector<std::int64_t> packed_strides(const std::vector<std::int64_t>& shape, std::int64_t item,
+                                         bool fortran_order);
+
+class StoredArrays : public ArrayFile {
+ public:
+  StoredArrays(std::unique_ptr<RandomFile> file, StoredList list);
+
+  const std::vector<NamedArray>& arrays() const override { return arrays_; }
+  const Issues& issues() const override { return list_.issues; }
+  std::string notes() const override { return list_.notes; }
+  void read(const ArrayBand& band, BandValues& values) override;
+  void finish() override;
+
+ private:
+  struct Region {
+    std::size_t content = 0;
+    std::int64_t at = -1;
+    std::size_t wanted = 0, got = 0;
+    std::vector<char> bytes;
+  };
+  using StreamKey = std::pair<std::size_t, std::int64_t>;  ///< array, and column of one that lies by columns
+
+  void fetch(std::size_t content, StreamKey key, std::int64_t at, std::size_t count);
+  const std::string* in_memory(std::size_t content);
+  void read_by_rows(const ArrayBand& band, BandValues& values);
+  void read_by_columns(const ArrayBand& band, BandValues& values);
+  void tell_mismatch(const std::string& name);
+
+  std::unique_ptr<RandomFile> file_;
+  StoredList list_;
+  std::vector<NamedArray> arrays_;
+  std::map<StreamKey, ContentStream> streams_;
+  std::map<std::size_t, std::string> unpacked_;  ///< whole contents, of which the sum is bounded
+  std::int64_t memory_left_;
+  Region region_;
+};
+
+}  // namespace faultline

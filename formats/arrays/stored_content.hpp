@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace faultline {
+
+/// A file that is open for reading anywhere in it.
+class RandomFile {
+ public:
+  /// Throws Error(input) when it cannot be opened.
+  explicit RandomFile(const std::string& path);
+  ~RandomFile();
+  RandomFile(const RandomFile&) = delete;
+  RandomFile& operator=(const RandomFile&) = delete;
+
+  std::int64_t size() const { return size_; }
+  /// Bytes read, fewer than `count` at the end only. Throws Error(input) when reading fails.
+  std::size_t read(std::int64_t at, char* to, std::size_t count) const;
+  std::string text(std::int64_t at, std::size_t count) const;
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  std::int64_t size_ = 0;
+};
+
+enum class Packing { plain, deflate, zlib };
+
+/// A stretch of a file, perhaps compressed.
+struct StoredContent {
+  std::string name;
+  std::int64_t offset = 0, bytes = 0;  ///< in the file, within its end
+  Packing packing = Packing::plain;
+  std::optional<std::int64_t> unpacked{};  ///< bytes that it promises
+  std::optional<std::uint32_t> crc{};      ///< of the unpacked bytes
+};
+
+/// Bytes that it can have unpacked at most.
+std::int64_t most_bytes(const StoredContent& content);
+
+/// The unpacked bytes of a content; going back costs unpacking from its beginning.
+class ContentStream {
+ public:
+  ContentStream(const RandomFile& file, const StoredContent& content);
+  ~ContentStream();
+  ContentStream(ContentStream&&) noexcept;
+
+  /// Bytes read, fewer where the content ends or is damaged.
+  std::size_t read(std::int64_t at, char* to, std::size_t count);
+  /// Whether all was read in its order and does not match the checksum.
+  bool mismatch() const;
+
+ private:
+  struct Inflater;
+
+  const RandomFile* file_;
+  StoredContent content_;
+  std::unique_ptr<Inflater> inflater_;  ///< null for a plain one
+};
+
+}  // namespace faultline

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "formats/numpy/npz_writer.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <string_view>
+
+#include "formats/arrays/written_arrays.hpp"
+#include "formats/numpy/npy_header.hpp"
+#include "lib/core/atomic_file.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::uint16_t kVersion = 45;         ///< of zip: with numbers of 64 bits
+constexpr std::uint16_t kDate = (1 << 5) | 1;  ///< the first day that zip knows, in every file
+constexpr std::uint32_t kIn64 = 0xffffffff;
+constexpr std::size_t kHeaderStep = 64;  ///< npy headers end at a multiple of it
+
+template <typename Number>
+void put(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+std::string npy_header(const WrittenArray& array, std::int64_t rows) {
+  const std::string shape =
+      array.vector ? fmt::format("({},)", rows) : fmt::format("({}, {})", rows, array.width);
+  std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }";
+  std::string header(kNpyMagic);
+  put(header, std::uint16_t{1});
+  const std::size_t before = header.size() + sizeof(std::uint16_t);
+  text.append(kHeaderStep - (before + text.size() + 1) % kHeaderStep, ' ');
+  text += '\n';
+  put(header, static_cast<std::uint16_t>(text.size()));
+  return header + text;
+}
+
+class NpzWriter : public LogWriter {
+ public:
+  explicit NpzWriter(const std::string& path) : file_(path), arrays_(path, "extra/") {}
+
+  void write(const Log& segment) override { arrays_.add(segment, 0, segment.rows()); }
+  void note_provenance(const std::string& provenance) override { arrays_.note_provenance(provenance); }
+
+  void commit() override {
+    for (const WrittenArray& array : arrays_.arrays())
+      add(array.name + ".npy", npy_header(array, arrays_.rows()),
+          {reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(double)});
+    if (const std::string notes = arrays_.notes(); !notes.empty()) add("faultline.json", notes, {});
+    end();
+    file_.commit();
+  }
+
+ private:
+  void add(const std::string& name, std::string_view header, std::string_view values) {
+    const std::uint64_t size = header.size() + values.size();
+    auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(header.data()), header.size());
+    if (!values.empty()) crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(values.data()), values.size());
+    std::string common;
+    for (const std::uint16_t field : {kVersion, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, kDate})
+      put(common, field);
+    put(common, static_cast<std::uint32_t>(crc));
+    for (int i = 0; i < 2; ++i) put(common, kIn64);
+    put(common, static_cast<std::uint16_t>(name.size()));
+    std::string local = "PK\x03\x04" + common, extra;
+    put(extra, std::uint16_t{1});
+    put(extra, static_cast<std::uint16_t>(2 * sizeof size));
+    for (int i = 0; i < 2; ++i) put(extra, size);
+    put(local, static_cast<std::uint16_t>(extra.size()));
+    list(common, name, size);
+    write_bytes(local + name + extra);
+    write_bytes(header);
+    write_bytes(values);
+  }
+
+  /// Into the directory.
+  void list(const std::string& common, const std::string& name, std::uint64_t size) {
+    directory_ += "PK\x01\x02";
+    put(directory_, kVersion);
+    directory_ += common;
+    put(directory_, static_cast<std::uint16_t>(4 + 3 * sizeof size));
+    directory_.append(10, '\0');  // comment, disk, attributes
+    put(directory_, kIn64);
+    directory_ += name;
+    put(directory_, std::uint16_t{1});
+    put(directory_, static_cast<std::uint16_t>(3 * sizeof size));
+    for (const std::uint64_t number : {size, size, written_}) put(directory_, number);
+    ++members_;
+  }
+
+  void end() {
+    const std::uint64_t at = written_, size = directory_.size();
+    std::string bytes = directory_ + "PK\x06\x06";
+    put(bytes, std::uint64_t{44});  // bytes of this record that follow
+    for (int i = 0; i < 2; ++i) put(bytes, kVersion);
+    put(bytes, std::uint64_t{0});
+    for (const std::uint64_t number : {members_, members_, size, at}) put(bytes, number);
+    bytes += "PK\x06\x07";
+    put(bytes, std::uint32_t{0});
+    put(bytes, at + size);
+    put(bytes, std::uint32_t{1});
+    bytes += "PK\x05\x06";
+    put(bytes, std::uint32_t{0});
+    for (int i = 0; i < 2; ++i) put(bytes, static_cast<std::uint16_t>(members_));
+    for (int i = 0; i < 2; ++i) put(bytes, kIn64);
+    put(bytes, std::uint16_t{0});
+    write_bytes(bytes);
+  }
+
+  void write_bytes(std::string_view bytes) {
+    file_.write(bytes);
+    written_ += bytes.size();
+  }
+
+  AtomicFile file_;
+  WrittenArrays arrays_;
+  std::string directory_;
+  std::uint64_t members_ = 0, written_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LogWriter> create_npz(const std::string& path) { return std::make_unique<NpzWriter>(path); }
+
+}  // namespace faultline
