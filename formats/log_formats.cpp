@@ -6,6 +6,8 @@
 
 #include "formats/csv/csv_reader.hpp"
 #include "formats/csv/csv_writer.hpp"
+#include "formats/hdf5/hdf5_reader.hpp"
+#include "formats/hdf5/hdf5_writer.hpp"
 #include "formats/mcap/mcap_source.hpp"
 #include "formats/mcap/mcap_writer.hpp"
 #include "formats/native/native_reader.hpp"
@@ -24,6 +26,7 @@ const std::vector<LogFormat>& log_formats() {
       {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},
       {"rosbag1", "ROS 1 bag", {".bag"}, looks_like_rosbag1, open_rosbag1, nullptr},
       {"rosbag2", "ROS 2 bag in SQLite", {".db3"}, looks_like_rosbag2, open_rosbag2, nullptr},
+      {"hdf5", "HDF5", {".h5", ".hdf5"}, looks_like_hdf5, open_hdf5, create_hdf5},
       {"npz", "for NumPy", {".npz"}, looks_like_npz, open_npz, create_npz},
       {"npy", "one array of NumPy", {".npy"}, looks_like_npy, open_npy, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},

@@ -19,6 +19,8 @@ struct NamedArray {
   std::string unit{};
   std::vector<std::string> names{}, units{};  ///< of its columns, where the file tells them
   bool exact = false;                         ///< `names` and `units` are to be taken as they are
+  int rank = 0;                               ///< columns of arrays of a lower rank come first
+  bool records = false;  ///< its first dimension counts records: it cannot be channel major
   /// Rows, and columns, from the first one on, that the file can hold at most, whatever the shape says, once
   /// it is read by rows or by columns.
   std::function<std::int64_t(bool channel_major)> rows_held{}, columns_held{};

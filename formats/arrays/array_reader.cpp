@@ -33,10 +33,12 @@ class ArrayReader : public RawReader {
     refuse_pipe();
     const auto file = open_(identity_.path);
     arrays_ = named(*file);
+    refuse_damaged(*file);
     table_ = table_of(arrays_, identity_.path);
     if (table_.arrays.empty())
       throw Error(ErrorCode::input, identity_.path,
                   "is cut before its first row; nothing can be read from it");
+    for (NamedArray& array : arrays_) array.rows_held = array.columns_held = nullptr;  // they need the file
     wanted_.assign(table_.columns.size(), true);
     gather_opening_issues(*file);
     start();
@@ -80,6 +82,13 @@ class ArrayReader : public RawReader {
           "is no file but a pipe or a device, and arrays are not read in their order; copy it to a file");
   }
 
+  /// When no array is left, what became of the first one is the reason.
+  void refuse_damaged(const ArrayFile& file) const {
+    if (arrays_.empty() && !file.issues().empty())
+      throw Error(ErrorCode::input, identity_.path,
+                  "has no array that can be read: " + file.issues().all().front().message);
+  }
+
   /// With the names that a written log had.
   std::vector<NamedArray> named(const ArrayFile& file) {
     std::vector<NamedArray> arrays = file.arrays();
@@ -88,13 +97,17 @@ class ArrayReader : public RawReader {
     if (!notes || !notes->provenance.empty())
       opening_.add(issue_from_provenance(notes ? notes->provenance : ""));
     if (!notes) return arrays;
-    for (const NotedChannel& channel : notes->extra)
+    int rank = 0;
+    for (const NotedChannel& channel : notes->extra) {
+      ++rank;
       for (NamedArray& array : arrays)
         if (array.name == channel.array) {
+          array.rank = rank;
           array.names = {channel.name};
           array.units = {channel.unit};
           array.exact = true;
         }
+    }
     return arrays;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -118,7 +119,11 @@ class TableMaker {
       throw Error(ErrorCode::input, path_,
                   "holds no array of numbers; a log has an array of times and one of positions at least");
     table_.rows = rows_of(arrays_);
-    for (std::size_t i = 0; i < arrays_.size(); ++i) consider(i);
+    std::vector<std::size_t> order(arrays_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return arrays_[a].rank < arrays_[b].rank; });
+    for (const std::size_t i : order) consider(i);
     name_columns();
     tell_left_out();
     find_time();
@@ -148,7 +153,7 @@ class TableMaker {
   void consider(std::size_t index) {
     const NamedArray& array = arrays_[index];
     const auto channel_major = is_channel_major(array);
-    if (!channel_major) {
+    if (!channel_major || (*channel_major && array.records)) {
       if (elements(array.shape) != 1.0) left_out_.push_back(&array);
       return;
     }

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "formats/hdf5/hdf5_dataset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr std::int64_t kMostNumbers = 1 << 14;  ///< of a record
+constexpr std::int64_t kMostElements = std::int64_t{1} << 53;
+constexpr std::int64_t kBlockNumbers = 1 << 20;  ///< read at once
+constexpr std::size_t kMostCache = 128 << 20;
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+std::int64_t product(const std::vector<std::int64_t>& sizes) {
+  std::int64_t all = 1;
+  for (const std::int64_t size : sizes) all *= size;
+  return all;
+}
+
+}  // namespace
+
+std::optional<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& path, std::int64_t file_bytes,
+                                             std::string& why) {
+  Hdf5Dataset opened;
+  opened.dataset_ = {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
+  if (!opened.dataset_.ok()) {
+    why = "it is damaged";
+    return std::nullopt;
+  }
+  const Hdf5Id type(H5Dget_type(opened.dataset_), H5Tclose);
+  if (!type.ok() || !opened.find_fields(type) || !opened.find_shape()) return std::nullopt;
+  if (opened.shape_.size() > 2) return opened;  // its shape is told, no more
+  if (!opened.find_storage(file_bytes, why)) return std::nullopt;
+  opened.set_chunk_cache(file, path);
+  return opened;
+}
+
+bool Hdf5Dataset::find_shape() {
+  const Hdf5Id space(H5Dget_space(dataset_), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (!space.ok() || rank < 1) return false;
+  dimensions_.resize(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space, dimensions_.data(), nullptr);
+  std::int64_t all = 1;
+  for (std::size_t i = 0; i < dimensions_.size(); ++i) {
+    const hsize_t size = dimensions_[i];
+    if (size > static_cast<hsize_t>(kMostElements / all)) return false;
+    all *= std::max<std::int64_t>(1, static_cast<std::int64_t>(size));
+    if (size == 1 && dimensions_.size() > 2) continue;
+    kept_.push_back(i);
+    shape_.push_back(static_cast<std::int64_t>(size));
+  }
+  if (shape_.empty()) return false;
+  return shape_.size() == 1 || fields_[0].name.empty();
+}
+
+bool Hdf5Dataset::add_member(hid_t type, unsigned index) {
+  const Hdf5Id member(H5Tget_member_type(type, index), H5Tclose);
+  Hdf5Id number(H5Tcopy(member), H5Tclose);
+  std::int64_t width = 1;
+  if (H5Tget_class(member) == H5T_ARRAY) {
+    hsize_t size[H5S_MAX_RANK];
+    const int rank = H5Tget_array_ndims(member);
+    if (rank < 1 || H5Tget_array_dims2(member, size) < 0) return false;
+    for (int i = 0; i < rank; ++i)
+      width *= static_cast<std::int64_t>(std::min<hsize_t>(size[i], kMostNumbers));
+    number = {H5Tget_super(member), H5Tclose};
+  }
+  char* name = H5Tget_member_name(type, index);
+  const bool fits = name && is_number(number) && static_cast<std::int64_t>(numbers_) + width <= kMostNumbers;
+  if (fits) {
+    fields_.push_back({name, numbers_, width});
+    numbers_ += static_cast<std::size_t>(width);
+  }
+  H5free_memory(name);
+  return fits;
+}
+
+/// Also the type under which elements are read: all numbers as doubles.
+bool Hdf5Dataset::find_fields(hid_t type) {
+  if (is_number(type)) {
+    fields_.push_back({});
+    memory_type_ = {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose};
+    return true;
+  }
+  if (H5Tget_class(type) != H5T_COMPOUND) return false;
+  numbers_ = 0;
+  const int members = H5Tget_nmembers(type);
+  for (int i = 0; i < members; ++i) add_member(type, static_cast<unsigned>(i));
+  if (numbers_ == 0) return false;
+  memory_type_ = {H5Tcreate(H5T_COMPOUND, numbers_ * sizeof(double)), H5Tclose};
+  for (const Hdf5Field& field : fields_) {
+    const hid_t member =
+        H5Tget_member_type(type, static_cast<unsigned>(H5Tget_member_index(type, field.name.c_str())));
+    const Hdf5Id given(member, H5Tclose);
+    Hdf5Id read_as(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
+    if (H5Tget_class(given) == H5T_ARRAY) {
+      hsize_t size[H5S_MAX_RANK];
+      H5Tget_array_dims2(given, size);
+      read_as = {H5Tarray_create2(H5T_NATIVE_DOUBLE, static_cast<unsigned>(H5Tget_array_ndims(given)), size),
+                 H5Tclose};
+    }
+    if (H5Tinsert(memory_type_, field.name.c_str(), field.at * sizeof(double), read_as) < 0) return false;
+  }
+  return true;
+}
+
+bool Hdf5Dataset::find_storage(std::int64_t file_bytes, std::string& why) {
+  const auto storage = hdf5_storage(dataset_, {dimensions_, kept_, shape_}, file_bytes, why);
+  if (storage) storage_ = *storage;
+  return storage.has_value();
+}
+
+/// Room for the chunks that a row of chunks has, so that none is unpacked twice.
+void Hdf5Dataset::set_chunk_cache(hid_t file, const std::string& path) {
+  if (storage_.chunk.empty()) return;
+  double most = static_cast<double>(storage_.chunk_bytes);
+  if (shape_.size() > 1)
+    most *= std::max(
+        std::ceil(static_cast<double>(shape_[1]) / static_cast<double>(storage_.chunk[1])),
+        std::ceil(std::min(static_cast<double>(shape_[0]), 64.0) / static_cast<double>(storage_.chunk[0])));
+  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const std::size_t bytes =
+      static_cast<std::size_t>(std::clamp(2.0 * most, 1e6, static_cast<double>(kMostCache)));
+  H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, bytes, 1.0);
+  Hdf5Id again(H5Dopen2(file, path.c_str(), access), H5Dclose);
+  if (again.ok()) dataset_ = std::move(again);
+}
+
+std::int64_t Hdf5Dataset::rows_held(bool channel_major) const {
+  const std::int64_t rows = shape_[axis(channel_major)];
+  if (!storage_.chunk.empty()) return storage_.held[axis(channel_major)];
+  if (shape_.size() < 2 || product(shape_) == 0) return std::min(rows, storage_.elements_held);
+  return channel_major ? std::min(rows, storage_.elements_held) : storage_.elements_held / shape_[1];
+}
+
+std::int64_t Hdf5Dataset::columns_held(bool channel_major) const {
+  if (shape_.size() < 2) return fields_[0].name.empty() ? 1 : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t columns = shape_[channel_major ? 0 : 1];
+  if (!storage_.chunk.empty() || !channel_major || product(shape_) == 0) return columns;
+  return std::max<std::int64_t>(storage_.elements_held / shape_[1], storage_.elements_held > 0 ? 1 : 0);
+}
+
+/// Whether the chunks of rows within one row of chunks are there, where some are not.
+bool Hdf5Dataset::is_written(bool channel_major, std::int64_t first) const {
+  if (!storage_.has_holes) return true;
+  std::vector<hsize_t> at(dimensions_.size(), 0);
+  const std::size_t row = axis(channel_major), other = 1 - row;
+  const bool matrix = shape_.size() > 1;
+  at[kept_[row]] = static_cast<hsize_t>(first);
+  const std::int64_t columns = matrix ? shape_[other] : 1, step = matrix ? storage_.chunk[other] : 1;
+  for (std::int64_t column = 0; column < columns; column += step) {
+    if (matrix) at[kept_[other]] = static_cast<hsize_t>(column);
+    unsigned mask = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t size = 0;
+    const herr_t found = H5Dget_chunk_info_by_coord(dataset_, at.data(), &mask, &address, &size);
+    if (found < 0 || address == HADDR_UNDEF || size == 0) return false;
+  }
+  return true;
+}
+
+bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
+                             std::int64_t columns, double* to) {
+  std::vector<hsize_t> start(dimensions_.size(), 0), count(dimensions_.size(), 1);
+  start[kept_[axis(channel_major)]] = static_cast<hsize_t>(first);
+  count[kept_[axis(channel_major)]] = static_cast<hsize_t>(rows);
+  if (shape_.size() > 1) {
+    const std::size_t other = kept_[1 - axis(channel_major)];
+    start[other] = static_cast<hsize_t>(column);
+    count[other] = static_cast<hsize_t>(columns);
+  }
+  const auto all = static_cast<hsize_t>(rows * (shape_.size() > 1 ? columns : 1));
+  const Hdf5Id space(H5Dget_space(dataset_), H5Sclose), memory(H5Screate_simple(1, &all, nullptr), H5Sclose);
+  return H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
+         H5Dread(dataset_, memory_type_, memory, space, H5P_DEFAULT, to) >= 0;
+}
+
+/// Reads rows, all in one row of chunks where chunks are missing; whether that went well.
+bool Hdf5Dataset::read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first,
+                            std::int64_t rows, BandValues& values) {
+  const bool matrix = shape_.size() > 1, by_columns = matrix && band.channel_major;
+  const std::int64_t low = matrix ? band.columns.front() : 0;
+  const std::int64_t columns = matrix ? band.columns.back() - low + 1 : static_cast<std::int64_t>(numbers_);
+  const bool known = !field.name.empty() && block_first_ == first && block_rows_ == rows;
+  if (!known) {
+    block_first_ = -1;
+    block_.resize(static_cast<std::size_t>(rows * columns));
+    if (!is_written(band.channel_major, first) ||
+        !read_block(band.channel_major, first, rows, low, columns, block_.data()))
+      return false;
+    block_first_ = first;
+    block_rows_ = rows;
+  }
+  const auto all = static_cast<std::size_t>(rows), step = by_columns ? 1 : static_cast<std::size_t>(columns);
+  for (std::size_t i = 0; i < band.columns.size(); ++i) {
+    const auto c = static_cast<std::size_t>(band.columns[i] - low);
+    double* to = values.columns[i].data() + (first - band.first_row);
+    const double* from = block_.data() + (by_columns ? c * all : field.at + c);
+    for (std::size_t row = 0; row < all; ++row) to[row] = from[row * step];
+  }
+  return true;
+}
+
+/// One row of chunks after the other; what cannot be read is lost.
+void Hdf5Dataset::read_by_chunks(const Hdf5Field& field, const ArrayBand& band, std::int64_t first,
+                                 std::int64_t rows, BandValues& values) {
+  const bool chunked = !storage_.chunk.empty();
+  const std::int64_t chunk = chunked ? storage_.chunk[axis(band.channel_major)] : rows;
+  for (std::int64_t done = 0; done < rows;) {
+    const std::int64_t in_chunk = chunked ? chunk - (first + done) % chunk : rows;
+    const std::int64_t now = std::min(in_chunk, rows - done);
+    if (!read_rows(field, band, first + done, now, values))
+      values.lost.push_back({first + done - band.first_row, now});
+    done += now;
+  }
+}
+
+void Hdf5Dataset::read(const Hdf5Field& field, const ArrayBand& band, BandValues& values) {
+  const std::int64_t width = shape_.size() > 1 ? band.columns.back() - band.columns.front() + 1
+                                               : static_cast<std::int64_t>(numbers_);
+  const std::int64_t at_once = std::max<std::int64_t>(1, kBlockNumbers / std::max<std::int64_t>(1, width));
+  for (std::int64_t done = 0; done < band.rows; done += at_once) {
+    const std::int64_t first = band.first_row + done, rows = std::min(at_once, band.rows - done);
+    if (storage_.has_holes || !read_rows(field, band, first, rows, values))
+      read_by_chunks(field, band, first, rows, values);
+  }
+}
+
+}  // namespace faultline

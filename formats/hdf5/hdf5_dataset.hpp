@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/arrays/array_file.hpp"
+#include "formats/hdf5/hdf5_library.hpp"
+#include "formats/hdf5/hdf5_storage.hpp"
+
+namespace faultline {
+
+/// Numbers of one element of a dataset: a number is its own only field.
+struct Hdf5Field {
+  std::string name;        ///< empty for a number
+  std::size_t at = 0;      ///< numbers before it in the element
+  std::int64_t width = 1;  ///< numbers, more than one for an array in a record
+  std::string unit{};
+  std::vector<std::string> names{}, units{};
+};
+
+/// A dataset of numbers, or of records of numbers, that is read by blocks of rows.
+class Hdf5Dataset {
+ public:
+  /// Nullopt when it holds no numbers; `why` says so when it might have.
+  static std::optional<Hdf5Dataset> open(hid_t file, const std::string& path, std::int64_t file_bytes,
+                                         std::string& why);
+
+  const std::vector<std::int64_t>& shape() const { return shape_; }  ///< without surplus dimensions of one
+  const std::vector<Hdf5Field>& fields() const { return fields_; }
+  std::vector<Hdf5Field>& fields() { return fields_; }
+  std::int64_t rows_held(bool channel_major) const;
+  std::int64_t columns_held(bool channel_major) const;
+  hid_t id() const { return dataset_; }
+
+  /// Reads rows of the columns of a field, as ArrayFile::read() does.
+  void read(const Hdf5Field& field, const ArrayBand& band, BandValues& values);
+
+ private:
+  Hdf5Dataset() = default;
+  bool find_shape();
+  bool find_fields(hid_t type);
+  bool add_member(hid_t type, unsigned index);
+  bool find_storage(std::int64_t file_bytes, std::string& why);
+  void set_chunk_cache(hid_t file, const std::string& path);
+  bool read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
+                  std::int64_t columns, double* to);
+  bool read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first, std::int64_t rows,
+                 BandValues& values);
+  void read_by_chunks(const Hdf5Field& field, const ArrayBand& band, std::int64_t first, std::int64_t rows,
+                      BandValues& values);
+  bool is_written(bool channel_major, std::int64_t first) const;
+  std::size_t axis(bool channel_major) const { return channel_major && shape_.size() > 1 ? 1 : 0; }
+
+  Hdf5Id dataset_, memory_type_;
+  std::vector<hsize_t> dimensions_;  ///< all
+  std::vector<std::size_t> kept_;    ///< indices of those in shape_
+  std::vector<std::int64_t> shape_;
+  std::vector<Hdf5Field> fields_;
+  std::size_t numbers_ = 1;  ///< of an element
+  Hdf5Storage storage_;
+  std::vector<double> block_;
+  std::int64_t block_first_ = -1, block_rows_ = 0;  ///< what block_ holds of a dataset of records
+};
+
+}  // namespace faultline

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "formats/hdf5/hdf5_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "formats/arrays/array_notes.hpp"
+#include "formats/arrays/array_reader.hpp"
+#include "formats/hdf5/hdf5_dataset.hpp"
+#include "formats/hdf5/hdf5_tree.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/make_issue.hpp"
+#include "lib/core/text.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
+constexpr std::size_t kFirstBlock = 512;  ///< where the signature may be, and at twice that, and so on
+
+class Hdf5Arrays : public ArrayFile {
+ public:
+  Hdf5Arrays(const std::string& path, bool transposed) : path_(path), transposed_(transposed) {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat facts {};
+    if (descriptor_ >= 0 && ::fstat(descriptor_, &facts) == 0) bytes_ = facts.st_size;
+    try {
+      open();
+    } catch (...) {
+      close();
+      throw;
+    }
+  }
+  ~Hdf5Arrays() override { close(); }
+  Hdf5Arrays(const Hdf5Arrays&) = delete;
+  Hdf5Arrays& operator=(const Hdf5Arrays&) = delete;
+
+  const std::vector<NamedArray>& arrays() const override { return arrays_; }
+  const Issues& issues() const override { return issues_; }
+  std::string notes() const override { return notes_; }
+
+  void read(const ArrayBand& band, BandValues& values) override {
+    const Hdf5Turn turn;
+    const auto& [dataset, field] = sources_[band.array];
+    ArrayBand mine = band;
+    mine.channel_major = band.channel_major != is_turned(datasets_[dataset]);
+    datasets_[dataset].read(datasets_[dataset].fields()[field], mine, values);
+  }
+
+ private:
+  void close() {
+    const Hdf5Turn turn;
+    datasets_.clear();
+    file_.reset();
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+  }
+
+  bool is_turned(const Hdf5Dataset& dataset) const { return transposed_ && dataset.shape().size() > 1; }
+
+  void open() {
+    const Hdf5Turn turn;
+    const Hdf5Id access = hdf5_access(descriptor_, false);
+    for (const unsigned flags : {H5F_ACC_RDONLY, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ})
+      if (!file_.ok()) file_ = {H5Fopen(path_.c_str(), flags, access), H5Fclose};
+    if (!file_.ok())
+      throw Error(
+          ErrorCode::input, path_,
+          "is an HDF5 file whose beginning is damaged, or that is cut inside it; nothing can be read from "
+          "it. A program that is still writing it must close it first");
+    Hdf5Tree tree = hdf5_tree(file_);
+    issues_.merge(tree.issues);
+    notes_ = tree.notes;
+    for (const std::string& path : tree.datasets) add(path);
+  }
+
+  void add(const std::string& path) {
+    std::string why;
+    auto dataset = Hdf5Dataset::open(file_, path, bytes_, why);
+    if (!dataset) {
+      if (!why.empty())
+        issues_.add(make_issue("array_damaged", Severity::severe,
+                               fmt::format("\"{}\" was left out: {}", shortened(path, kLongestName), why),
+                               path));
+      return;
+    }
+    if (transposed_ && is_text_of_matlab(dataset->id())) return;
+    describe_hdf5_fields(file_, path, *dataset);
+    datasets_.push_back(std::move(*dataset));
+    const std::size_t index = datasets_.size() - 1;
+    for (std::size_t field = 0; field < datasets_[index].fields().size(); ++field)
+      add_array(path, index, field);
+  }
+
+  void add_array(const std::string& path, std::size_t index, std::size_t field) {
+    const Hdf5Field& about = datasets_[index].fields()[field];
+    const bool turned = is_turned(datasets_[index]);
+    NamedArray array;
+    array.name = about.name.empty() ? path.substr(1) : path.substr(1) + "/" + about.name;
+    array.shape = datasets_[index].shape();
+    if (turned) std::reverse(array.shape.begin(), array.shape.end());
+    if (about.width > 1) array.shape.push_back(about.width);
+    array.unit = about.unit;
+    array.records = !about.name.empty();
+    array.names = about.names;
+    array.units = about.units;
+    array.rows_held = [this, index, turned](bool channel_major) {
+      return datasets_[index].rows_held(channel_major != turned);
+    };
+    array.columns_held = [this, index, turned](bool channel_major) {
+      return datasets_[index].columns_held(channel_major != turned);
+    };
+    arrays_.push_back(std::move(array));
+    sources_.emplace_back(index, field);
+  }
+
+  std::string path_;
+  bool transposed_;
+  int descriptor_ = -1;
+  std::int64_t bytes_ = 0;
+  Hdf5Id file_;
+  std::vector<Hdf5Dataset> datasets_;
+  std::vector<NamedArray> arrays_;
+  std::vector<std::pair<std::size_t, std::size_t>> sources_;  ///< dataset and field of each array
+  Issues issues_;
+  std::string notes_;
+};
+
+std::unique_ptr<ArrayFile> open_plain(const std::string& path) { return open_hdf5_arrays(path, false); }
+
+}  // namespace
+
+bool looks_like_hdf5(std::string_view head) {
+  if (head.starts_with(kSignature)) return true;
+  for (std::size_t at = kFirstBlock; at < head.size(); at *= 2)
+    if (head.substr(at).starts_with(kSignature)) return true;
+  return false;
+}
+
+std::unique_ptr<RawReader> open_hdf5(std::unique_ptr<ByteSource> bytes) {
+  return read_arrays(std::move(bytes), "hdf5", open_plain);
+}
+
+std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, bool transposed) {
+  return std::make_unique<Hdf5Arrays>(path, transposed);
+}
+
+}  // namespace faultline

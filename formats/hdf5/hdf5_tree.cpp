@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "formats/hdf5/hdf5_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string_view>
+
+#include "formats/arrays/array_notes.hpp"
+#include "formats/hdf5/hdf5_text.hpp"
+#include "lib/core/make_issue.hpp"
+#include "lib/core/text.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kMostObjects = 1 << 14;
+constexpr std::size_t kDeepest = 32;
+
+/// A walk through the groups.
+struct Walk {
+  hid_t file = -1;
+  Hdf5Tree tree;
+  std::string path;  ///< of the group that is being read, ended by '/'
+  std::size_t depth = 0, objects = 0;
+  std::set<haddr_t> seen;
+};
+
+void walk_group(Walk& walk, const std::string& path);
+
+/// Groups that MATLAB (#refs#) and PyTables (_i_table, an index) keep for themselves.
+bool is_own_affair(std::string_view name) { return name.starts_with("#") || name.starts_with("_i_"); }
+
+void visit(Walk& walk, hid_t group, const char* name) {
+  H5O_info_t facts;
+  if (H5Oget_info_by_name2(group, name, &facts, H5O_INFO_BASIC, H5P_DEFAULT) < 0) {
+    walk.tree.issues.add(make_issue(
+        "array_damaged", Severity::severe,
+        fmt::format("\"{}\" is damaged and was left out", shortened(walk.path + name, kLongestName)),
+        walk.path + name));
+    return;
+  }
+  if (facts.type == H5O_TYPE_DATASET) {
+    if (walk.path == "/" && std::string(name) == kNotesName) {
+      const Hdf5Id dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
+      const auto texts = dataset.ok() ? hdf5_texts(dataset) : std::vector<std::string>{};
+      if (!texts.empty()) walk.tree.notes = texts.front() + " ";
+      if (!texts.empty()) return;
+    }
+    walk.tree.datasets.push_back(walk.path + name);
+  }
+  if (facts.type == H5O_TYPE_GROUP && !is_own_affair(name) && walk.seen.insert(facts.addr).second)
+    walk_group(walk, walk.path + name + "/");
+}
+
+/// A link that cannot be followed does not end the walk.
+herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* walk_at) {
+  Walk& walk = *static_cast<Walk*>(walk_at);
+  if (++walk.objects > kMostObjects) return 1;
+  if (link->type == H5L_TYPE_HARD) visit(walk, group, name);
+  return 0;
+}
+
+void walk_group(Walk& walk, const std::string& path) {
+  if (walk.depth == kDeepest) return;
+  const std::string before = walk.path;
+  walk.path = path;
+  ++walk.depth;
+  const Hdf5Id group(H5Gopen2(walk.file, path.c_str(), H5P_DEFAULT), H5Gclose);
+  hsize_t next = 0;
+  if (!group.ok() || H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &next, visit_link, &walk) < 0)
+    walk.tree.issues.add(make_issue(
+        "array_damaged", Severity::severe,
+        fmt::format("the group \"{}\" is damaged; some of it was left out", shortened(path, kLongestName)),
+        path));
+  --walk.depth;
+  walk.path = before;
+}
+
+/// Texts of a list that Python pickled in its oldest way, as PyTables does: each in a line after a V.
+std::vector<std::string> pickled_texts(const std::string& pickle) {
+  std::vector<std::string> texts;
+  for (std::size_t begin = 0; begin < pickle.size();) {
+    const std::size_t end = std::min(pickle.find('\n', begin), pickle.size());
+    std::string line = pickle.substr(begin, end - begin);
+    if (!line.empty() && line[0] == 'a') line.erase(0, 1);
+    if (!line.empty() && line[0] == 'V') texts.push_back(line.substr(1));
+    begin = end + 1;
+  }
+  return texts;
+}
+
+/// "q1, q2" as two; a list as it is.
+std::vector<std::string> as_list(std::vector<std::string> texts) {
+  if (texts.size() != 1) return texts;
+  const std::string text = texts.front();
+  texts.clear();
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(",;", begin), text.size());
+    const std::size_t first = std::min(text.find_first_not_of(' ', begin), end);
+    texts.push_back(text.substr(first, end - first));
+    begin = end + 1;
+  }
+  return texts;
+}
+
+std::vector<std::string> texts_at(hid_t file, const std::string& path) {
+  if (H5Lexists(file, path.c_str(), H5P_DEFAULT) <= 0) return {};
+  const Hdf5Id dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  return dataset.ok() ? hdf5_texts(dataset) : std::vector<std::string>{};
+}
+
+}  // namespace
+
+Hdf5Tree hdf5_tree(hid_t file) {
+  Walk walk;
+  walk.file = file;
+  walk_group(walk, "/");
+  return std::move(walk.tree);
+}
+
+void describe_hdf5_fields(hid_t file, const std::string& path, Hdf5Dataset& dataset) {
+  const auto units = as_list(hdf5_attribute(dataset.id(), {"unit", "units", "Unit", "Units"}));
+  const auto names = as_list(hdf5_attribute(dataset.id(), {"columns", "names", "column_names", "labels"}));
+  constexpr std::string_view kPandasValues = "_values";
+  for (Hdf5Field& field : dataset.fields()) {
+    if (field.name.empty()) {
+      if (units.size() == 1) field.unit = units.front();
+      field.units = units.size() > 1 ? units : std::vector<std::string>{};
+      field.names = names;
+      if (names.empty() && path.ends_with(kPandasValues))
+        field.names = texts_at(file, path.substr(0, path.size() - kPandasValues.size()) + "_items");
+      continue;
+    }
+    const auto own_unit = hdf5_attribute(dataset.id(), {field.name + "_unit", field.name + "_units"});
+    if (!own_unit.empty()) field.unit = own_unit.front();
+    const auto kind = hdf5_attribute(dataset.id(), {field.name + "_kind"});
+    if (!kind.empty()) field.names = pickled_texts(kind.front());
+  }
+}
+
+bool is_text_of_matlab(hid_t dataset) {
+  const auto kind = hdf5_attribute(dataset, {"MATLAB_class"});
+  return !kind.empty() && (kind.front() == "char" || kind.front() == "cell");
+}
+
+}  // namespace faultline

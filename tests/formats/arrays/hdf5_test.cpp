@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "formats/write_log.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "tests/formats/arrays/python.hpp"
+#include "tests/formats/arrays/read_bytes.hpp"
+
+namespace faultline {
+namespace {
+
+using Values = std::vector<double>;
+
+class Hdf5 : public testing::Test {
+ protected:
+  std::string written(const Log& log) {
+    write_log(folder_.file("log.h5"), log);
+    return read_file(folder_.file("log.h5"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+Log log_with_extra(int rows) {
+  Log log = numbered_log(rows, 3);
+  log.tau[1][7] = std::nan("");
+  log.q_ref = log.q;
+  log.extra = {{"motor temp_ms", "", log.q[0]},
+               {"q", "degC", log.q[1]},
+               {"a/b", "V", log.q[2]},
+               {"a b", "\xC2\xB5m", log.q[0]}};
+  return log;
+}
+
+TEST_F(Hdf5, AWrittenLogIsReadBackToTheLastBit) {
+  const Log log = log_with_extra(5000);
+  const ReadArrays read = read_bytes(written(log));
+  EXPECT_EQ(read.refused, "");
+  EXPECT_TRUE(read.issues.empty());
+  EXPECT_EQ(read.identity.format, "hdf5");
+  EXPECT_EQ(read.log.time, log.time);
+  EXPECT_EQ(read.log.q, log.q);
+  EXPECT_EQ(read.log.q_ref, log.q);
+  EXPECT_TRUE(std::isnan(read.log.tau[1][7]));
+  EXPECT_EQ(read.log.tau[2], log.tau[2]);
+  ASSERT_EQ(read.log.extra.size(), log.extra.size());
+  for (std::size_t i = 0; i < log.extra.size(); ++i) {
+    EXPECT_EQ(read.log.extra[i].name, log.extra[i].name);
+    EXPECT_EQ(read.log.extra[i].unit, log.extra[i].unit);
+    EXPECT_EQ(read.log.extra[i].values, log.extra[i].values);
+  }
+}
+
+TEST_F(Hdf5, ALogOfOneRowIsReadBack) {
+  EXPECT_EQ(read_bytes(written(numbered_log(1, 3))).log.q, numbered_log(1, 3).q);
+}
+
+TEST_F(Hdf5, SegmentsChangeNoByte) {
+  const Log log = log_with_extra(5000);
+  const std::string whole = written(log);
+  const auto writer = create_log(folder_.file("cut.h5"));
+  for (int row = 0; row < log.rows(); row += 777)
+    writer->write(slice(log, row, std::min(log.rows(), row + 777)));
+  writer->commit();
+  EXPECT_TRUE(read_file(folder_.file("cut.h5")) == whole);
+}
+
+TEST_F(Hdf5, AFlippedBitCostsAChunkAndIsTold) {
+  std::string bytes = written(numbered_log(5000, 3));
+  const double value = 2500.1;
+  const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
+  ASSERT_NE(place, std::string::npos);
+  bytes[place] = static_cast<char>(bytes[place] ^ 1);
+  const ReadArrays read = read_bytes(bytes);
+  ASSERT_EQ(read.log.rows(), 5000);
+  EXPECT_TRUE(std::isnan(read.log.q[1][2500]));
+  EXPECT_EQ(std::count_if(read.log.q[0].begin(), read.log.q[0].end(), [](double v) { return std::isnan(v); }),
+            1024);
+  EXPECT_EQ(read.log.dq, numbered_log(5000, 3).dq);
+  ASSERT_TRUE(read.issues.find("array_damaged", "q1"));
+  EXPECT_EQ(read.issues.find("array_damaged", "q1")->severity, Severity::severe);
+  EXPECT_EQ(read.issues.find("array_damaged", "q1")->first_row, 2049);
+}
+
+TEST_F(Hdf5, ALostTimeCostsItsRows) {
+  Log log = numbered_log(5000, 1);
+  std::string bytes = written(log);
+  const double value = log.time[4500];
+  const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
+  bytes[place] = static_cast<char>(bytes[place] ^ 1);
+  const ReadArrays read = read_bytes(bytes);
+  EXPECT_EQ(read.log.rows(), 4096);
+  EXPECT_EQ(read.issues.rows_dropped(), 904);
+}
+
+TEST_F(Hdf5, ACutFileNeverLosesRowsInSilence) {
+  const Log log = numbered_log(3000, 2);
+  const std::string bytes = written(log);
+  int most = 0;
+  for (std::size_t size = 1; size < bytes.size(); size += size < 3000 ? 101 : 4999) {
+    const ReadArrays read = read_bytes(bytes.substr(0, size));
+    if (!read.refused.empty()) continue;
+    EXPECT_FALSE(read.issues.empty()) << size;
+    most = std::max(most, read.log.rows());
+    for (int i = 0; i < read.log.rows(); ++i) {
+      const auto row =
+          static_cast<std::size_t>(std::lround(read.log.time[static_cast<std::size_t>(i)] / 0.01));
+      const double q = read.log.q[0][static_cast<std::size_t>(i)];
+      ASSERT_TRUE(std::isnan(q) || q == log.q[0][row]) << size;
+    }
+  }
+  EXPECT_GT(most, 1000);
+}
+
+TEST_F(Hdf5, ItsSignatureIsFoundBehindABlockOfTheProgramThatWroteIt) {
+  const std::string bytes = written(numbered_log(20, 1));
+  EXPECT_EQ(read_bytes(std::string(512, 'x') + bytes).identity.format, "hdf5");
+}
+
+constexpr const char* kScript = R"(
+import numpy as np, h5py
+n = 3000
+t = np.arange(n) * 0.01
+q = np.stack([np.sin(t), np.cos(t)], axis=1)
+def h5(name): return h5py.File(name, 'w')
+with h5('groups.h5') as f:
+    f['run/t'] = t
+    f['run/q'] = (q * 180 / np.pi).astype('>f4')
+    f['run/q'].attrs['unit'] = 'deg'
+    f['run/dq'] = q.T
+    f['run/name'] = 'text'
+    f['run/dt'] = 0.01
+    f['run/image'] = np.zeros((4, 5, 6))
+with h5('table.h5') as f:
+    a = np.zeros(n, dtype=[('t', '<f8'), ('q', '<f4', (2,)), ('label', 'S4'), ('mode', '<i2')])
+    a['t'] = t; a['q'] = q; a['mode'] = 3
+    f.create_dataset('table', data=a, chunks=(256,), compression='gzip', shuffle=True)
+with h5('named.h5') as f:
+    d = f.create_dataset('data', data=np.column_stack([t, q]), chunks=(100, 2), compression='gzip')
+    d.attrs['columns'] = ['time', 'pos_1', 'pos_2']
+    d.attrs['units'] = ['s', 'rad', 'rad']
+with h5('holes.h5') as f:
+    f['t'] = t
+    d = f.create_dataset('q', shape=(n, 2), chunks=(500, 2), dtype='f8')
+    d[:1000] = q[:1000]
+    d[2000:2500] = q[2000:2500]
+with h5('lzf.h5') as f:
+    f.create_dataset('t', data=t, compression='lzf')
+with h5py.File('late.h5', 'w', libver='latest', userblock_size=1024) as f:
+    f['t'] = t
+    f.create_dataset('q', data=q, chunks=(64, 1), fletcher32=True)
+)";
+
+TEST_F(Hdf5, FilesOfH5pyAreRead) {
+  if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with h5py";
+  for (const char* name : {"groups.h5", "table.h5", "named.h5", "late.h5"}) {
+    const ReadArrays read = read_array_file(folder_.file(name));
+    ASSERT_EQ(read.refused, "") << name;
+    ASSERT_EQ(read.log.rows(), 3000) << name;
+    ASSERT_EQ(read.log.joints(), 2) << name;
+    for (std::size_t i = 0; i < 3000; i += 7) {
+      ASSERT_NEAR(read.log.q[0][i], std::sin(0.01 * static_cast<double>(i)), 1e-6) << name;
+      ASSERT_NEAR(read.log.q[1][i], std::cos(0.01 * static_cast<double>(i)), 1e-6) << name;
+    }
+  }
+  EXPECT_TRUE(read_array_file(folder_.file("groups.h5")).issues.find("array_left_out"));
+  EXPECT_EQ(read_array_file(folder_.file("table.h5")).extra("mode")[5], 3.0);
+}
+
+TEST_F(Hdf5, AFilterThatIsNotThereIsNamedAsTheReason) {
+  if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with h5py";
+  EXPECT_NE(read_array_file(folder_.file("lzf.h5")).refused.find("filter that is not installed"),
+            std::string::npos);
+}
+
+TEST_F(Hdf5, WhatWasNeverWrittenIsMissingAndNoZero) {
+  if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with h5py";
+  const ReadArrays read = read_array_file(folder_.file("holes.h5"));
+  ASSERT_EQ(read.log.rows(), 3000);
+  for (const std::size_t row : {1000, 1999, 2500, 2999}) EXPECT_TRUE(std::isnan(read.log.q[0][row])) << row;
+  for (const std::size_t row : {0, 999, 2000, 2499}) EXPECT_FALSE(std::isnan(read.log.q[0][row])) << row;
+  EXPECT_TRUE(read.issues.find("array_damaged", "q1"));
+}
+
+TEST_F(Hdf5, TablesOfPandasAreRead) {
+  const char* script = R"(
+import numpy as np, pandas as pd
+f = pd.DataFrame({'t': np.arange(50) * 0.01, 'q1': np.arange(50.0), 'q2': -np.arange(50.0)})
+f.to_hdf('table.h5', 'log', format='table')
+f.to_hdf('fixed.h5', 'log', format='fixed')
+)";
+  if (!run_python(folder_, script)) GTEST_SKIP() << "no Python with pandas and tables";
+  for (const char* name : {"table.h5", "fixed.h5"}) {
+    const ReadArrays read = read_array_file(folder_.file(name));
+    EXPECT_EQ(read.refused, "") << name;
+    ASSERT_EQ(read.log.joints(), 2) << name;
+    EXPECT_EQ(read.log.q[1][7], -7.0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace faultline
