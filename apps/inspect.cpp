@@ -6,7 +6,7 @@
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/inspection.hpp"
+#include "apps/inspection/inspection.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"

@@ -39,12 +39,14 @@ void TimeAxisPass::judge_step(double before, double now) {
   const double step = now - before;
   if (step > options_.gap_factor * axis_.period_s) {
     if (axis_.gaps++ == 0) axis_.first_gap_row = judged_, axis_.first_gap_s = before;
+    if (axis_.listed_gaps.size() < kListedGaps) axis_.listed_gaps.push_back({judged_, before, step});
     axis_.longest_gap_s = std::max(axis_.longest_gap_s, step);
     axis_.in_gaps_s += step;
     return;
   }
   const double off = step - axis_.period_s;
   axis_.uneven_steps += std::abs(off) > options_.jitter_share * axis_.period_s;
+  axis_.largest_jitter_s = std::max(axis_.largest_jitter_s, std::abs(off));
   squares_ += off * off;
 }
 

@@ -10,6 +10,15 @@ namespace faultline {
 /// Steps of time from which the sample period is taken (their median).
 inline constexpr int kPeriodSteps = 4096;
 
+/// A step of time longer than the others.
+struct TimeGap {
+  std::int64_t row = 0;  ///< the row before it, from 1
+  double start_s = 0.0;
+  double length_s = 0.0;
+};
+/// Gaps that are listed; later ones are only counted.
+inline constexpr std::size_t kListedGaps = 1000;
+
 /// What is known of a log's sampling, from its times in order.
 struct TimeAxis {
   double period_s = std::numeric_limits<double>::quiet_NaN();  ///< median step; NaN while unknown
@@ -20,9 +29,11 @@ struct TimeAxis {
   std::int64_t first_gap_row = 0;  ///< row before it, from 1
   double first_gap_s = 0.0;        ///< time before it
   double longest_gap_s = 0.0;
-  double in_gaps_s = 0.0;         ///< time inside all gaps
-  std::int64_t uneven_steps = 0;  ///< other steps more than jitter_share of a period off
-  double jitter_s = 0.0;          ///< rms deviation of steps from the period, gaps left out
+  double in_gaps_s = 0.0;              ///< time inside all gaps
+  std::int64_t uneven_steps = 0;       ///< other steps more than jitter_share of a period off
+  double jitter_s = 0.0;               ///< rms deviation of steps from the period, gaps left out
+  double largest_jitter_s = 0.0;       ///< largest deviation, gaps left out
+  std::vector<TimeGap> listed_gaps{};  ///< the first kListedGaps
 };
 
 struct TimeAxisOptions {

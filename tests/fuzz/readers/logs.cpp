@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/inspection.hpp"
+#include "apps/inspection/inspection.hpp"
 #include "formats/open_log.hpp"
 #include "tests/fuzz/readers/feeding.hpp"
 #include "tests/fuzz/readers/readers.hpp"

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/inspection/analyses.hpp"
+#include "apps/inspection/overview.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/progress.hpp"
+#include "lib/log/checkup/checkup.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
@@ -31,12 +34,24 @@ struct Inspection {
   int joints = 0;
   std::int64_t rows_used = 0;
   LogQuality quality;
+  CheckupResult checkup;
+  LogOverview overview;  ///< for pictures
   std::vector<InspectedChannel> channels;
   std::vector<std::string> lacking;  ///< what a diagnosis would have to do without
-  Issues issues;                     ///< of reading, cleaning and quality together
+  std::vector<PossibleAnalysis> analyses;
+  Issues issues;  ///< of reading, cleaning, quality and the closer look together
 
   bool severe() const;
+  /// Rows used of rows read, and of the rows that the span of time has at this sample period; 0 to 1, NaN
+  /// while unknown.
+  double share_used() const;
+  double completeness() const;
 };
+
+/// "sound", "doubtful" (a warning), "damaged" (something severe) or "no_joint_log".
+const char* verdict_of(const Inspection& inspection);
+/// The verdict in a sentence.
+std::string verdict_sentence_of(const Inspection& inspection);
 
 /// Throws Error(input) when nothing can be read from the file.
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection.hpp"
+#include "apps/inspection/inspection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/mapped_source.hpp"
 #include "lib/robot/axis_units.hpp"
@@ -77,9 +79,13 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
                              const std::optional<Robot>& robot, const Progress& progress) {
   Inspection inspection;
   QualityState state;
+  Checkup checkup;
+  OverviewPass overview;
   Log segment;
   while (source.next(segment)) {
     assess(segment, state);
+    checkup.add(segment);
+    overview.add(segment);
     inspection.rows_used += segment.rows();
     if (inspection.lacking.empty()) inspection.lacking = what_is_lacking(segment);
     if (progress) progress("reading " + source.identity().path, source.share_read());
@@ -92,6 +98,9 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
   inspection.quality = quality_of(state, options);
   inspection.issues = source.issues();
   inspection.issues.merge(inspection.quality.issues);
+  inspection.checkup = checkup.result();
+  inspection.overview = overview.result();
+  inspection.issues.merge(checkup_issues(inspection.checkup, inspection.quality));
   judge_dropped_rows(inspection);
   judge_robot(inspection, robot);
   for (const ChannelSummary& channel : inspection.quality.channels) {
@@ -99,6 +108,7 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
     inspection.channels.push_back({channel, column_of(channel, source.matching(), columns),
                                    canonical ? unit_of(*canonical, robot) : channel.unit});
   }
+  inspection.analyses = possible_analyses(inspection);
   return inspection;
 }
 
@@ -134,6 +144,7 @@ Inspection inspect_table(RawReader& reader, const std::string& why_not) {
   inspection.issues.add({"no_joint_log", "", Severity::severe, why_not});
   for (const ChannelSummary& channel : state.channels)
     inspection.channels.push_back({channel, channel.name, channel.unit});
+  inspection.analyses = possible_analyses(inspection);
   return inspection;
 }
 
@@ -143,6 +154,37 @@ bool Inspection::severe() const {
   const auto& all = issues.all();
   return std::any_of(all.begin(), all.end(),
                      [](const Issue& issue) { return issue.severity == Severity::severe; });
+}
+
+double Inspection::share_used() const {
+  return log.rows_read > 0 ? static_cast<double>(rows_used) / static_cast<double>(log.rows_read)
+                           : std::nan("");
+}
+
+double Inspection::completeness() const { return faultline::completeness(quality.time); }
+
+const char* verdict_of(const Inspection& inspection) {
+  if (!inspection.joint_log) return "no_joint_log";
+  if (inspection.severe()) return "damaged";
+  const auto& all = inspection.issues.all();
+  const bool warned = std::any_of(all.begin(), all.end(),
+                                  [](const Issue& issue) { return issue.severity == Severity::warning; });
+  return warned ? "doubtful" : "sound";
+}
+
+std::string verdict_sentence_of(const Inspection& inspection) {
+  const auto& all = inspection.issues.all();
+  const auto number = [&](Severity severity) {
+    return std::count_if(all.begin(), all.end(),
+                         [severity](const Issue& issue) { return issue.severity == severity; });
+  };
+  const std::string verdict = verdict_of(inspection);
+  if (verdict == "no_joint_log") return "no joint log: " + inspection.why_not;
+  if (verdict == "sound") return "sound: nothing stands in the way of using this log";
+  const auto severe = number(Severity::severe), warned = number(Severity::warning);
+  if (verdict == "doubtful") return fmt::format("usable with care: {}", counted(warned, "warning"));
+  return fmt::format("not to be used as it is: {}{}", counted(severe, "severe finding"),
+                     warned > 0 ? ", " + counted(warned, "warning") : "");
 }
 
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
