@@ -7,6 +7,7 @@
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/inspection/inspection.hpp"
+#include "apps/inspection/inspection_page.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
@@ -23,6 +24,7 @@ struct InspectArguments {
   std::string robot;
   std::string json;
   LogSelection parts;
+  std::string html;
 };
 
 /// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
@@ -47,6 +49,7 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
       .reads("a part of the log", files_of(arguments.parts))
       .reads("the robot file", arguments.robot)
       .writes("--json", arguments.json)
+      .writes("--html", arguments.html)
       .claim();
   int status = kNothingFound;
   const auto inspections = inspect_all(arguments, color, status);
@@ -56,8 +59,10 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
     for (const Inspection& inspection : inspections) json["logs"].push_back(inspection_json(inspection));
     write_file(arguments.json, json_text(json));
   }
+  if (!arguments.html.empty() && !inspections.empty())
+    write_file(arguments.html, inspection_page(inspections));
   const bool in_color = use_color(color, stdout);
-  if (arguments.json != "-")
+  if (arguments.json != "-" && arguments.html != "-")
     for (const Inspection& inspection : inspections) print(inspection_text(inspection, in_color), in_color);
   return status;
 }
@@ -73,6 +78,8 @@ void add_inspect(CLI::App& app, Program& program) {
   add_file_option(*command, "--json", arguments->json, "Write the findings as JSON",
                   " to this file, - for standard output");
   add_log_selection(*command, arguments->parts);
+  add_file_option(*command, "--html", arguments->html, "Write a page with pictures of all channels",
+                  " to this file, - for standard output");
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

@@ -183,7 +183,7 @@ std::string verdict_sentence_of(const Inspection& inspection) {
   if (verdict == "sound") return "sound: nothing stands in the way of using this log";
   const auto severe = number(Severity::severe), warned = number(Severity::warning);
   if (verdict == "doubtful") return fmt::format("usable with care: {}", counted(warned, "warning"));
-  return fmt::format("not to be used as it is: {}{}", counted(severe, "severe finding"),
+  return fmt::format("look before you use it: {}{}", counted(severe, "severe finding"),
                      warned > 0 ? ", " + counted(warned, "warning") : "");
 }
 

@@ -27,6 +27,11 @@ struct PlotMark {
   std::string text;
 };
 
+/// A stretch of x that is shaded, such as a gap; however short, it is seen.
+struct PlotBand {
+  double from = 0.0, to = 0.0;
+};
+
 struct PlotPanel {
   std::string y_label;  ///< with its unit
   std::vector<PlotSeries> series;
@@ -44,6 +49,7 @@ struct LinePlot {
   int panel_height = 170;  ///< px
   std::string id = "";     ///< of its own on a page that holds several plots
   bool captions = true;    ///< show title and legend; false where the page shows them
+  std::vector<PlotBand> bands = {};
 };
 
 /// Line `i` of a panel: a colour, and dashes as in stroke-dasharray (empty: solid).

@@ -14,6 +14,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kNarrowestBand = 1.5;  // px
+
 /// Ends of the error bars, so that the axis holds them.
 std::vector<double> bar_ends(const PlotPanel& panel) {
   std::vector<double> ends;
@@ -35,6 +37,16 @@ std::string grid(const PlotFrame& f, const PlotAxis& x, const PlotAxis& y) {
   for (const PlotTick& tick : ticks_of(x, 10))
     svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#eeeeee\"/>\n",
                        x.px(tick.value), f.top, f.bottom);
+  return svg;
+}
+
+std::string bands(const LinePlot& plot, const PlotFrame& f, const PlotAxis& x) {
+  std::string svg;
+  for (const PlotBand& band : plot.bands)
+    svg += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\" fill=\"#b3261e\" "
+        "fill-opacity=\"0.22\"/>\n",
+        x.px(band.from), f.top, std::max(x.px(band.to) - x.px(band.from), kNarrowestBand), f.bottom - f.top);
   return svg;
 }
 
@@ -121,6 +133,7 @@ std::string render_panel(const LinePlot& plot, std::size_t number, const PlotFra
       "<clipPath id=\"{5}panel{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
       "</clipPath>\n<g clip-path=\"url(#{5}panel{0})\">\n",
       number, f.left, f.top, f.right - f.left, f.bottom - f.top, plot.id);
+  svg += bands(plot, f, x);
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     svg += render_series(panel.series[i], pen_of(panel, i), x, y);
   svg += "</g>\n" + marks(plot, f, x, number == 0);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "apps/inspection/inspection_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
+#include "lib/html/elements.hpp"
+#include "lib/html/head.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kShownGaps = 20;
+constexpr std::size_t kShownChannels = 200;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// The reports' colours of verdicts.
+const char* colour_of(const Inspection& inspection) {
+  const std::string verdict = verdict_of(inspection);
+  return verdict == "sound" ? "healthy" : verdict == "doubtful" ? "inconclusive" : "faulty";
+}
+
+std::string top(const Inspection& inspection) {
+  const TimeAxis& time = inspection.quality.time;
+  std::string facts = fmt::format("{}, {} rows, {} used", inspection.log.format, inspection.log.rows_read,
+                                  inspection.rows_used);
+  if (inspection.joint_log)
+    facts += fmt::format(", {}, {} to {}", counted(inspection.joints, "joint"),
+                         time_text(time.start_s, time.period_s), time_text(time.end_s, time.period_s));
+  if (!std::isnan(time.period_s)) facts += fmt::format(", {:.5g} Hz", 1.0 / time.period_s);
+  std::string verdict = verdict_sentence_of(inspection);
+  if (!verdict.empty()) verdict[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(verdict[0])));
+  return fmt::format("<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p class=\"verdict {}\">{}</p>\n",
+                     escaped_markup(printable(inspection.log.path)), escaped_markup(facts),
+                     colour_of(inspection), escaped_markup(brief(verdict)));
+}
+
+/// An item of a list: severity or fit, what, then the sentence.
+std::string item(const std::string& word, const std::string& what, const std::string& sentence) {
+  return fmt::format("<li><b>{}</b> {}{}{}</li>\n", escaped_markup(word), escaped_markup(what),
+                     sentence.empty() ? "" : ": ", escaped_markup(sentence));
+}
+
+std::string findings(const Inspection& inspection) {
+  std::vector<Issue> issues = inspection.issues.all();
+  std::stable_sort(issues.begin(), issues.end(),
+                   [](const Issue& a, const Issue& b) { return a.severity > b.severity; });
+  std::string text;
+  for (const Issue& issue : issues) {
+    std::string what = issue.code;
+    if (!issue.channel.empty()) what += " " + shortened(issue.channel, kLongestName);
+    if (issue.count > 1) what += fmt::format(", {} times", issue.count);
+    if (issue.first_row > 0) what += fmt::format(", first in row {}", issue.first_row);
+    if (issue.rows_dropped > 0) what += fmt::format(", {} rows left out", issue.rows_dropped);
+    text += item(to_string(issue.severity), what, issue.message);
+  }
+  return "<h2>Findings</h2>\n" +
+         (text.empty() ? "<p>Nothing wrong was found.</p>\n" : "<ul>\n" + text + "</ul>\n");
+}
+
+std::string analyses(const Inspection& inspection) {
+  std::string text;
+  for (const PossibleAnalysis& analysis : inspection.analyses) {
+    std::string sentence = analysis.why;
+    if (!analysis.help.empty()) sentence += "; " + analysis.help;
+    if (!analysis.channels.empty())
+      sentence += (sentence.empty() ? "from " : "; from ") + joined(analysis.channels);
+    text += item(to_string(analysis.fit), analysis.what, sentence);
+  }
+  return "<h2>What it is good for</h2>\n<ul>\n" + text + "</ul>\n";
+}
+
+std::string time_facts(const Inspection& inspection) {
+  const TimeAxis& time = inspection.quality.time;
+  if (std::isnan(time.period_s)) return "";
+  std::string text =
+      "<h2>Time</h2>\n" +
+      html_table({}, {{"sample period (median)", fmt::format("{:.6g} s", time.period_s)},
+                      {"jitter",
+                       fmt::format("{:.3g} s rms, {:.3g} s at most", time.jitter_s, time.largest_jitter_s)},
+                      {"gaps", fmt::format("{}, {:.4g} s together", time.gaps, time.in_gaps_s)},
+                      {"rows used of those read", fmt::format("{:.4g} %", 100.0 * inspection.share_used())},
+                      {"rows of those the time has room for",
+                       fmt::format("{:.4g} %", 100.0 * inspection.completeness())}});
+  std::vector<HtmlRow> gaps;
+  for (std::size_t i = 0; i < std::min(time.listed_gaps.size(), kShownGaps); ++i)
+    gaps.push_back({std::to_string(time.listed_gaps[i].row),
+                    time_text(time.listed_gaps[i].start_s, time.period_s),
+                    fmt::format("{:.4g} s", time.listed_gaps[i].length_s)});
+  return text + html_part(time.gaps > static_cast<std::int64_t>(kShownGaps) ? "The first gaps" : "Gaps",
+                          html_table({"after row", "at", "length"}, gaps));
+}
+
+std::string step_text(const ChannelCheckup* found) {
+  return found && found->course.step ? value_text(*found->course.step) : "";
+}
+
+std::string unchanged_text(const ChannelCheckup* found) {
+  if (!found || found->course.longest.rows < 2) return "";
+  const SameValue& same = found->course.longest;
+  return fmt::format("{} rows at {}", same.rows, value_text(same.value));
+}
+
+std::string channels(const Inspection& inspection) {
+  std::vector<HtmlRow> rows;
+  for (const InspectedChannel& channel : inspection.channels) {
+    if (rows.size() == kShownChannels) break;
+    const ChannelSummary& summary = channel.summary;
+    const auto known = summary.canonical ? canonical_channel(summary.name) : std::nullopt;
+    const ChannelCheckup* found = known ? inspection.checkup.find(*known) : nullptr;
+    const bool any = summary.values > 0;
+    rows.push_back({shortened(summary.name, kLongestName), shortened(channel.column, kLongestName),
+                    shortened(channel.unit, kLongestName), any ? value_text(summary.min) : "-",
+                    any ? value_text(summary.max) : "-", std::to_string(summary.missing), step_text(found),
+                    unchanged_text(found), fmt::format("{:.2g} %", 100.0 * share_at_limits(summary))});
+  }
+  return "<h2>Channels</h2>\n" + html_table({"channel", "column", "unit", "least", "largest", "missing",
+                                             "step", "longest unchanged", "at a limit"},
+                                            rows);
+}
+
+std::string joints(const Inspection& inspection) {
+  std::vector<HtmlRow> rows;
+  for (std::size_t j = 0; j < inspection.checkup.joints.size(); ++j) {
+    const auto& [velocity, torque] = inspection.checkup.joints[j];
+    rows.push_back({std::to_string(j + 1), value_text(velocity.rms_ratio), value_text(velocity.delay_rows),
+                    velocity.is_difference ? "yes" : "no", value_text(torque.correlation),
+                    value_text(torque.delay_rows)});
+  }
+  return html_part("Velocity against the position's change, torque against acceleration",
+                   html_table({"joint", "velocity, times", "late, rows", "computed from position",
+                               "torque's correlation", "late, rows"},
+                              rows));
+}
+
+}  // namespace
+
+std::string inspection_page(const std::vector<Inspection>& inspections) {
+  std::string text = html_head(inspections.size() == 1 ? printable(inspections[0].log.path).substr(0, 200)
+                                                       : counted(std::ssize(inspections), "log"),
+                               false) +
+                     "<body>\n<main>\n";
+  for (std::size_t i = 0; i < inspections.size(); ++i) {
+    const Inspection& inspection = inspections[i];
+    const std::string figures = inspection_figures(inspection, fmt::format("log{}-", i + 1));
+    text += top(inspection) + findings(inspection) + analyses(inspection);
+    if (!figures.empty())
+      text +=
+          "<h2>The channels</h2>\n<p class=\"sub\">Shaded: gaps, and where a channel stood still though its "
+          "joint moved.</p>\n" +
+          figures;
+    text += time_facts(inspection) + channels(inspection) + joints(inspection);
+    text += "<h2>Provenance</h2>\n" + html_table({}, {{"log SHA-256", inspection.log.sha256}});
+  }
+  return text + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace faultline
