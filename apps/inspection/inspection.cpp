@@ -60,7 +60,10 @@ std::vector<std::string> what_is_lacking(const Log& log) {
 }
 
 void judge_dropped_rows(Inspection& inspection) {
-  const std::int64_t dropped = inspection.issues.rows_dropped();
+  std::int64_t dropped = inspection.issues.rows_dropped();
+  for (const char* meant : {"row_of_other_signals", "other_run"})
+    for (const Issue& issue : inspection.issues.all())
+      if (issue.code == meant) dropped -= issue.rows_dropped;
   if (100 * dropped <= inspection.log.rows_read) return;
   inspection.issues.add({"many_rows_dropped", "", Severity::severe,
                          fmt::format("{} of {} rows could not be used", dropped, inspection.log.rows_read)});

@@ -5,6 +5,7 @@
 
 #include "formats/csv/csv_header.hpp"
 #include "formats/csv/csv_lines.hpp"
+#include "formats/csv/csv_sparse.hpp"
 
 namespace faultline {
 namespace {
@@ -57,6 +58,7 @@ CsvDialect find_dialect(std::string_view head) {
   const std::size_t data =
       has_rows ? static_cast<std::size_t>(row - lines.begin()) : behind_first_line(lines, fields);
   const std::span<const CsvLine> all(lines);
+  dialect.sparse = is_sparse_table(all.subspan(data), fields, dialect.decimal);
   find_columns(all.first(data), has_rows ? all.subspan(data) : all.last(0), fields, dialect);
   for (const CsvLine& line : all.subspan(data))
     if (is_data(line, fields)) dialect.last_cells.add(line.fields.back(), dialect.decimal);

@@ -19,6 +19,7 @@ struct CsvDialect {
   std::int64_t lines_before = 0;    ///< lines before it
   std::int64_t preamble_lines = 0;  ///< of these, lines that are neither header, units, comments nor blank
   bool has_header = false;
+  bool sparse = false;            ///< each row holds some of the signals only
   bool names_in_rows = false;     ///< each value has its name in the column before it
   std::vector<int> value_fields;  ///< field of each column
   int fields = 0;                 ///< of a whole row

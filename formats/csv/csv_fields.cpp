@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "formats/csv/clock_cell.hpp"
+
 namespace faultline {
 namespace {
 
@@ -56,8 +58,9 @@ Cell read_cell(std::string_view text, char decimal) {
   const fast_float::parse_options options(fast_float::chars_format::general, decimal);
   const auto [end, error] =
       fast_float::from_chars_advanced(text.data(), text.data() + text.size(), value, options);
-  if (error != std::errc() || end != text.data() + text.size()) return {CellKind::text, kNan};
-  return {CellKind::number, value};
+  if (error == std::errc() && end == text.data() + text.size()) return {CellKind::number, value};
+  if (const auto seconds = clock_seconds(text)) return {CellKind::number, *seconds};
+  return {CellKind::text, kNan};
 }
 
 void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields) {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "formats/csv/csv_header.hpp"
 
+#include <iterator>
+#include <set>
+#include <utility>
+
 #include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
+#include "lib/log/channel_names.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
@@ -45,6 +50,20 @@ struct Header {
   std::vector<std::string> names, units;
 };
 
+/// A line of groups above the names, such as "Joint 1,,Joint 2,": needed where names repeat. Each group goes
+/// on until the next one. Whether there is one.
+bool add_groups(const CsvLine& above, std::vector<std::string>& names) {
+  const std::set<std::string> different(names.begin(), names.end());
+  if (different.size() == names.size() || above.comment || above.fields.size() != names.size()) return false;
+  if (above.numbers > 0 || above.texts == 0) return false;
+  std::string group;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!above.fields[i].empty()) group = std::string(above.fields[i]);
+    if (!group.empty()) names[i] = group + " " + names[i];
+  }
+  return true;
+}
+
 /// From the lines above the rows.
 Header find_header(std::span<const CsvLine> above, bool open_end, int fields, CsvDialect& dialect) {
   Header header;
@@ -67,6 +86,7 @@ Header find_header(std::span<const CsvLine> above, bool open_end, int fields, Cs
   for (std::size_t i = above.size(); i-- > 0 && header.names.empty();)
     if (above[i].comment && take_commented_header(above[i], dialect, fields, header.names)) line = i;
   dialect.has_header = line < above.size();
+  if (dialect.has_header && line > 0 && add_groups(above[line - 1], header.names)) --dialect.preamble_lines;
   return header;
 }
 
@@ -97,11 +117,37 @@ bool starts_with_stamp(const CsvLine& line) {
          nanoseconds.value < 1e9;
 }
 
+/// The fields of `ros2 topic echo --csv` of a JointState: stamp, frame, names, then the numbers of each
+/// joint.
+void name_joint_states(const CsvLine& row, std::vector<std::string>& names) {
+  constexpr std::size_t kNamesBegin = 3;
+  std::size_t joints = 0;
+  while (kNamesBegin + joints < row.fields.size() &&
+         read_cell(row.fields[kNamesBegin + joints], '.').kind == CellKind::text)
+    ++joints;
+  if (joints == 0 || row.fields.size() != kNamesBegin + 4 * joints) return;
+  const char* arrays[] = {"q", "dq", "tau"};
+  for (std::size_t a = 0; a < std::size(arrays); ++a)
+    for (std::size_t j = 0; j < joints; ++j)
+      names[kNamesBegin + (a + 1) * joints + j] = arrays[a] + std::to_string(j + 1);
+}
+
+/// Of a time without a unit that is so large that it can only count from 1970.
+std::string epoch_unit(const std::string& name, double value) {
+  constexpr double kEarliest = 3e8, kLatest = 4.2e9;  // s: 1979 to 2103
+  if (find_time_column({name}) < 0) return "";
+  for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, std::pair{"us", 1e6}, std::pair{"ns", 1e9}})
+    if (value >= kEarliest * factor && value <= kLatest * factor) return unit;
+  return "";
+}
+
 void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vector<std::string>& names) {
   const CsvLine* second = rows.size() > 1 ? &rows[1] : nullptr;
   dialect.names_in_rows = names_stand_in_rows(rows[0], second, names);
   names.resize(rows[0].fields.size());
-  if (starts_with_stamp(rows[0])) names[0] = "sec", names[1] = "nanosec";
+  if (!starts_with_stamp(rows[0])) return;
+  names[0] = "sec", names[1] = "nanosec";
+  if (!dialect.names_in_rows) name_joint_states(rows[0], names);
 }
 
 /// Without the apostrophe that keeps a spreadsheet from running a name, see inert_text().
@@ -124,6 +170,8 @@ void make_columns(const Header& header, int fields, const CsvLine* row, CsvDiale
     RawColumn column{name.empty() ? "column" + std::to_string(i + 1) : parts.name, parts.unit};
     if (column.unit.empty() && i < static_cast<int>(units.size())) column.unit = units[i];
     if (column.name == "rosbagTimestamp") column.unit = "ns";
+    if (column.unit.empty() && row)
+      column.unit = epoch_unit(column.name, read_cell(row->fields[i], dialect.decimal).value);
     dialect.columns.push_back(column);
     dialect.value_fields.push_back(i);
   }

@@ -54,6 +54,7 @@ class CsvReader : public RawReader {
   void rewind() override;
   const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override { return issues_.all(); }
+  bool sparse() const override { return dialect_.sparse; }
   double share_read() const override { return bytes_->share_read(); }
 
  private:

@@ -119,7 +119,9 @@ int time_fitness(const std::string& name) {
   const std::string leaf = leaf_of(name);
   if (name == "t") return 100;
   if (among(leaf, {"t", "time"}) && name.find('/') == std::string::npos) return 90;
-  if (among(leaf, {"timestamp", "time_stamp", "rosbag_timestamp", "stamp", "t_s"})) return 80;
+  if (among(leaf, {"timestamp", "time_stamp", "rosbag_timestamp", "stamp", "t_s", "datetime", "date_time",
+                   "zeit", "zeitstempel", "temps", "tiempo", "tempo"}))
+    return 80;
   if (among(leaf, {"elapsed", "elapsed_time", "time_elapsed", "program_time", "log_time", "controller_time"}))
     return 70;
   return 0;

@@ -35,6 +35,7 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
 void MappedSource::rewind() {
   reader_->rewind();
   clean_state_ = {.wanted_run = options_.run};
+  sparse_rows_ = {};
   waiting_ = {};
   rows_kept_ = 0;
   at_end_ = false;
@@ -55,6 +56,7 @@ bool MappedSource::next(Log& segment) {
     const int rows = segment.rows();
     waiting_ = clean(segment, segment_first_row_, at_end_, clean_state_, cleaning_issues_);
     waiting_file_row_ = segment_first_row_ + rows - 1;
+    if (reader_->sparse()) sparse_rows_.gather(segment, cleaning_issues_);
     segment.first_row = rows_kept_;
     rows_kept_ += segment.rows();
     if (segment.rows() > 0) return true;

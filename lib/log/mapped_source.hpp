@@ -7,6 +7,7 @@
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/raw_reader.hpp"
+#include "lib/log/sparse.hpp"
 
 namespace faultline {
 
@@ -46,6 +47,7 @@ class MappedSource : public LogSource {
   std::vector<int> uses_;  ///< of each raw column
   RawBlock block_;
   CleanState clean_state_;
+  SparseRows sparse_rows_;
   Log waiting_;                         ///< a row whose time could not be judged yet, or none
   std::int64_t segment_first_row_ = 0;  ///< data row of the segment's first row, from 0
   std::int64_t waiting_file_row_ = 0;   ///< data row of the waiting one, from 0

@@ -46,6 +46,8 @@ class RawReader {
   virtual const Issues& issues() const = 0;
   /// True when the columns are canonical channels in SI already, so that no column map applies.
   virtual bool canonical() const { return false; }
+  /// True when rows hold some of the signals only, see SparseRows.
+  virtual bool sparse() const { return false; }
   /// Share of the file read so far, 0 to 1.
   virtual double share_read() const = 0;
 };

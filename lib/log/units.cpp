@@ -14,36 +14,43 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 using Units = std::map<std::string, Unit, std::less<>>;
 
-/// Each unit as plain() writes it; "Grad" and "U/min" are German.
+/// Each unit as plain() writes it, also as German, French, Spanish and Italian write it.
 Units known_units() {
   Units units;
   const auto add = [&](Dimension dimension, double factor, std::initializer_list<const char*> names) {
     for (const char* name : names) units.emplace(name, Unit{factor, dimension});
   };
   add(Dimension::none, 1.0, {"", "-", "1"});
-  add(Dimension::time, 1.0, {"s", "sec", "secs", "sek", "second", "seconds"});
-  add(Dimension::time, 1e-3, {"ms", "msec", "millisec", "milliseconds"});
+  add(Dimension::time, 1.0,
+      {"s", "sec", "secs", "sek", "second", "seconds", "sekunden", "seconde", "secondes", "segundo",
+       "segundos", "secondi"});
+  add(Dimension::time, 1e-3,
+      {"ms", "msec", "millisec", "milliseconds", "millisekunden", "millisecondes", "milisegundos",
+       "millisecondi"});
   add(Dimension::time, 1e-6, {"us", "µs", "usec", "microseconds"});
   add(Dimension::time, 1e-9, {"ns", "nsec", "nanosec", "nanoseconds"});
   add(Dimension::time, 60.0, {"min"});
-  add(Dimension::angle, 1.0, {"rad", "radian", "radians"});
+  add(Dimension::angle, 1.0, {"rad", "radian", "radians", "radianes", "radianti", "bogenmaß"});
   add(Dimension::angle, 1e-3, {"mrad"});
-  add(Dimension::angle, kDegree, {"deg", "degree", "degrees", "°", "grad"});
+  add(Dimension::angle, kDegree,
+      {"deg", "degree", "degrees", "°", "º", "grad", "degré", "degrés", "grado", "grados", "gradi"});
   add(Dimension::angle, kTurn, {"rev", "turn", "turns"});
   add(Dimension::length, 1.0, {"m", "meter", "metre"});
   add(Dimension::length, 1e-3, {"mm"});
   add(Dimension::length, 1e-2, {"cm"});
   add(Dimension::length, 1e-6, {"um", "µm"});
   add(Dimension::length, 0.0254, {"inch"});
-  add(Dimension::angular_speed, 1.0, {"rad/s", "rad/sec"});
+  add(Dimension::angular_speed, 1.0, {"rad/s", "rad/sec", "rads-1", "rads^-1"});
   add(Dimension::angular_speed, 1e-3, {"mrad/s"});
-  add(Dimension::angular_speed, kDegree, {"deg/s", "deg/sec", "°/s", "°/sec", "grad/s", "degrees/s"});
-  add(Dimension::angular_speed, kTurn / 60.0, {"rpm", "rev/min", "1/min", "u/min"});
+  add(Dimension::angular_speed, kDegree,
+      {"deg/s", "deg/sec", "°/s", "°/sec", "grad/s", "degrees/s", "degrés/s", "grados/s", "gradi/s", "º/s"});
+  add(Dimension::angular_speed, kTurn / 60.0,
+      {"rpm", "rev/min", "1/min", "u/min", "tr/min", "giri/min", "min-1", "min^-1"});
   add(Dimension::angular_speed, kTurn, {"rev/s"});
   add(Dimension::speed, 1.0, {"m/s"});
   add(Dimension::speed, 1e-3, {"mm/s", "mm/sec"});
   add(Dimension::speed, 1e-2, {"cm/s"});
-  add(Dimension::torque, 1.0, {"nm", "n·m"});
+  add(Dimension::torque, 1.0, {"nm", "n·m", "n-m"});
   add(Dimension::torque, 1e-3, {"mnm"});
   add(Dimension::torque, 1e3, {"knm"});
   add(Dimension::torque, 1e-2, {"ncm"});

@@ -372,6 +372,67 @@ def rosbag_cases():
     scratch.unlink()
 
 
+def table(header, cells):
+    return ("\n".join([header] + [",".join(row) for row in cells]) + "\n").encode()
+
+
+def numbers(values):
+    return [repr(float(value)) for value in values]
+
+
+def at_epoch(base):
+    """The first and last row of a log whose clock counts from 1970."""
+    first, last = row(0), row(ROWS - 1)
+    for k, values in ((0, first), (ROWS - 1, last)):
+        values["t"] = base + k / 4
+    return {"first": first, "last": last}
+
+
+def dialect_cases():
+    names = "q1,q2,dq1,dq2,tau1,tau2"
+    base = 1777636800  # 2026-05-01 12:00 UTC
+
+    def values(k):
+        return numbers(position(k) + velocity(k) + effort(k))
+
+    def clock(k, form):
+        seconds = k // 4
+        return form.format(12 + seconds // 3600, seconds // 60, seconds % 60, 250 * (k % 4))
+
+    iso = [[clock(k, "2026-05-01T{:02}:{:02}:{:02}.{:03}Z")] + values(k) for k in range(ROWS)]
+    write("csv_iso_time", ".csv", table("timestamp," + names, iso), expected("csv", **at_epoch(base)))
+    iso = [[clock(k, "2026-05-01 {:02}:{:02}:{:02}.{:03}000+02:00")] + values(k) for k in range(ROWS)]
+    write("csv_iso_time_of_a_zone", ".csv", table("time," + names, iso), expected("csv", **at_epoch(base - 7200)))
+    day = [[clock(k, "{:02}:{:02}:{:02}.{:03}")] + values(k) for k in range(ROWS)]
+    write("csv_time_of_day", ".csv", table("Time," + names, day), expected("csv", **at_epoch(12 * 3600)))
+    for unit, factor in (("ms", 10**3), ("us", 10**6), ("ns", 10**9)):
+        rows = [[str((base * 4 + k) * factor // 4)] + values(k) for k in range(ROWS)]
+        write("csv_epoch_" + unit, ".csv", table("timestamp," + names, rows), expected("csv", **at_epoch(base)))
+    rows = [[repr(stamp(k) / SECOND)] + values(k) for k in range(ROWS)]
+    two = "time,Joint 1,,,Joint 2,,\n,pos,vel,torque,pos,vel,torque"
+    mixed = [[r[0], r[1], r[3], r[5], r[2], r[4], r[6]] for r in rows]
+    write("csv_two_header_lines", ".csv", table(two, mixed), expected("csv"))
+    french = "temps [secondes],q1 [radianes],q2 [rad],dq1 [rad/s],dq2 [rads-1],tau1 [N·m],tau2 [N-m]"
+    write("csv_units_of_other_languages", ".csv", table(french, rows), expected("csv"))
+    echo = b""
+    for k in range(ROWS):
+        head = [str(base + k // 4), str(250000000 * (k % 4) + 123456), "base"] + NAMES
+        echo += ",".join(head + values(k)).encode() + b"\n"
+    text_cells = {"no_header": 1, "not_a_number": 3 * ROWS}
+    first, last = at_epoch(base)["first"], at_epoch(base)["last"]
+    for k, values_there in ((0, first), (ROWS - 1, last)):
+        values_there["t"] = float(base + k // 4) + 1e-9 * (250000000 * (k % 4) + 123456)
+    want = expected("csv", first=first, last=last, issues=text_cells)
+    write("csv_ros2_topic_echo", ".csv", echo, want)
+    sparse = []
+    for k in range(ROWS):
+        q, dq, tau = numbers(position(k)), numbers(velocity(k)), numbers(effort(k))
+        sparse.append([repr(stamp(k) / SECOND - 0.004), "", "", "", ""] + tau)
+        sparse.append([repr(stamp(k) / SECOND)] + q + dq + ["", ""])
+    write("csv_sparse_cells", ".csv", table("__time," + names, sparse),
+          expected("csv", read=2 * ROWS, issues={"row_of_other_signals": ROWS}))
+
+
 def packed_cases():
     whole = csv()
     write("csv_gzip", ".csv.gz", gzip.compress(whole, mtime=0), expected("csv"))
@@ -388,6 +449,7 @@ def main():
     mcap_cases()
     rosbag_cases()
     packed_cases()
+    dialect_cases()
 
 
 main()
