@@ -11,6 +11,7 @@
 #include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
+#include "apps/suggestion/robot_guess.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"
@@ -25,6 +26,7 @@ struct InspectArguments {
   std::string json;
   LogSelection parts;
   std::string html;
+  std::string suggest;
 };
 
 /// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
@@ -43,6 +45,16 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
   return inspections;
 }
 
+/// Throws what a robot file that does not load would: then the guess is none.
+void suggest_robot(const InspectArguments& arguments) {
+  if (arguments.logs.size() != 1)
+    throw Error(ErrorCode::usage, "--suggest", "takes one log; give the one that shows most motion");
+  const RawExcerpt excerpt = raw_excerpt(arguments.logs.front());
+  const std::string text = robot_guess_text(guess_robot(excerpt), excerpt);
+  robot_from_toml(text, arguments.suggest);
+  write_file(arguments.suggest, text);
+}
+
 int inspect(const InspectArguments& arguments, ColorChoice color) {
   FileUse()
       .reads("the log", arguments.logs)
@@ -50,7 +62,10 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
       .reads("the robot file", arguments.robot)
       .writes("--json", arguments.json)
       .writes("--html", arguments.html)
+      .writes("--suggest", arguments.suggest)
       .claim();
+  if (!arguments.suggest.empty()) suggest_robot(arguments);
+  if (arguments.suggest == "-") return kNothingFound;
   int status = kNothingFound;
   const auto inspections = inspect_all(arguments, color, status);
   if (!arguments.json.empty()) {
@@ -80,6 +95,9 @@ void add_inspect(CLI::App& app, Program& program) {
   add_log_selection(*command, arguments->parts);
   add_file_option(*command, "--html", arguments->html, "Write a page with pictures of all channels",
                   " to this file, - for standard output");
+  add_file_option(*command, "--suggest", arguments->suggest,
+                  "Write a robot file that names, units and data of the log suggest",
+                  "; - for standard output, without the rest");
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

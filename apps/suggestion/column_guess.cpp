@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "apps/suggestion/column_guess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "lib/core/error.hpp"
+#include "lib/log/column_families.hpp"
+#include "lib/log/column_matching.hpp"
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tried
+constexpr double kDerivative = 0.95;     // correlation of a velocity with its position's change
+constexpr double kInOrder = 0.999;       // share of steps of a time that are forward
+constexpr std::size_t kFewestRows = 20;
+constexpr std::ptrdiff_t kReach = 3;  // rows, of a change of position, to both sides
+
+std::vector<std::string> names_of(const RawExcerpt& excerpt) {
+  std::vector<std::string> names;
+  for (const RawColumn& column : excerpt.columns) names.push_back(column.name);
+  return names;
+}
+
+ColumnMap map_with(bool row_number, bool any_torque) {
+  ColumnMap map;
+  if (row_number) map["t"] = {.name = kRowNumberName};
+  for (int j = 1; any_torque && j <= kMaxJoints; ++j) map[to_string({Quantity::tau, j})] = {.unit = "N m"};
+  return map;
+}
+
+std::optional<Matching> match_names(const RawExcerpt& excerpt, const ColumnMap& map) {
+  if (!why_no_match(excerpt.columns, map, excerpt.path).empty()) return std::nullopt;
+  return match_columns(excerpt.columns, map, excerpt.path);
+}
+
+std::vector<GuessedChannel> by_names(const RawExcerpt& excerpt) {
+  for (const auto& [row_number, any_torque] :
+       {std::pair{false, false}, {false, true}, {true, false}, {true, true}}) {
+    const auto matching = match_names(excerpt, map_with(row_number, any_torque));
+    if (!matching) continue;
+    std::vector<GuessedChannel> found;
+    for (const ChannelSource& source : matching->channels)
+      found.push_back({source.channel, source.column, {}, "by its name", source.nanoseconds_column});
+    return found;
+  }
+  return {};
+}
+
+/// The column whose values rise from row to row; the steadier one of several.
+int rising_column(const RawExcerpt& excerpt) {
+  int best = kRowNumber;
+  double steadiest = 1.0;
+  for (std::size_t c = 0; c < excerpt.values.size(); ++c) {
+    const auto& values = excerpt.values[c];
+    if (values.size() < kFewestRows) continue;
+    double forward = 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i) forward += values[i] > values[i - 1] ? 1.0 : 0.0;
+    const double steps = static_cast<double>(values.size() - 1), mean = (values.back() - values[0]) / steps;
+    if (forward < kInOrder * steps) continue;
+    double off = 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i) off += std::abs(values[i] - values[i - 1] - mean);
+    const double uneven = off / (steps * mean);
+    if (!(uneven < steadiest)) continue;
+    steadiest = uneven;
+    best = static_cast<int>(c);
+  }
+  return best;
+}
+
+/// Correlation of what `a` changes by with the mean of `b` meanwhile.
+double as_derivative(const std::vector<double>& a, const std::vector<double>& b) {
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::ptrdiff_t i = kReach; i + kReach < std::ssize(a); i += 2) {
+    double mean = 0.0;
+    for (std::ptrdiff_t k = -kReach; k <= kReach; ++k) mean += b[i + k];
+    const double change = a[i + kReach] - a[i - kReach];
+    if (std::isnan(change) || std::isnan(mean)) continue;
+    aa += change * change, bb += mean * mean, ab += change * mean;
+  }
+  return aa > 0.0 && bb > 0.0 ? std::abs(ab) / std::sqrt(aa * bb) : 0.0;
+}
+
+/// Positions and the velocities that are their derivatives, in the order of the positions' columns.
+std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) {
+  std::map<int, std::pair<int, double>> velocity_of;
+  std::set<int> velocities;
+  const int columns = static_cast<int>(std::min(excerpt.values.size(), kMostPaired));
+  std::vector<std::tuple<double, int, int>> pairs;
+  for (int a = 0; a < columns; ++a)
+    for (int b = 0; b < columns; ++b)
+      if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestRows)
+        if (const double r = as_derivative(excerpt.values[a], excerpt.values[b]); r > kDerivative)
+          pairs.push_back({-r, a, b});
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [r, a, b] : pairs) {
+    if (velocity_of.count(a) || velocities.count(a) || velocity_of.count(b) || velocities.count(b)) continue;
+    velocity_of[a] = {b, -r};
+    velocities.insert(b);
+  }
+  std::vector<GuessedChannel> found;
+  for (const auto& [a, velocity] : velocity_of) {
+    const int joint = static_cast<int>(found.size()) / 2 + 1;
+    const std::string why = fmt::format(
+        "? its name does not say it; by the data: column {} is the derivative of "
+        "column {} (correlation {:.3f})",
+        velocity.first + 1, a + 1, velocity.second);
+    found.push_back({{Quantity::q, joint}, a, {}, why});
+    found.push_back({{Quantity::dq, joint}, velocity.first, {}, why});
+  }
+  return found;
+}
+
+/// The largest group of columns whose names differ by a number.
+std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
+  std::map<std::string, std::map<int, int>> families;
+  for (int c = 0; c < std::ssize(excerpt.columns); ++c) {
+    const NameReading reading = read_name(excerpt.columns[c].name);
+    if (c != time && reading.number) families[reading.stem].emplace(*reading.number, c);
+  }
+  const auto largest = std::max_element(families.begin(), families.end(), [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  });
+  std::vector<GuessedChannel> found;
+  if (largest == families.end() || largest->second.size() < 2) return found;
+  for (const auto& [number, column] : largest->second)
+    found.push_back({{Quantity::q, static_cast<int>(found.size()) + 1},
+                     column,
+                     {},
+                     "? neither name nor data say that it is a position; it is numbered as joints are"});
+  return found;
+}
+
+}  // namespace
+
+std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
+  std::vector<GuessedChannel> found = by_names(excerpt);
+  int time = find_time_column(names_of(excerpt));
+  if (!found.empty() && found.front().column != kRowNumber) return found;
+  const bool named = time >= 0;
+  if (!named) time = rising_column(excerpt);
+  const GuessedChannel stamp{{},
+                             time,
+                             {},
+                             named       ? "by its name"
+                             : time >= 0 ? "? its name does not say it; it rises steadily"
+                                         : "? no column is a time: the rows' numbers stand for it"};
+  if (!found.empty()) {
+    found.front() = stamp;
+    return found;
+  }
+  found = by_derivatives(excerpt, time);
+  if (found.empty()) found = by_numbers(excerpt, time);
+  if (found.empty())
+    throw Error(
+        ErrorCode::input, excerpt.path,
+        "no column could be told to be a joint's position, neither by its name nor as one whose derivative "
+        "is another column; name one in a robot file: [log.columns] q1 = \"its name\"");
+  found.insert(found.begin(), stamp);
+  std::sort(found.begin(), found.end(),
+            [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
+  std::erase_if(found, [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
+  return found;
+}
+
+std::vector<double> values_of(const RawExcerpt& excerpt, const GuessedChannel& guess) {
+  if (guess.column >= 0) {
+    std::vector<double> values = excerpt.values[guess.column];
+    if (guess.nanoseconds >= 0)
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] += 1e-9 * excerpt.values[guess.nanoseconds][i];
+    return values;
+  }
+  std::vector<double> rows(excerpt.rows());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<double>(i);
+  return rows;
+}
+
+}  // namespace faultline

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "apps/suggestion/robot_guess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "apps/suggestion/column_guess.hpp"
+#include "apps/suggestion/unit_guess.hpp"
+#include "lib/core/text.hpp"
+#include "lib/log/checkup/torque_relation.hpp"
+#include "lib/log/column_matching.hpp"
+#include "lib/log/columns/unit_fit.hpp"
+#include "lib/log/time_axis.hpp"
+#include "lib/log/units.hpp"
+#include "lib/robot/chain.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kAgainst = -0.6, kWith = 0.6;  // correlation of torque with acceleration
+constexpr double kShortSpan = 0.6;              // rad or m: of what may slide
+constexpr double kShorterSpan = 0.4;
+constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
+
+class Guesser {
+ public:
+  explicit Guesser(const RawExcerpt& excerpt) : excerpt_(excerpt) {}
+
+  RobotGuess run() {
+    guess_.channels = guess_columns(excerpt_);
+    for (const GuessedChannel& one : guess_.channels)
+      if (one.channel.quantity == Quantity::q) joints_ = std::max(joints_, one.channel.joint);
+    if (joints_ > kMaxJoints) {
+      guess_.untold.push_back(
+          fmt::format("the log has {} joints; only the first {} are taken", joints_, kMaxJoints));
+      joints_ = kMaxJoints;
+      std::erase_if(guess_.channels,
+                    [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
+    }
+    time_ = values_of(excerpt_, guess_.channels.front());
+    for (int j = 1; j <= joints_; ++j)
+      numbers_.push_back(
+          joint_numbers(time_, raw(Quantity::q, j), raw(Quantity::dq, j), raw(Quantity::tau, j)));
+    guess_time();
+    guess_units();
+    for (int j = 1; j <= joints_; ++j) guess_axis(j);
+    guess_torques();
+    return std::move(guess_);
+  }
+
+ private:
+  GuessedChannel* find(Quantity quantity, int joint) {
+    for (GuessedChannel& one : guess_.channels)
+      if (one.channel == Channel{quantity, joint}) return &one;
+    return nullptr;
+  }
+  std::vector<double> raw(Quantity quantity, int joint) {
+    const GuessedChannel* one = find(quantity, joint);
+    return one ? values_of(excerpt_, *one) : std::vector<double>();
+  }
+  std::string header_unit(const GuessedChannel* one) const {
+    if (!one || one->column < 0) return "";
+    const std::string& unit = excerpt_.columns[one->column].unit;
+    const auto known = known_unit(unit);
+    return known && measures(known->dimension, one->channel.quantity) ? unit : "";
+  }
+
+  void guess_time() {
+    GuessedChannel& time = guess_.channels.front();
+    const std::string header = header_unit(&time);
+    if (time.column == kRowNumber) {
+      time.spec.scale = time_factor_ = 1e-3;
+      time.reason += "; 1 ms a row is only an example: put the true sample period into scale";
+      guess_.untold.push_back("the sample period: no column is a time");
+      return;
+    }
+    if (!header.empty() || time.nanoseconds >= 0) {
+      time_factor_ = si_factor(header).value_or(1.0);
+      if (!header.empty()) time.reason += ", in " + header + " by its header";
+      return;
+    }
+    const GuessedUnit unit = guess_time_unit(time_, numbers_);
+    time.spec.unit = unit.unit;
+    time.reason += fmt::format("; in {}: {}", unit.unit.empty() ? "s" : unit.unit, unit.reason);
+    time_factor_ = si_factor(unit.unit).value_or(1.0);
+  }
+
+  void set_unit(Quantity quantity, int joint, const GuessedUnit& unit) {
+    GuessedChannel* one = find(quantity, joint);
+    if (!one) return;
+    const std::string header = header_unit(one);
+    if (!header.empty()) {
+      one->reason += ", in " + header + " by its header";
+      return;
+    }
+    one->spec.unit = unit.unit;
+    one->reason += fmt::format("; in {}: {}", unit.unit.empty() ? "SI" : unit.unit, unit.reason);
+  }
+
+  void guess_units() {
+    units_.resize(numbers_.size());
+    bool degrees = false;
+    for (const bool again : {false, true}) {
+      for (int j = 1; j <= joints_; ++j) {
+        auto& units = units_[static_cast<std::size_t>(j - 1)];
+        units = guess_joint_units(numbers_[static_cast<std::size_t>(j - 1)], time_factor_,
+                                  header_unit(find(Quantity::q, j)), header_unit(find(Quantity::dq, j)),
+                                  again && degrees);
+        degrees = degrees || units.position.unit == "deg";
+      }
+    }
+    for (int j = 1; j <= joints_; ++j) {
+      const auto& units = units_[static_cast<std::size_t>(j - 1)];
+      set_unit(Quantity::q, j, units.position), set_unit(Quantity::q_ref, j, units.position);
+      set_unit(Quantity::dq, j, units.velocity), set_unit(Quantity::dq_ref, j, units.velocity);
+      if (!units.flipped) continue;
+      GuessedChannel* velocity = find(Quantity::dq, j);
+      velocity->spec.sign = -1.0;
+      velocity->reason +=
+          "; sign: it falls where the position rises; which of the two is wrong cannot be told";
+    }
+  }
+
+  void guess_axis(int j) {
+    const auto at = static_cast<std::size_t>(j - 1);
+    const JointNumbers& joint = numbers_[at];
+    const double span = joint.span * units_[at].position_factor;
+    const std::string& unit = units_[at].position.unit;
+    const auto known = known_unit(unit);
+    GuessedAxis axis{false, fmt::format("spans {:.3g} rad", span)};
+    const std::string header = header_unit(find(Quantity::q, j));
+    if (known && known->dimension == Dimension::length)
+      axis = {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
+    else if (known && known->dimension == Dimension::angle)
+      axis.reason = header.empty() ? "its numbers are those of an angle" : "its header says " + header;
+    else if (joint.span == 0.0)
+      axis.reason = "? it rests, so that nothing tells whether it turns or slides";
+    else if (span < kShortSpan && joint.carries)
+      axis = {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
+    else if (span < kShorterSpan && joint.path > kToAndFro * joint.span)
+      axis = {true, fmt::format("? it goes to and fro over {:.3g}, little for an angle", span)};
+    else if (span < kShorterSpan)
+      axis.reason += "? so little may be a slide's as well";
+    guess_.axes.push_back(axis);
+  }
+
+  /// In SI, as the guesses so far have it.
+  std::vector<double> scaled(Quantity quantity, int joint, double factor) {
+    std::vector<double> values = raw(quantity, joint);
+    for (double& value : values) value *= factor;
+    return values;
+  }
+
+  std::vector<TorqueRelated> torques_related(const std::vector<std::vector<double>>& tau) {
+    std::vector<double> time = time_;
+    for (double& t : time) t *= time_factor_;
+    const double period_s = median_step(time);
+    std::vector<std::vector<double>> q;
+    for (int j = 1; j <= joints_; ++j)
+      q.push_back(scaled(Quantity::q, j, units_[static_cast<std::size_t>(j - 1)].position_factor));
+    if (!(period_s > 0.0)) return {};
+    TorqueRelation relation(joints_, period_s);
+    for (std::size_t i = 0; i < time.size(); ++i) relation.add(time[i], q, tau, i);
+    return relation.result();
+  }
+
+  void guess_torques() {
+    if (!find(Quantity::tau, 1)) find_torques();
+    std::vector<std::vector<double>> tau;
+    for (int j = 1; j <= joints_; ++j)
+      if (find(Quantity::tau, j)) tau.push_back(raw(Quantity::tau, j));
+    if (tau.empty()) {
+      guess_.untold.push_back(
+          "torque: no column is one; name it as tau1 = {name = .., scale = N m for 1 of it}");
+      return;
+    }
+    guess_meaning(
+        *std::find_if(guess_.channels.begin(), guess_.channels.end(),
+                      [](const GuessedChannel& one) { return one.channel.quantity == Quantity::tau; }));
+    if (std::ssize(tau) < joints_) return;
+    const auto related = torques_related(tau);
+    for (std::size_t j = 0; j < related.size(); ++j) {
+      GuessedChannel& one = *find(Quantity::tau, static_cast<int>(j) + 1);
+      const TorqueRelated& torque = related[j];
+      if (std::isnan(torque.correlation)) continue;
+      one.reason += fmt::format("; correlation with acceleration {:.2f}", torque.correlation);
+      if (!std::isnan(torque.delay_rows))
+        one.reason += fmt::format(", {:.1f} +- {:.1f} rows late", torque.delay_rows, torque.delay_doubt_rows);
+      if (torque.correlation > kAgainst) continue;
+      one.spec.sign = -1.0;
+      one.reason += "; sign: it falls where the joint accelerates";
+    }
+  }
+
+  /// For each joint the column left over that goes best with its acceleration.
+  void find_torques() {
+    std::vector<bool> used(excerpt_.columns.size(), false);
+    for (const GuessedChannel& one : guess_.channels)
+      if (one.column >= 0) used[static_cast<std::size_t>(one.column)] = true;
+    const bool named = guess_.channels.size() < 2 || !guess_.channels[1].reason.starts_with("?");
+    for (int j = 1; j <= joints_ && !named; ++j) {
+      int best = -1;
+      double most = kWith;
+      for (std::size_t c = 0; c < used.size(); ++c) {
+        if (used[c] || excerpt_.values[c].empty()) continue;
+        std::vector<std::vector<double>> tau(static_cast<std::size_t>(joints_), excerpt_.values[c]);
+        const auto related = torques_related(tau);
+        const double found =
+            related.empty() ? NAN : std::abs(related[static_cast<std::size_t>(j - 1)].correlation);
+        if (found > most) most = found, best = static_cast<int>(c);
+      }
+      if (best < 0) continue;
+      used[static_cast<std::size_t>(best)] = true;
+      guess_.channels.push_back(
+          {{Quantity::tau, j}, best, {}, "? by the data: it goes with the joint's acceleration"});
+    }
+    std::sort(guess_.channels.begin(), guess_.channels.end(),
+              [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
+  }
+
+  void guess_meaning(const GuessedChannel& tau) {
+    const RawColumn& column = excerpt_.columns[static_cast<std::size_t>(tau.column)];
+    const auto quantity = read_name(column.name).quantity;
+    const auto unit = known_unit(column.unit);
+    if (unit && unit->dimension != Dimension::none && !measures(unit->dimension, Quantity::tau)) {
+      guess_.torque = "current";
+      guess_.torque_reason = "the header gives " + column.unit;
+      for (GuessedChannel& one : guess_.channels) {
+        if (one.channel.quantity != Quantity::tau) continue;
+        one.spec.unit = "N m";
+        one.reason +=
+            "; ? the header says " + column.unit + ": put N m for 1 of it into scale, and take the unit away";
+      }
+      guess_.untold.push_back("how much torque the " + column.unit + " of the torque columns are");
+    } else if (quantity == Quantity::tau_meas) {
+      guess_.torque = "measured";
+      guess_.torque_reason = "by its name";
+    } else if (quantity == Quantity::tau_ref) {
+      guess_.torque_reason = "by its name";
+    } else {
+      guess_.torque_reason = "? neither names nor data tell a commanded torque from a measured one";
+    }
+  }
+
+  const RawExcerpt& excerpt_;
+  RobotGuess guess_;
+  int joints_ = 0;
+  std::vector<double> time_;
+  double time_factor_ = 1.0;
+  std::vector<JointNumbers> numbers_;
+  std::vector<GuessedUnits> units_;
+};
+
+}  // namespace
+
+RobotGuess guess_robot(const RawExcerpt& excerpt) { return Guesser(excerpt).run(); }
+
+}  // namespace faultline
