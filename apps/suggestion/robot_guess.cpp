@@ -20,8 +20,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kAgainst = -0.6, kWith = 0.6;  // correlation of torque with acceleration
-constexpr double kShortSpan = 0.6;              // rad or m: of what may slide
+constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
+constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;  // correlations with acceleration and velocity
+constexpr double kShortSpan = 0.6;                        // rad or m: of what may slide
 constexpr double kShorterSpan = 0.4;
 constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
 
@@ -40,6 +41,7 @@ class Guesser {
       std::erase_if(guess_.channels,
                     [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
     }
+    take_columns_left();
     time_ = values_of(excerpt_, guess_.channels.front());
     for (int j = 1; j <= joints_; ++j)
       numbers_.push_back(
@@ -189,36 +191,62 @@ class Guesser {
       one.reason += fmt::format("; correlation with acceleration {:.2f}", torque.correlation);
       if (!std::isnan(torque.delay_rows))
         one.reason += fmt::format(", {:.1f} +- {:.1f} rows late", torque.delay_rows, torque.delay_doubt_rows);
-      if (torque.correlation > kAgainst) continue;
+      const double power = units_[j].flipped ? -numbers_[j].power : numbers_[j].power;
+      const bool against =
+          torque.correlation < kAgainst || (torque.correlation < kRatherAgainst && power < kBrakes);
+      if (!against) continue;
       one.spec.sign = -1.0;
       one.reason += "; sign: it falls where the joint accelerates";
     }
   }
 
-  /// For each joint the column left over that goes best with its acceleration.
-  void find_torques() {
-    std::vector<bool> used(excerpt_.columns.size(), false);
-    for (const GuessedChannel& one : guess_.channels)
-      if (one.column >= 0) used[static_cast<std::size_t>(one.column)] = true;
-    const bool named = guess_.channels.size() < 2 || !guess_.channels[1].reason.starts_with("?");
-    for (int j = 1; j <= joints_ && !named; ++j) {
-      int best = -1;
-      double most = kWith;
-      for (std::size_t c = 0; c < used.size(); ++c) {
-        if (used[c] || excerpt_.values[c].empty()) continue;
-        std::vector<std::vector<double>> tau(static_cast<std::size_t>(joints_), excerpt_.values[c]);
-        const auto related = torques_related(tau);
-        const double found =
-            related.empty() ? NAN : std::abs(related[static_cast<std::size_t>(j - 1)].correlation);
-        if (found > most) most = found, best = static_cast<int>(c);
-      }
-      if (best < 0) continue;
-      used[static_cast<std::size_t>(best)] = true;
-      guess_.channels.push_back(
-          {{Quantity::tau, j}, best, {}, "? by the data: it goes with the joint's acceleration"});
+  bool is_named() const { return !guess_.channels.back().reason.starts_with("?"); }
+
+  std::vector<int> columns_left() const {
+    std::vector<int> left;
+    for (int c = 0; c < std::ssize(excerpt_.columns); ++c) {
+      const bool used = std::any_of(guess_.channels.begin(), guess_.channels.end(),
+                                    [c](const GuessedChannel& one) { return one.column == c; });
+      const auto& values = excerpt_.values[c];
+      const bool varies = std::any_of(values.begin(), values.end(), [&](double value) {
+        return value != values.front() && !std::isnan(value);
+      });
+      if (!used && varies) left.push_back(c);
     }
+    return left;
+  }
+
+  void add_torques(const std::vector<int>& columns, const std::string& reason) {
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      guess_.channels.push_back({{Quantity::tau, static_cast<int>(j) + 1}, columns[j], {}, reason});
     std::sort(guess_.channels.begin(), guess_.channels.end(),
               [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
+  }
+
+  /// Of names that say nothing: as many columns beside positions and velocities as there are joints.
+  void take_columns_left() {
+    const std::vector<int> left = columns_left();
+    if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
+    add_torques(left, "? as many columns as joints are left over, taken as the torques in their order");
+  }
+
+  /// For each joint the column left over that goes best with its acceleration.
+  void find_torques() {
+    std::vector<int> left = columns_left(), found;
+    for (int j = 1; j <= joints_; ++j) {
+      auto best = left.end();
+      double most = is_named() ? kSurelyWith : kWith;
+      for (auto at = left.begin(); at != left.end(); ++at) {
+        const auto related = torques_related(
+            std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]));
+        const double share = related.empty() ? NAN : related[static_cast<std::size_t>(j - 1)].correlation;
+        if (std::abs(share) > most) most = std::abs(share), best = at;
+      }
+      if (best == left.end()) return;
+      found.push_back(*best);
+      left.erase(best);
+    }
+    add_torques(found, "? by the data: it goes with the joint's acceleration");
   }
 
   void guess_meaning(const GuessedChannel& tau) {

@@ -32,8 +32,8 @@ struct UnitPair {
 };
 
 /// Units in which positions and velocities are logged together, the usual ones first.
-constexpr UnitPair kPairs[] = {{"", ""},      {"deg", "deg/s"}, {"mm", "mm/s"}, {"deg", ""},   {"", "deg/s"},
-                               {"mm", "m/s"}, {"m", "mm/s"},    {"", "rpm"},    {"deg", "rpm"}};
+constexpr UnitPair kPairs[] = {{"", ""},      {"mm", "mm/s"}, {"deg", "deg/s"}, {"deg", ""},   {"", "deg/s"},
+                               {"mm", "m/s"}, {"m", "mm/s"},  {"", "rpm"},      {"deg", "rpm"}};
 
 double ratio_of(const UnitPair& pair) { return factor_of(pair.velocity) / factor_of(pair.position); }
 
@@ -52,6 +52,21 @@ bool is_plausible(const UnitPair& pair, const JointNumbers& joint, bool others_i
            (others_in_degrees || joint.largest > kMostRadians || joint.fastest > kFastestRadians ||
             std::string(pair.velocity).empty());
   return joint.largest < kMostRadians && fastest < kFastestRadians;
+}
+
+}  // namespace
+
+namespace {
+
+/// Correlation of velocity and torque without its mean: friction makes it positive where both have one sign.
+double power_of(const std::vector<double>& dq, const std::vector<double>& tau, double mean) {
+  double vv = 0.0, tt = 0.0, vt = 0.0;
+  for (std::size_t i = 0; i < std::min(dq.size(), tau.size()); ++i) {
+    if (std::isnan(dq[i]) || std::isnan(tau[i])) continue;
+    const double torque = tau[i] - mean;
+    vv += dq[i] * dq[i], tt += torque * torque, vt += dq[i] * torque;
+  }
+  return vv > 0.0 && tt > 0.0 ? vt / std::sqrt(vv * tt) : NAN;
 }
 
 }  // namespace
@@ -85,6 +100,7 @@ JointNumbers joint_numbers(const std::vector<double>& time, const std::vector<do
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (const double value : tau)
     if (!std::isnan(value)) sum += value, squares += value * value, count += 1.0;
+  joint.power = power_of(dq, tau, sum / count);
   const double mean = sum / count, deviation = std::sqrt(std::max(squares / count - mean * mean, 0.0));
   joint.carries = count > 0.0 && std::abs(mean) > kCarries * deviation && deviation > 0.0;
   return joint;

@@ -15,6 +15,8 @@ struct JointNumbers {
   double fastest = 0.0;  ///< velocity's magnitude; 0 without
   /// Change of position over the velocity's integral, times as logged; NaN without velocity or motion.
   double ratio = std::numeric_limits<double>::quiet_NaN();
+  /// Correlation of velocity and torque, whose mean is left out; NaN without one of them.
+  double power = std::numeric_limits<double>::quiet_NaN();
   bool carries = false;  ///< the torque is far from zero on average, as where it carries a weight
 };
 
