@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSlowPeriod_s = 0.1;  // beyond it accelerations of a robot cannot be told
 constexpr double kCoarsePeriod_s = 0.02;
+constexpr double kLeastMotion = 1e-3;  // rad or m
 constexpr double kShortLog_s = 5.0;
 constexpr std::int64_t kFewRows = 500;
 constexpr std::int64_t kFewestRows = 20;
@@ -38,8 +39,11 @@ struct Facts {
   }
   bool none() const { return !inspection.joint_log || inspection.rows_used < kFewestRows; }
   bool moves() const {
-    return std::any_of(inspection.checkup.joints.begin(), inspection.checkup.joints.end(),
-                       [](const JointCheckup& joint) { return joint.velocity.rms > 1e-3; });
+    const auto& channels = inspection.quality.channels;
+    return std::any_of(channels.begin(), channels.end(), [](const ChannelSummary& channel) {
+      const auto known = channel.canonical ? canonical_channel(channel.name) : std::nullopt;
+      return known && known->quantity == Quantity::q && channel.max - channel.min > kLeastMotion;
+    });
   }
 };
 

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
 constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;  // correlations with acceleration and velocity
+constexpr double kRestSpan = 1e-3;                        // rad or m: of a joint that holds its place
 constexpr double kShortSpan = 0.6;                        // rad or m: of what may slide
 constexpr double kShorterSpan = 0.4;
 constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
@@ -138,7 +139,7 @@ class Guesser {
       axis = {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
     else if (known && known->dimension == Dimension::angle)
       axis.reason = header.empty() ? "its numbers are those of an angle" : "its header says " + header;
-    else if (joint.span == 0.0)
+    else if (span < kRestSpan)
       axis.reason = "? it rests, so that nothing tells whether it turns or slides";
     else if (span < kShortSpan && joint.carries)
       axis = {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
@@ -227,6 +228,7 @@ class Guesser {
   void take_columns_left() {
     const std::vector<int> left = columns_left();
     if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
+    guess_.untold.push_back("how much torque 1 of the torque columns is: their names say no unit");
     add_torques(left, "? as many columns as joints are left over, taken as the torques in their order");
   }
 
@@ -246,6 +248,7 @@ class Guesser {
       found.push_back(*best);
       left.erase(best);
     }
+    guess_.untold.push_back("how much torque 1 of the torque columns is: their names say no unit");
     add_torques(found, "? by the data: it goes with the joint's acceleration");
   }
 

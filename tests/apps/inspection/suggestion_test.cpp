@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/random.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+/// How the log of an arm that turns and a slide that carries a weight is written.
+struct Dialect {
+  std::string header = "t,q1,q2,dq1,dq2,tau1,tau2";
+  double time = 1.0, angle = 1.0, angular_speed = 1.0, length = 1.0, speed = 1.0, torque = 1.0;
+};
+
+std::string log_text(const Dialect& dialect) {
+  std::string text = dialect.header + "\n";
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 0.01 * i, a = 3.0 * t, b = 2.0 * t, c = 7.0 * t;
+    const double row[] = {dialect.time * t,
+                          dialect.angle * (1.2 * std::sin(a) + 0.2 * std::sin(c)),
+                          dialect.length * (0.1 * std::sin(b) - 0.2),
+                          dialect.angular_speed * (3.6 * std::cos(a) + 1.4 * std::cos(c)),
+                          dialect.speed * 0.2 * std::cos(b),
+                          dialect.torque * (-10.8 * std::sin(a) - 9.8 * std::sin(c) + 0.1 * random.normal()),
+                          24.5 - std::sin(b) + 0.1 * random.normal()};
+    for (const double& value : row) text += (&value == row ? "" : ",") + std::to_string(value);
+    text += "\n";
+  }
+  return text;
+}
+
+/// The suggested robot; inspecting the log with it finds nothing severe.
+Robot suggested(const std::string& text) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("run.csv", text), robot = folder.file("robot.toml");
+  run_program({"inspect", log, "--suggest", robot});
+  EXPECT_EQ(run_program({"inspect", log, "--robot", robot}).status, 0);
+  return load_robot_file(robot);
+}
+
+const ColumnSpec& column(const Robot& robot, const char* channel) { return robot.log.columns.at(channel); }
+
+TEST(Suggestion, ALogInSiNeedsNoUnits) {
+  const Robot robot = suggested(log_text({}));
+  EXPECT_EQ(robot.axes, "RP");
+  for (const auto& [channel, spec] : robot.log.columns) {
+    EXPECT_EQ(spec.unit, "") << channel;
+    EXPECT_EQ(spec.sign, 1.0) << channel;
+    EXPECT_EQ(spec.name, channel);
+  }
+}
+
+TEST(Suggestion, DegreesAndMillimetresAreTold) {
+  Dialect dialect;
+  dialect.angle = dialect.angular_speed = kDegrees;
+  dialect.length = dialect.speed = 1000.0;
+  const Robot robot = suggested(log_text(dialect));
+  EXPECT_EQ(robot.axes, "RP");
+  EXPECT_EQ(column(robot, "q1").unit, "deg");
+  EXPECT_EQ(column(robot, "dq1").unit, "deg/s");
+  EXPECT_EQ(column(robot, "q2").unit, "mm");
+  EXPECT_EQ(column(robot, "dq2").unit, "mm/s");
+}
+
+TEST(Suggestion, DegreesBesideRadiansASecondAreTold) {
+  Dialect dialect;
+  dialect.angle = kDegrees;
+  const Robot robot = suggested(log_text(dialect));
+  EXPECT_EQ(column(robot, "q1").unit, "deg");
+  EXPECT_EQ(column(robot, "dq1").unit, "");
+}
+
+TEST(Suggestion, MillisecondsAndMicrosecondsAreTold) {
+  Dialect dialect;
+  dialect.time = 1e3;
+  EXPECT_EQ(column(suggested(log_text(dialect)), "t").unit, "ms");
+  dialect.time = 1e6;
+  EXPECT_EQ(column(suggested(log_text(dialect)), "t").unit, "us");
+}
+
+TEST(Suggestion, WrongSignsAreTold) {
+  Dialect dialect;
+  dialect.angular_speed = dialect.torque = -1.0;
+  const Robot robot = suggested(log_text(dialect));
+  EXPECT_EQ(column(robot, "dq1").sign, -1.0);
+  EXPECT_EQ(column(robot, "tau1").sign, -1.0);
+  EXPECT_EQ(column(robot, "tau2").sign, 1.0);
+}
+
+TEST(Suggestion, NamesThatSayNothingAreReadByTheData) {
+  Dialect dialect;
+  dialect.header = "ca,cb,cc,cd,ce,cf,cg";
+  const Robot robot = suggested(log_text(dialect));
+  EXPECT_EQ(robot.axes, "RP");
+  EXPECT_EQ(column(robot, "t").name, "ca");
+  EXPECT_EQ(column(robot, "q1").name, "cb");
+  EXPECT_EQ(column(robot, "q2").name, "cc");
+  EXPECT_EQ(column(robot, "dq1").name, "cd");
+  EXPECT_EQ(column(robot, "tau2").name, "cg");
+}
+
+TEST(Suggestion, ACurrentIsNotTakenAsTorqueInSilence) {
+  Dialect dialect;
+  dialect.header = "t,q1,q2,dq1,dq2,tau1 [A],tau2 [A]";
+  const Robot robot = suggested(log_text(dialect));
+  EXPECT_EQ(robot.log.torque, TorqueMeaning::current);
+}
+
+TEST(Suggestion, StandardOutputHoldsTheFileAlone) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program({"inspect", folder.write("run.csv", log_text({})), "--suggest", "-"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(robot_from_toml(run.out, "it").axes, "RP");
+}
+
+TEST(Suggestion, TheLogIsNotOverwrittenAndOneLogIsAsked) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("run.csv", log_text({}));
+  EXPECT_EQ(run_program({"inspect", log, "--suggest", log}).status, 2);
+  EXPECT_EQ(read_file(log), log_text({}));
+  EXPECT_EQ(run_program({"inspect", log, log, "--suggest", folder.file("robot.toml")}).status, 2);
+}
+
+TEST(Suggestion, ATableWithoutPositionsIsRefusedWithWhatToDo) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program({"inspect", folder.write("run.csv", "a,b\n1,2\n3,4\n"), "--suggest", "-"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("[log.columns] q1"), std::string::npos) << run.err;
+}
+
+TEST(Suggestion, HostileNamesStayInTheirQuotes) {
+  Dialect dialect;
+  dialect.header = "t,\"q1\"\"]\\x\",q2,dq1,dq2,tau1,tau2";
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_program({"inspect", folder.write("run.csv", log_text(dialect)), "--suggest", "-"});
+  EXPECT_NE(run.status, 4) << run.err;
+  if (run.status == 0) robot_from_toml(run.out, "it");
+}
+
+}  // namespace
+}  // namespace faultline
