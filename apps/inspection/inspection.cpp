@@ -182,7 +182,7 @@ std::string verdict_sentence_of(const Inspection& inspection) {
                          [severity](const Issue& issue) { return issue.severity == severity; });
   };
   const std::string verdict = verdict_of(inspection);
-  if (verdict == "no_joint_log") return "no joint log: " + inspection.why_not;
+  if (verdict == "no_joint_log") return "no joint log: no time or no position was found in it";
   if (verdict == "sound") return "sound: nothing stands in the way of using this log";
   const auto severe = number(Severity::severe), warned = number(Severity::warning);
   if (verdict == "doubtful") return fmt::format("usable with care: {}", counted(warned, "warning"));

@@ -15,7 +15,7 @@ const std::string kCommand =
     "\x1b]0;owned\x07\x1b[2J\xc2\x9b"
     "31m\xe2\x80\xae";
 constexpr std::size_t kLongName = 1 << 16;
-constexpr std::size_t kMostShown = 8000;
+constexpr std::size_t kMostShown = 12000;
 
 void expect_harmless(const ProgramRun& run) {
   for (const std::string& text : {run.out, run.err}) {
