@@ -8,6 +8,8 @@
 #include "formats/csv/csv_writer.hpp"
 #include "formats/hdf5/hdf5_reader.hpp"
 #include "formats/hdf5/hdf5_writer.hpp"
+#include "formats/matlab/matlab_reader.hpp"
+#include "formats/matlab/matlab_writer.hpp"
 #include "formats/mcap/mcap_source.hpp"
 #include "formats/mcap/mcap_writer.hpp"
 #include "formats/native/native_reader.hpp"
@@ -20,12 +22,13 @@
 namespace faultline {
 
 const std::vector<LogFormat>& log_formats() {
-  // CSV comes last, as it takes any text.
+  // MATLAB comes before HDF5, on which its version 7.3 is built. CSV comes last, as it takes any text.
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
       {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},
       {"rosbag1", "ROS 1 bag", {".bag"}, looks_like_rosbag1, open_rosbag1, nullptr},
       {"rosbag2", "ROS 2 bag in SQLite", {".db3"}, looks_like_rosbag2, open_rosbag2, nullptr},
+      {"matlab", "MATLAB", {".mat"}, looks_like_matlab, open_matlab, create_matlab},
       {"hdf5", "HDF5", {".h5", ".hdf5"}, looks_like_hdf5, open_hdf5, create_hdf5},
       {"npz", "for NumPy", {".npz"}, looks_like_npz, open_npz, create_npz},
       {"npy", "one array of NumPy", {".npy"}, looks_like_npy, open_npy, nullptr},

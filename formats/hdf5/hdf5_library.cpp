@@ -123,9 +123,19 @@ std::recursive_mutex& library_mutex() {
   return mutex;
 }
 
+bool& is_alone() {
+  static bool alone = false;
+  return alone;
+}
+
 }  // namespace
 
-Hdf5Turn::Hdf5Turn() : lock_(library_mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void Hdf5Turn::be_alone() { is_alone() = true; }
+
+Hdf5Turn::Hdf5Turn() {
+  if (!is_alone()) lock_ = std::unique_lock(library_mutex());
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Hdf5Id hdf5_access(int descriptor, bool writing) {
   static const H5FD_class_t driver = make_driver();

@@ -13,6 +13,8 @@ namespace faultline {
 class Hdf5Turn {
  public:
   Hdf5Turn();
+  /// From now on this process has one thread, and waits for no other: for a copy made by fork().
+  static void be_alone();
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;

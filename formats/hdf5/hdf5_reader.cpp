@@ -13,6 +13,7 @@
 #include "formats/arrays/array_reader.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_tree.hpp"
+#include "formats/hdf5/hdf5_trial.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
@@ -25,7 +26,8 @@ constexpr std::size_t kFirstBlock = 512;  ///< where the signature may be, and a
 
 class Hdf5Arrays : public ArrayFile {
  public:
-  Hdf5Arrays(const std::string& path, bool transposed) : path_(path), transposed_(transposed) {
+  Hdf5Arrays(const std::string& path, MatlabNaming matlab, bool with_attributes)
+      : path_(path), matlab_(matlab), with_attributes_(with_attributes) {
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     struct stat facts {};
     if (descriptor_ >= 0 && ::fstat(descriptor_, &facts) == 0) bytes_ = facts.st_size;
@@ -52,6 +54,18 @@ class Hdf5Arrays : public ArrayFile {
     datasets_[dataset].read(datasets_[dataset].fields()[field], mine, values);
   }
 
+  /// Reads the first and the last row of each dataset.
+  void touch() {
+    const Hdf5Turn turn;
+    for (Hdf5Dataset& dataset : datasets_) {
+      const std::int64_t rows = dataset.shape().size() > 2 ? 0 : dataset.rows_held(false);
+      for (const std::int64_t row : {std::int64_t{0}, rows - 1}) {
+        BandValues values{{{0.0}}, {}};
+        if (row >= 0 && row < rows) dataset.read(dataset.fields()[0], {0, false, row, 1, {0}}, values);
+      }
+    }
+  }
+
  private:
   void close() {
     const Hdf5Turn turn;
@@ -61,7 +75,7 @@ class Hdf5Arrays : public ArrayFile {
     descriptor_ = -1;
   }
 
-  bool is_turned(const Hdf5Dataset& dataset) const { return transposed_ && dataset.shape().size() > 1; }
+  bool is_turned(const Hdf5Dataset& dataset) const { return matlab_ && dataset.shape().size() > 1; }
 
   void open() {
     const Hdf5Turn turn;
@@ -74,6 +88,10 @@ class Hdf5Arrays : public ArrayFile {
           "is an HDF5 file whose beginning is damaged, or that is cut inside it; nothing can be read from "
           "it. A program that is still writing it must close it first");
     Hdf5Tree tree = hdf5_tree(file_);
+    if (!with_attributes_)
+      issues_.add(
+          make_issue("array_damaged", Severity::severe,
+                     "the attributes of the datasets are damaged; no unit and no name of a column was read"));
     issues_.merge(tree.issues);
     notes_ = tree.notes;
     for (const std::string& path : tree.datasets) add(path);
@@ -89,8 +107,8 @@ class Hdf5Arrays : public ArrayFile {
                                path));
       return;
     }
-    if (transposed_ && is_text_of_matlab(dataset->id())) return;
-    describe_hdf5_fields(file_, path, *dataset);
+    if (matlab_ && with_attributes_ && is_text_of_matlab(dataset->id())) return;
+    if (with_attributes_) describe_hdf5_fields(file_, path, *dataset);
     datasets_.push_back(std::move(*dataset));
     const std::size_t index = datasets_.size() - 1;
     for (std::size_t field = 0; field < datasets_[index].fields().size(); ++field)
@@ -102,6 +120,7 @@ class Hdf5Arrays : public ArrayFile {
     const bool turned = is_turned(datasets_[index]);
     NamedArray array;
     array.name = about.name.empty() ? path.substr(1) : path.substr(1) + "/" + about.name;
+    if (matlab_) array.name = matlab_(array.name);
     array.shape = datasets_[index].shape();
     if (turned) std::reverse(array.shape.begin(), array.shape.end());
     if (about.width > 1) array.shape.push_back(about.width);
@@ -120,7 +139,8 @@ class Hdf5Arrays : public ArrayFile {
   }
 
   std::string path_;
-  bool transposed_;
+  MatlabNaming matlab_;
+  bool with_attributes_;
   int descriptor_ = -1;
   std::int64_t bytes_ = 0;
   Hdf5Id file_;
@@ -131,7 +151,7 @@ class Hdf5Arrays : public ArrayFile {
   std::string notes_;
 };
 
-std::unique_ptr<ArrayFile> open_plain(const std::string& path) { return open_hdf5_arrays(path, false); }
+std::unique_ptr<ArrayFile> open_plain(const std::string& path) { return open_hdf5_arrays(path, nullptr); }
 
 }  // namespace
 
@@ -146,8 +166,14 @@ std::unique_ptr<RawReader> open_hdf5(std::unique_ptr<ByteSource> bytes) {
   return read_arrays(std::move(bytes), "hdf5", open_plain);
 }
 
-std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, bool transposed) {
-  return std::make_unique<Hdf5Arrays>(path, transposed);
+std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, MatlabNaming matlab) {
+  for (const bool with_attributes : {true, false})
+    if (survives([&] { Hdf5Arrays(path, matlab, with_attributes).touch(); }))
+      return std::make_unique<Hdf5Arrays>(path, matlab, with_attributes);
+  throw Error(
+      ErrorCode::input, path,
+      "is damaged in a way that the HDF5 library does not survive; nothing can be read from it. Try to copy "
+      "its datasets with h5repack or h5dump");
 }
 
 }  // namespace faultline

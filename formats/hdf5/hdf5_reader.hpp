@@ -18,7 +18,10 @@ bool looks_like_hdf5(std::string_view head);
 /// can be read.
 std::unique_ptr<RawReader> open_hdf5(std::unique_ptr<ByteSource> bytes);
 
-/// The same for those of MATLAB 7.3, which stores matrices transposed.
-std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, bool transposed);
+/// How a path of a file's own program is written, when that is MATLAB, which stores matrices transposed.
+using MatlabNaming = std::string (*)(const std::string& path);
+
+/// The datasets; `matlab` is null for an ordinary file.
+std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, MatlabNaming matlab);
 
 }  // namespace faultline
