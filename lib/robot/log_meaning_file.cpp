@@ -10,6 +10,7 @@
 
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
+#include "lib/robot/log_preset.hpp"
 #include "lib/robot/robot_words.hpp"
 
 namespace faultline {
@@ -57,10 +58,9 @@ Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
   return matrix;
 }
 
-/// Which messages of a recording are the log.
-RecordingChoice read_recording(const TomlTable& log, int joints) {
-  RecordingChoice choice;
-  choice.topic = log.text("topic", "");
+/// Which messages of a recording are the log, where it differs from `choice`.
+RecordingChoice read_recording(const TomlTable& log, int joints, RecordingChoice choice) {
+  choice.topic = log.text("topic", choice.topic);
   if (log.has("time")) choice.time = log.choice_of("time", {MessageTime::header, MessageTime::receipt});
   if (!log.has("joints")) return choice;
   choice.joints = log.texts("joints");
@@ -71,30 +71,63 @@ RecordingChoice read_recording(const TomlTable& log, int joints) {
   return choice;
 }
 
-}  // namespace
+/// The columns of all joints at once: "#" in the name stands for the joint's number, of which the first is
+/// `first`.
+void read_family(const TomlTable& columns, const std::string& family, int joints, ColumnMap& map) {
+  const ColumnSpec pattern = column_spec(columns, family);
+  const auto sign = pattern.name.find('#');
+  if (sign == std::string::npos)
+    columns.fail(family, "stands for all joints, so its name needs a # where the joint's number is");
+  const std::int64_t first = columns.is_table(family) ? columns.table(family).integer("first", 1) : 1;
+  for (int j = 0; j < joints; ++j) {
+    ColumnSpec spec = pattern;
+    spec.name.replace(sign, 1, std::to_string(first + j));
+    map[family + std::to_string(j + 1)] = spec;
+  }
+}
 
-LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
-  LogMeaning result;
-  if (log.has("torque"))
-    result.torque =
-        log.choice_of("torque", {TorqueMeaning::commanded, TorqueMeaning::measured, TorqueMeaning::current});
-  if (log.has("torque_between_samples"))
-    result.torque_between_samples = log.choice_of(
-        "torque_between_samples", {TorqueTiming::held, TorqueTiming::linear, TorqueTiming::unknown});
-  if (log.has("coupling")) result.coupling = read_coupling(log, joints);
-  result.recording = read_recording(log, joints);
-  const TomlTable columns = log.table("columns");
+bool is_family(const std::string& key) { return canonical_channel(key + "1").has_value(); }
+
+void read_columns(const TomlTable& columns, int joints, ColumnMap& map) {
   const auto names = channel_names(joints);
+  for (const std::string& key : columns.keys())
+    if (is_family(key)) read_family(columns, key, joints, map);
   for (const std::string& channel : columns.keys()) {
+    if (is_family(channel)) continue;
     if (std::find(names.begin(), names.end(), channel) == names.end())
       columns.fail(channel,
                    fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
                                "tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, tau_ref1..tau_ref{0} or "
-                               "tau_meas1..tau_meas{0}",
+                               "tau_meas1..tau_meas{0}, or q, dq, .. for all joints",
                                joints));
-    result.columns[channel] = column_spec(columns, channel);
+    map[channel] = column_spec(columns, channel);
   }
-  return result;
+}
+
+/// What the table says takes the place of what `meaning` says.
+void read_meaning(const TomlTable& log, int joints, LogMeaning& meaning) {
+  if (log.has("torque"))
+    meaning.torque =
+        log.choice_of("torque", {TorqueMeaning::commanded, TorqueMeaning::measured, TorqueMeaning::current});
+  if (log.has("torque_between_samples"))
+    meaning.torque_between_samples = log.choice_of(
+        "torque_between_samples", {TorqueTiming::held, TorqueTiming::linear, TorqueTiming::unknown});
+  if (log.has("coupling")) meaning.coupling = read_coupling(log, joints);
+  meaning.recording = read_recording(log, joints, meaning.recording);
+  read_columns(log.table("columns"), joints, meaning.columns);
+}
+
+}  // namespace
+
+LogMeaning log_meaning_from_table(const TomlTable& log, int joints) {
+  LogMeaning meaning;
+  if (log.has("preset")) {
+    const TomlTable preset = load_log_preset(log, "preset");
+    read_meaning(preset.table("log"), joints, meaning);
+    preset.finish();
+  }
+  read_meaning(log, joints, meaning);
+  return meaning;
 }
 
 }  // namespace faultline

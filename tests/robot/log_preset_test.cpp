@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "lib/robot/log_preset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "formats/open_log.hpp"
+#include "lib/core/error.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+Log read_with(const std::string& robot_text, const std::string& path) {
+  const Robot robot = robot_from_toml(robot_text, "robot.toml");
+  OpenLogOptions options;
+  options.columns = robot.log.columns;
+  return read_all(*open_log(path, options));
+}
+
+using Values = std::vector<double>;
+
+TEST(LogPreset, UniversalRobotsRtde) {
+  const TemporaryFolder folder;
+  const std::string log =
+      folder.write("run.csv",
+                   "timestamp target_q_0 target_q_1 actual_q_0 actual_q_1 actual_qd_0 actual_qd_1 "
+                   "actual_current_0 actual_current_1 target_moment_0 target_moment_1\n"
+                   "10.002 9 9 1 2 3 4 5 6 8 8\n10.004 9 9 1.5 2.5 3 4 5 6 8 8\n");
+  const Log read = read_with("axes = \"RR\"\n[log]\npreset = \"ur-rtde\"\n", log);
+  EXPECT_EQ(read.time, (Values{10.002, 10.004}));
+  EXPECT_EQ(read.q[1], (Values{2, 2.5}));
+  EXPECT_EQ(read.dq[0], (Values{3, 3}));
+  EXPECT_EQ(read.tau[1], (Values{6, 6}));
+}
+
+TEST(LogPreset, FrankaCountsMilliseconds) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write(
+      "run.csv",
+      "duration, success rate, state.q[0], state.q_d[0], state.dq[0], state.dq_d[0], state.tau_J[0], "
+      "cmd.tau_J_d[0]\n1000, 1, 0.5, 9, 0.25, 9, 2, 9\n1001, 1, 0.75, 9, 0.25, 9, 3, 9\n");
+  const Log read = read_with("axes = \"R\"\n[log]\npreset = \"franka\"\n", log);
+  EXPECT_EQ(read.time, (Values{1.0, 1.001}));
+  EXPECT_EQ(read.q[0], (Values{0.5, 0.75}));
+  EXPECT_EQ(read.tau[0], (Values{2, 3}));
+}
+
+TEST(LogPreset, WhatTheRobotFileSaysComesFirst) {
+  const Robot robot = robot_from_toml(
+      "axes = \"RR\"\n[log]\npreset = \"ur-rtde\"\ntorque = \"measured\"\n[log.columns]\nq2 = \"mine\"\n",
+      "robot.toml");
+  EXPECT_EQ(robot.log.torque, TorqueMeaning::measured);
+  EXPECT_EQ(robot.log.columns.at("q1").name, "actual_q_0");
+  EXPECT_EQ(robot.log.columns.at("q2").name, "mine");
+  EXPECT_EQ(robot_from_toml(robot_file_text(robot), "again").log.columns.at("tau2").name, "actual_current_1");
+}
+
+TEST(LogPreset, AFileOfOnesOwnIsTaken) {
+  const TemporaryFolder folder;
+  const std::string preset = folder.write(
+      "cell.toml", "[log.columns]\nt = \"clock\"\nq = {name = \"axis # pos\", unit = \"deg\"}\n");
+  const Robot robot = robot_from_toml("axes = \"RR\"\n[log]\npreset = \"" + preset + "\"\n", "robot.toml");
+  EXPECT_EQ(robot.log.columns.at("q2").name, "axis 2 pos");
+  EXPECT_EQ(robot.log.columns.at("q2").unit, "deg");
+}
+
+TEST(LogPreset, AnUnknownOneIsRefusedWithThoseThereAre) {
+  try {
+    robot_from_toml("axes = \"RR\"\n[log]\npreset = \"kuka\"\n", "robot.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(error.message().find("franka, mecademic, ur-rtde"), std::string::npos) << error.message();
+  }
+}
+
+}  // namespace
+}  // namespace faultline
