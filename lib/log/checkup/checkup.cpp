@@ -58,6 +58,7 @@ void Checkup::take_joint(const Log& segment, std::size_t j) {
 
 void Checkup::take(const Log& segment) {
   for (const double t : segment.time) clock_.add(t);
+  repeated_.add(segment);
   for (std::size_t j = 0; j < paths_.size(); ++j) take_joint(segment, j);
   if (torque_)
     for (std::size_t i = 0; i < segment.time.size(); ++i)
@@ -87,6 +88,7 @@ CheckupResult Checkup::result() const {
     for (std::size_t j = 0; j < torques.size(); ++j) result.joints[j].torque = torques[j];
   }
   result.clock_changes = clock_.changes();
+  result.repeated = repeated_.result();
   return result;
 }
 

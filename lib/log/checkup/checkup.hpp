@@ -10,6 +10,7 @@
 #include "lib/log/channel_names.hpp"
 #include "lib/log/checkup/channel_course.hpp"
 #include "lib/log/checkup/clock_check.hpp"
+#include "lib/log/checkup/repeated_rows.hpp"
 #include "lib/log/checkup/torque_relation.hpp"
 #include "lib/log/checkup/velocity_relation.hpp"
 #include "lib/log/log.hpp"
@@ -32,6 +33,7 @@ struct CheckupResult {
   std::vector<ChannelCheckup> channels;
   std::vector<JointCheckup> joints;
   std::vector<PeriodChange> clock_changes;
+  RepeatedRowCount repeated;
 
   /// Null when the log has no such channel.
   const ChannelCheckup* find(Channel channel) const;
@@ -51,6 +53,7 @@ class Checkup {
   Log head_;  ///< first rows, until the sample period is known
   bool settled_ = false;
   ClockCheck clock_;
+  RepeatedRowCheck repeated_;
   std::vector<Channel> channels_;
   std::vector<ChannelCourse> courses_;
   std::vector<VelocityRelation> velocity_;
@@ -64,7 +67,8 @@ class Checkup {
   std::vector<std::vector<double>> places_;  ///< of each joint in the segment, by its velocity
 };
 
-/// clock_change, stuck_channel, torque_against_acceleration, torque_delayed, velocity_late, unit_implausible.
+/// clock_change, rows_repeated, stuck_channel, torque_against_acceleration, torque_delayed, velocity_late,
+/// unit_implausible.
 Issues checkup_issues(const CheckupResult& checkup, const LogQuality& quality);
 
 /// Largest share, 0 to 1, of a channel's values at its least or largest value.

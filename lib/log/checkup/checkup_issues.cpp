@@ -10,6 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr std::int64_t kFewestStuckRows = 20;
+constexpr double kRepeatedShare = 0.05;
 constexpr double kMovedSteps = 5.0;     // of the channel, that a joint moved while it stood
 constexpr double kMovedAtLeast = 0.01;  // rad or m
 constexpr double kMovedShare = 0.05;    // of the position's span
@@ -80,6 +81,19 @@ void judge_clock(const CheckupResult& checkup, const LogQuality& quality, Issues
                      quality.time.period_s)});
 }
 
+void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Issues& issues) {
+  const RepeatedRowCount& repeated = checkup.repeated;
+  const double share =
+      static_cast<double>(repeated.held) / static_cast<double>(std::max<std::int64_t>(quality.time.rows, 1));
+  if (share < kRepeatedShare || repeated.held < kFewestStuckRows) return;
+  issues.add(
+      {"rows_repeated", "", Severity::warning,
+       fmt::format("{:.1f} % of the rows repeat the row before, at another time: what was read changes less "
+                   "often than it was logged, so the true rate is lower",
+                   100.0 * share),
+       repeated.first_row, std::nan(""), repeated.held});
+}
+
 void judge_joints(const CheckupResult& checkup, Issues& issues) {
   for (std::size_t j = 0; j < checkup.joints.size(); ++j) {
     const auto& [velocity, torque] = checkup.joints[j];
@@ -107,6 +121,7 @@ void judge_joints(const CheckupResult& checkup, Issues& issues) {
 Issues checkup_issues(const CheckupResult& checkup, const LogQuality& quality) {
   Issues issues;
   judge_clock(checkup, quality, issues);
+  judge_repeated(checkup, quality, issues);
   judge_stuck(checkup, quality, issues);
   judge_joints(checkup, issues);
   return issues;

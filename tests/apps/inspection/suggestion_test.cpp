@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/random.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -115,6 +118,19 @@ TEST(Suggestion, ACurrentIsNotTakenAsTorqueInSilence) {
   dialect.header = "t,q1,q2,dq1,dq2,tau1 [A],tau2 [A]";
   const Robot robot = suggested(log_text(dialect));
   EXPECT_EQ(robot.log.torque, TorqueMeaning::current);
+}
+
+TEST(Suggestion, AxesOfRecordedLogsAreTold) {
+  const auto folder = shared_data();
+  if (folder.empty()) return;
+  for (const auto& [log, axes] : {std::pair{"independent-simulation/t_000.csv", "RRP"},
+                                  {"living/B_00.csv", "RRP"},
+                                  {"double-pendulum/acrobot_undisturbed_01.csv", "RR"},
+                                  {"emps/DATA_EMPS.csv", "P"}}) {
+    const std::string path = (std::filesystem::path(folder) / log).string();
+    if (!std::filesystem::exists(path)) continue;
+    EXPECT_EQ(robot_from_toml(run_program({"inspect", path, "--suggest", "-"}).out, log).axes, axes) << log;
+  }
 }
 
 TEST(Suggestion, StandardOutputHoldsTheFileAlone) {

@@ -171,6 +171,21 @@ TEST(Checkup, GapsAndJitterAreNoChangeOfTheClock) {
   EXPECT_TRUE(checked(log).checkup.clock_changes.empty());
 }
 
+TEST(Checkup, RowsOfASlowerSourceAreFoundAndThoseOfARobotAtRestAreNot) {
+  Log log = healthy_log();
+  for (int i = 0; i < log.rows(); ++i)
+    for (auto* signals : {&log.q, &log.dq, &log.tau}) (*signals)[0][i] = (*signals)[0][i / 4 * 4];
+  const CheckedLog found = checked(log);
+  EXPECT_EQ(found.checkup.repeated.held, 3000);
+  EXPECT_NE(found.issues.find("rows_repeated"), nullptr);
+  log = healthy_log();
+  for (int i = 1000; i < 3000; ++i) log.q[0][i] = log.q[0][1000], log.dq[0][i] = 0.0, log.tau[0][i] = 0.0;
+  const CheckedLog rest = checked(log);
+  EXPECT_EQ(rest.checkup.repeated.longest, 1999);
+  EXPECT_EQ(rest.checkup.repeated.held, 0);
+  EXPECT_EQ(rest.issues.find("rows_repeated"), nullptr);
+}
+
 TEST(Checkup, StampsFarTooCloseAreSuspicious) {
   Log log = healthy_log();
   for (double& t : log.time) t *= 1e-6;
