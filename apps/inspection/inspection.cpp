@@ -183,7 +183,12 @@ std::string verdict_sentence_of(const Inspection& inspection) {
   };
   const std::string verdict = verdict_of(inspection);
   if (verdict == "no_joint_log") return "no joint log: no time or no position was found in it";
-  if (verdict == "sound") return "sound: nothing stands in the way of using this log";
+  const bool for_all = std::none_of(
+      inspection.analyses.begin(), inspection.analyses.end(), [](const PossibleAnalysis& analysis) {
+        return analysis.name == "torque_residuals" && analysis.fit == AnalysisFit::impossible;
+      });
+  if (verdict == "sound")
+    return for_all ? "sound: nothing wrong was found" : "sound, but not good for every analysis";
   const auto severe = number(Severity::severe), warned = number(Severity::warning);
   if (verdict == "doubtful") return fmt::format("usable with care: {}", counted(warned, "warning"));
   return fmt::format("look before you use it: {}{}", counted(severe, "severe finding"),

@@ -144,7 +144,8 @@ std::vector<PlotMark> marks_of(const Inspection& inspection, double zero_s) {
 
 std::string legend(const ChannelGroup& group) {
   std::string text = "<ul class=\"legend\">";
-  for (std::size_t i = 0; i < group.channels.size(); ++i)
+  const bool captioned = group.channels.size() == 1 && !group.channels[0]->canonical;
+  for (std::size_t i = 0; i < group.channels.size() && !captioned; ++i)
     text += fmt::format(
         "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" x2=\"28\" y1=\"4\" y2=\"4\" "
         "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{}</li>",

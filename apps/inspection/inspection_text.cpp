@@ -158,7 +158,6 @@ std::string inspection_text(const Inspection& inspection, bool color) {
     text += joint_line(inspection.checkup.joints[j], j + 1);
   for (const std::string& lack : inspection.lacking) text += "  lacks " + lack + "\n";
   for (const Issue& issue : inspection.issues.all()) text += issue_line(issue, color);
-  if (inspection.issues.empty()) text += "  nothing wrong was found\n";
   for (const PossibleAnalysis& analysis : inspection.analyses) text += analysis_line(analysis, color);
   return text;
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kFewestRows = 100;
 constexpr double kLeastRms = 1e-3;        // rad/s or m/s; below it the joint rests
+constexpr double kRoughest = 0.2;         // share of the slopes that is noise, squared, of a joint that moves
 constexpr double kSameNoise = 0.04;       // of the slopes' roughness, squared, that a difference may be off
 constexpr double kAboveRoughness = 20.0;  // motion to noise, squared, at the least, to tell a delay
 constexpr double kSimilar = 1.25;         // rms ratio at the most to tell a delay
@@ -74,6 +75,9 @@ VelocityRelated VelocityRelation::result() const {
   VelocityRelated related;
   if (count_ < kFewestRows) return related;
   related.rms = std::sqrt(velocity_squares_ / static_cast<double>(count_));
+  const double slope_rms = std::sqrt(slope_squares_ / static_cast<double>(count_));
+  const bool moves = slope_rms > kLeastRms && roughness_ < kRoughest * slope_squares_;
+  if (related.rms < kLeastRms && !moves) return related;
   if (slope_squares_ > 0.0) related.rms_ratio = std::sqrt(velocity_squares_ / slope_squares_);
   if (related.rms < kLeastRms) return related;
   const double least = std::min(off_centred_, *std::min_element(off_.begin(), off_.end()));

@@ -122,6 +122,16 @@ TEST(Checkup, TheStepOfAQuantisedChannelIsFound) {
   EXPECT_NEAR(*course(found, Quantity::q).step, 0.0125, 1e-6);
 }
 
+TEST(Checkup, AVelocityThatIsDeadIsToldByItsRatioAndAJointAtRestIsNot) {
+  Log log = healthy_log();
+  log.dq[0].assign(log.rows(), 0.0);
+  EXPECT_EQ(checked(log).checkup.joints[0].velocity.rms_ratio, 0.0);
+  Random random(2);
+  for (int i = 0; i < log.rows(); ++i)
+    log.q[0][i] = 1e-4 * random.normal(), log.dq[0][i] = 1e-5 * random.normal();
+  EXPECT_TRUE(std::isnan(checked(log).checkup.joints[0].velocity.rms_ratio));
+}
+
 TEST(Checkup, AVelocityComputedFromThePositionIsTold) {
   Log log = healthy_log();
   for (int i = 1; i < log.rows(); ++i) log.dq[0][i] = (log.q[0][i] - log.q[0][i - 1]) / kPeriod_s;
