@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/suggestion/axis_guess.hpp"
 #include "apps/suggestion/column_guess.hpp"
 #include "apps/suggestion/unit_guess.hpp"
 #include "lib/core/text.hpp"
@@ -21,11 +22,8 @@ namespace faultline {
 namespace {
 
 constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
-constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;  // correlations with acceleration and velocity
-constexpr double kRestSpan = 1e-3;                        // rad or m: of a joint that holds its place
-constexpr double kShortSpan = 0.6;                        // rad or m: of what may slide
-constexpr double kShorterSpan = 0.4;
-constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
+constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;       // correlations with acceleration and velocity
+constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // rad would be many turns; hardly a slide's m
 
 class Guesser {
  public:
@@ -49,7 +47,10 @@ class Guesser {
           joint_numbers(time_, raw(Quantity::q, j), raw(Quantity::dq, j), raw(Quantity::tau, j)));
     guess_time();
     guess_units();
-    for (int j = 1; j <= joints_; ++j) guess_axis(j);
+    for (int j = 1; j <= joints_; ++j) {
+      const auto at = static_cast<std::size_t>(j - 1);
+      guess_.axes.push_back(guess_axis(numbers_[at], units_[at], header_unit(find(Quantity::q, j))));
+    }
     guess_torques();
     return std::move(guess_);
   }
@@ -103,18 +104,32 @@ class Guesser {
     one->reason += fmt::format("; in {}: {}", unit.unit.empty() ? "SI" : unit.unit, unit.reason);
   }
 
+  void guess_units(OtherAngles others) {
+    for (int j = 1; j <= joints_; ++j) {
+      const auto at = static_cast<std::size_t>(j - 1);
+      units_[at] = guess_joint_units(numbers_[at], time_factor_, header_unit(find(Quantity::q, j)),
+                                     header_unit(find(Quantity::dq, j)), others);
+    }
+  }
+
+  /// Degrees where some joint's numbers are sure to be, or no other moves far in radians.
+  OtherAngles other_angles() const {
+    bool degrees = false, surely = false, radians = false;
+    for (std::size_t j = 0; j < units_.size(); ++j) {
+      const bool in_degrees = units_[j].position.unit == "deg";
+      degrees = degrees || in_degrees;
+      surely =
+          surely || (in_degrees && (numbers_[j].largest > kSurelyDegrees || units_[j].velocity.unit.empty()));
+      radians = radians || (units_[j].position.unit.empty() && numbers_[j].span > kSurelyRadians);
+    }
+    if (!degrees) return OtherAngles::unknown;
+    return surely || !radians ? OtherAngles::degrees : OtherAngles::radians;
+  }
+
   void guess_units() {
     units_.resize(numbers_.size());
-    bool degrees = false;
-    for (const bool again : {false, true}) {
-      for (int j = 1; j <= joints_; ++j) {
-        auto& units = units_[static_cast<std::size_t>(j - 1)];
-        units = guess_joint_units(numbers_[static_cast<std::size_t>(j - 1)], time_factor_,
-                                  header_unit(find(Quantity::q, j)), header_unit(find(Quantity::dq, j)),
-                                  again && degrees);
-        degrees = degrees || units.position.unit == "deg";
-      }
-    }
+    guess_units(OtherAngles::unknown);
+    guess_units(other_angles());
     for (int j = 1; j <= joints_; ++j) {
       const auto& units = units_[static_cast<std::size_t>(j - 1)];
       set_unit(Quantity::q, j, units.position), set_unit(Quantity::q_ref, j, units.position);
@@ -125,29 +140,6 @@ class Guesser {
       velocity->reason +=
           "; sign: it falls where the position rises; which of the two is wrong cannot be told";
     }
-  }
-
-  void guess_axis(int j) {
-    const auto at = static_cast<std::size_t>(j - 1);
-    const JointNumbers& joint = numbers_[at];
-    const double span = joint.span * units_[at].position_factor;
-    const std::string& unit = units_[at].position.unit;
-    const auto known = known_unit(unit);
-    GuessedAxis axis{false, fmt::format("spans {:.3g} rad", span)};
-    const std::string header = header_unit(find(Quantity::q, j));
-    if (known && known->dimension == Dimension::length)
-      axis = {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
-    else if (known && known->dimension == Dimension::angle)
-      axis.reason = header.empty() ? "its numbers are those of an angle" : "its header says " + header;
-    else if (span < kRestSpan)
-      axis.reason = "? it rests, so that nothing tells whether it turns or slides";
-    else if (span < kShortSpan && joint.carries)
-      axis = {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
-    else if (span < kShorterSpan && joint.path > kToAndFro * joint.span)
-      axis = {true, fmt::format("? it goes to and fro over {:.3g}, little for an angle", span)};
-    else if (span < kShorterSpan)
-      axis.reason += "? so little may be a slide's as well";
-    guess_.axes.push_back(axis);
   }
 
   /// In SI, as the guesses so far have it.

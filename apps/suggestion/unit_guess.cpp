@@ -17,6 +17,7 @@ constexpr double kNear = 0.15;            // relative, for a ratio to be the one
 constexpr double kAlike = 0.8;            // correlation of changes and velocities that can be compared
 constexpr double kMostRadians = 13.0;     // two turns
 constexpr double kFastestRadians = 20.0;  // rad/s
+constexpr double kRanAway = 4.0;          // times as far and fast
 constexpr double kMostMetres = 3.0;
 constexpr double kLeastDegrees = 2.0;                     // span of a joint that moves
 constexpr double kCarries = 2.0;                          // mean torque to its deviation
@@ -42,7 +43,10 @@ bool is_length(const std::string& unit) {
   return known && known->dimension == Dimension::length;
 }
 
-bool is_plausible(const UnitPair& pair, const JointNumbers& joint, bool others_in_degrees) {
+bool is_plausible(const UnitPair& pair, const JointNumbers& joint, OtherAngles others) {
+  // A joint that ran away among others in radians is in radians, too.
+  const double most = others == OtherAngles::radians ? kRanAway : 1.0;
+  const bool others_in_degrees = others == OtherAngles::degrees;
   const double span = joint.span * factor_of(pair.position),
                fastest = joint.fastest * factor_of(pair.velocity);
   const std::string position = pair.position;
@@ -51,7 +55,7 @@ bool is_plausible(const UnitPair& pair, const JointNumbers& joint, bool others_i
     return joint.span >= kLeastDegrees &&
            (others_in_degrees || joint.largest > kMostRadians || joint.fastest > kFastestRadians ||
             std::string(pair.velocity).empty());
-  return joint.largest < kMostRadians && fastest < kFastestRadians;
+  return joint.largest < most * kMostRadians && fastest < most * kFastestRadians;
 }
 
 }  // namespace
@@ -137,7 +141,7 @@ GuessedUnit guess_time_unit(const std::vector<double>& time, const std::vector<J
 
 GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
                                const std::string& known_position, const std::string& known_velocity,
-                               bool others_in_degrees) {
+                               OtherAngles others) {
   GuessedUnits units;
   const double ratio = std::abs(joint.ratio) / time_factor;
   units.flipped = joint.ratio < 0.0;
@@ -152,14 +156,15 @@ GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
     for (const UnitPair& pair : kPairs) {
       const bool known =
           is_as_known(known_position, pair.position) && is_as_known(known_velocity, pair.velocity);
-      const bool plausible = !known_position.empty() || is_plausible(pair, joint, others_in_degrees);
+      const bool plausible = !known_position.empty() || is_plausible(pair, joint, others);
       if (!near(ratio, ratio_of(pair)) || !known || !plausible) continue;
       take(pair.position, pair.velocity,
            fmt::format("the position changes by {:.4g} for a velocity of 1 in 1 s, and spans {:.4g}", ratio,
                        joint.span));
       return units;
     }
-  const bool degrees = joint.largest > kMostRadians || (others_in_degrees && joint.span >= kLeastDegrees);
+  const bool degrees =
+      joint.largest > kMostRadians || (others == OtherAngles::degrees && joint.span >= kLeastDegrees);
   const std::string large = joint.carries ? "mm" : "deg";
   const std::string position = !known_position.empty() ? known_position : degrees ? large : "";
   take(position,

@@ -38,10 +38,13 @@ struct GuessedUnits {
   bool flipped = false;                                 ///< one of them has the other sign
 };
 
+/// Angles that the other joints of a log are in, by their numbers.
+enum class OtherAngles { unknown, degrees, radians };
+
 /// Of one joint whose header says nothing; `time_factor` brings its times to s. An empty `known` unit of the
 /// position means that it is to be guessed.
 GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
                                const std::string& known_position, const std::string& known_velocity,
-                               bool others_in_degrees);
+                               OtherAngles others);
 
 }  // namespace faultline
