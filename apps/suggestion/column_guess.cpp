@@ -120,6 +120,11 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   return found;
 }
 
+bool varies(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(),
+                     [&](double value) { return value != values.front() && !std::isnan(value); });
+}
+
 /// The largest group of columns whose names differ by a number.
 std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
   std::map<std::string, std::map<int, int>> families;
@@ -131,7 +136,9 @@ std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
     return a.second.size() < b.second.size();
   });
   std::vector<GuessedChannel> found;
+  const auto moves = [&](const auto& one) { return varies(excerpt.values[one.second]); };
   if (largest == families.end() || largest->second.size() < 2) return found;
+  if (std::none_of(largest->second.begin(), largest->second.end(), moves)) return found;
   for (const auto& [number, column] : largest->second)
     found.push_back({{Quantity::q, static_cast<int>(found.size()) + 1},
                      column,

@@ -28,11 +28,12 @@ RawExcerpt raw_excerpt(const std::string& path) {
   excerpt.canonical = reader->canonical();
   excerpt.columns = reader->columns();
   const std::size_t all = excerpt.columns.size(), taken = std::min(all, kMostColumns);
+  excerpt.columns.resize(taken);
   const std::size_t most = std::min(kMostRows, kMostValues / std::max<std::size_t>(taken, 1));
   std::vector<bool> wanted(all, false);
   std::fill_n(wanted.begin(), taken, true);
   reader->want(wanted);
-  excerpt.values.resize(all);
+  excerpt.values.resize(taken);
   RawBlock block;
   while (excerpt.rows() < most && reader->next(block, kBlockRows))
     for (std::size_t c = 0; c < taken; ++c)

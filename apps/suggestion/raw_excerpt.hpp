@@ -12,8 +12,8 @@ namespace faultline {
 struct RawExcerpt {
   std::string path;
   bool canonical = false;  ///< the columns are channels in SI, so that nothing is to be guessed of them
-  std::vector<RawColumn> columns;
-  std::vector<std::vector<double>> values;  ///< [column][row]; empty for columns beyond the first 256
+  std::vector<RawColumn> columns;           ///< the first 256
+  std::vector<std::vector<double>> values;  ///< [column][row]
 
   std::size_t rows() const;
 };

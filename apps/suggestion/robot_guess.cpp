@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "apps/suggestion/axis_guess.hpp"
@@ -21,6 +22,8 @@
 namespace faultline {
 namespace {
 
+constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kSearchedRows = 20000, kSearchedColumns = 32;
 constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
 constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;       // correlations with acceleration and velocity
 constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // rad would be many turns; hardly a slide's m
@@ -149,7 +152,8 @@ class Guesser {
     return values;
   }
 
-  std::vector<TorqueRelated> torques_related(const std::vector<std::vector<double>>& tau) {
+  std::vector<TorqueRelated> torques_related(const std::vector<std::vector<double>>& tau,
+                                             std::size_t most_rows = kAllRows) {
     std::vector<double> time = time_;
     for (double& t : time) t *= time_factor_;
     const double period_s = median_step(time);
@@ -158,7 +162,7 @@ class Guesser {
       q.push_back(scaled(Quantity::q, j, units_[static_cast<std::size_t>(j - 1)].position_factor));
     if (!(period_s > 0.0)) return {};
     TorqueRelation relation(joints_, period_s);
-    for (std::size_t i = 0; i < time.size(); ++i) relation.add(time[i], q, tau, i);
+    for (std::size_t i = 0; i < std::min(time.size(), most_rows); ++i) relation.add(time[i], q, tau, i);
     return relation.result();
   }
 
@@ -227,12 +231,14 @@ class Guesser {
   /// For each joint the column left over that goes best with its acceleration.
   void find_torques() {
     std::vector<int> left = columns_left(), found;
+    left.resize(std::min(left.size(), kSearchedColumns));
     for (int j = 1; j <= joints_; ++j) {
       auto best = left.end();
       double most = is_named() ? kSurelyWith : kWith;
       for (auto at = left.begin(); at != left.end(); ++at) {
         const auto related = torques_related(
-            std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]));
+            std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]),
+            kSearchedRows);
         const double share = related.empty() ? NAN : related[static_cast<std::size_t>(j - 1)].correlation;
         if (std::abs(share) > most) most = std::abs(share), best = at;
       }

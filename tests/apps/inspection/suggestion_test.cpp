@@ -156,6 +156,20 @@ TEST(Suggestion, ATableWithoutPositionsIsRefusedWithWhatToDo) {
   EXPECT_NE(run.err.find("[log.columns] q1"), std::string::npos) << run.err;
 }
 
+TEST(Suggestion, ColumnsBeyondTheFirst256AreNotLookedAt) {
+  const TemporaryFolder folder;
+  std::string header, row;
+  for (int i = 0; i < 300; ++i) header += "x" + std::to_string(i) + "p,", row += "1,";
+  const auto log = [&](const std::string& before, const std::string& after) {
+    std::string text = before + header + after + "\n";
+    for (int i = 0; i < 50; ++i)
+      text += std::to_string(0.01 * i) + "," + row + std::to_string(0.1 * i) + "\n";
+    return folder.write("run.csv", text);
+  };
+  EXPECT_EQ(run_program({"inspect", log("t,", "q1"), "--suggest", "-"}).status, 3);
+  EXPECT_LE(run_program({"inspect", log("q1,", "t"), "--suggest", "-"}).status, 3);
+}
+
 TEST(Suggestion, HostileNamesStayInTheirQuotes) {
   Dialect dialect;
   dialect.header = "t,\"q1\"\"]\\x\",q2,dq1,dq2,tau1,tau2";
