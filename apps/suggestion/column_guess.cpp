@@ -22,7 +22,9 @@ namespace {
 constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tried
 constexpr double kDerivative = 0.95;     // correlation of a velocity with its position's change
 constexpr double kInOrder = 0.999;       // share of steps of a time that are forward
+constexpr double kSmallSteps = 0.1;      // of steps to the deviation, squared
 constexpr std::size_t kFewestRows = 20;
+constexpr std::size_t kFewestPairedRows = 200;
 constexpr std::ptrdiff_t kReach = 3;  // rows, of a change of position, to both sides
 
 std::vector<std::string> names_of(const RawExcerpt& excerpt) {
@@ -98,7 +100,7 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   std::vector<std::tuple<double, int, int>> pairs;
   for (int a = 0; a < columns; ++a)
     for (int b = 0; b < columns; ++b)
-      if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestRows)
+      if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestPairedRows)
         if (const double r = as_derivative(excerpt.values[a], excerpt.values[b]); r > kDerivative)
           pairs.push_back({-r, a, b});
   std::sort(pairs.begin(), pairs.end());
@@ -120,9 +122,15 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   return found;
 }
 
-bool varies(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(),
-                     [&](double value) { return value != values.front() && !std::isnan(value); });
+/// Whether values follow each other as those of a motion do: steps are small beside the deviation.
+bool flows(const std::vector<double>& values) {
+  double sum = 0.0, squares = 0.0, steps = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (std::isnan(values[i]) || std::isnan(values[i - 1])) continue;
+    sum += values[i], squares += values[i] * values[i], count += 1.0;
+    steps += (values[i] - values[i - 1]) * (values[i] - values[i - 1]);
+  }
+  return steps > 0.0 && steps < kSmallSteps * (squares - sum * sum / count);
 }
 
 /// The largest group of columns whose names differ by a number.
@@ -136,7 +144,7 @@ std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
     return a.second.size() < b.second.size();
   });
   std::vector<GuessedChannel> found;
-  const auto moves = [&](const auto& one) { return varies(excerpt.values[one.second]); };
+  const auto moves = [&](const auto& one) { return flows(excerpt.values[one.second]); };
   if (largest == families.end() || largest->second.size() < 2) return found;
   if (std::none_of(largest->second.begin(), largest->second.end(), moves)) return found;
   for (const auto& [number, column] : largest->second)

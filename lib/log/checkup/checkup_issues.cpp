@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr std::int64_t kFewestStuckRows = 20;
-constexpr double kRepeatedShare = 0.05;
+constexpr double kRepeatedShare = 0.3;
 constexpr double kMovedSteps = 5.0;     // of the channel, that a joint moved while it stood
 constexpr double kMovedAtLeast = 0.01;  // rad or m
 constexpr double kMovedShare = 0.05;    // of the position's span
