@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/csv/csv_sparse.hpp"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace {
 using Presence = std::vector<bool>;  ///< by field
 
 constexpr int kLeastRows = 10;
+/// Columns that all rows of such a table have: the time.
+constexpr int kCommonColumns = 1;
 /// Share of the rows that a way of being filled must have to count.
 constexpr double kLeastShare = 0.1;
 
@@ -41,7 +44,7 @@ bool is_sparse_table(std::span<const CsvLine> lines, int fields, char decimal) {
     ++rows_of[present];
     ++rows;
   }
-  if (rows < kLeastRows) return false;
+  if (rows < kLeastRows || std::count(always.begin(), always.end(), true) > kCommonColumns) return false;
   for (const auto& [a, times_a] : rows_of)
     for (const auto& [b, times_b] : rows_of)
       if (times_a >= kLeastShare * rows && times_b >= kLeastShare * rows && share_nothing(a, b, always))

@@ -8,7 +8,7 @@
 namespace faultline {
 
 /// Whether these rows look like a table that merges signals of different rates: some rows hold signals that
-/// others lack, and those others hold what the first lack, beside the columns that all have.
+/// others lack, and those others hold what the first lack, and all hold the time alone.
 bool is_sparse_table(std::span<const CsvLine> lines, int fields, char decimal);
 
 }  // namespace faultline

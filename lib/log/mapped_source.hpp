@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "lib/log/clean.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/raw_reader.hpp"
-#include "lib/log/sparse.hpp"
+#include "lib/log/rows/clean.hpp"
+#include "lib/log/rows/sparse.hpp"
 
 namespace faultline {
 

@@ -18,13 +18,8 @@ namespace {
 
 constexpr double kSingular = 1e-9;  ///< smallest to largest singular value
 
-ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
+ColumnSpec column_spec(const TomlTable& table) {
   ColumnSpec spec;
-  if (!columns.is_table(channel)) {
-    spec.name = columns.text(channel);
-    return spec;
-  }
-  const TomlTable table = columns.table(channel);
   spec.name = table.text("name", "");
   spec.unit = table.text("unit", "");
   spec.sign = table.number("sign", 1.0);
@@ -32,6 +27,13 @@ ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
   spec.scale = table.number("scale", 1.0);
   if (spec.scale == 0.0) table.fail("scale", "expected a number other than 0");
   spec.offset = table.number("offset", 0.0);
+  return spec;
+}
+
+ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
+  if (columns.is_table(channel)) return column_spec(columns.table(channel));
+  ColumnSpec spec;
+  spec.name = columns.text(channel);
   return spec;
 }
 
@@ -74,11 +76,18 @@ RecordingChoice read_recording(const TomlTable& log, int joints, RecordingChoice
 /// The columns of all joints at once: "#" in the name stands for the joint's number, of which the first is
 /// `first`.
 void read_family(const TomlTable& columns, const std::string& family, int joints, ColumnMap& map) {
-  const ColumnSpec pattern = column_spec(columns, family);
+  ColumnSpec pattern;
+  std::int64_t first = 1;
+  if (columns.is_table(family)) {
+    const TomlTable table = columns.table(family);
+    pattern = column_spec(table);
+    first = table.integer("first", first);
+  } else {
+    pattern.name = columns.text(family);
+  }
   const auto sign = pattern.name.find('#');
   if (sign == std::string::npos)
     columns.fail(family, "stands for all joints, so its name needs a # where the joint's number is");
-  const std::int64_t first = columns.is_table(family) ? columns.table(family).integer("first", 1) : 1;
   for (int j = 0; j < joints; ++j) {
     ColumnSpec spec = pattern;
     spec.name.replace(sign, 1, std::to_string(first + j));
@@ -86,7 +95,7 @@ void read_family(const TomlTable& columns, const std::string& family, int joints
   }
 }
 
-bool is_family(const std::string& key) { return canonical_channel(key + "1").has_value(); }
+bool is_family(const std::string& key) { return !canonical_channel(key) && canonical_channel(key + "1"); }
 
 void read_columns(const TomlTable& columns, int joints, ColumnMap& map) {
   const auto names = channel_names(joints);

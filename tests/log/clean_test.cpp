@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/clean.hpp"
+#include "lib/log/rows/clean.hpp"
 
 #include <gtest/gtest.h>
 

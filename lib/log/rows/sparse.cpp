@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/sparse.hpp"
+#include "lib/log/rows/sparse.hpp"
 
 #include <algorithm>
 #include <cmath>
