@@ -61,6 +61,7 @@ class CsvReader : public RawReader {
   void refuse_many_columns() const;
   void refuse_duplicates() const;
   void refuse_mostly_absent() const;
+  int read_many(const char*& p, const char* end, int row, int max_rows);
   const char* read_line(const char* p, const char* end, int row, CsvRow& verdict);
   void start();
 
@@ -140,6 +141,15 @@ void CsvReader::rewind() {
   start();
 }
 
+/// Rows of numbers from `p` on that are read together; none where a line needs care.
+int CsvReader::read_many(const char*& p, const char* end, int row, int max_rows) {
+  if (lines_.last_line_was_open()) return 0;
+  const int rows = rows_.read_many(p, end, row, max_rows);
+  at_.line += rows;
+  at_.row += rows;
+  return rows;
+}
+
 /// Reads the line at `p` and returns what is behind it.
 const char* CsvReader::read_line(const char* p, const char* end, int row, CsvRow& verdict) {
   verdict = CsvRow::keep;
@@ -161,6 +171,10 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
     const char* const end = lines_.end_of_lines();
     bool stop = false;
     while (row < max_rows && p < end && !stop) {
+      if (const int rows = read_many(p, end, row, max_rows)) {
+        row += rows;
+        continue;
+      }
       CsvRow verdict = CsvRow::keep;
       p = read_line(p, end, row, verdict);
       ++at_.line;

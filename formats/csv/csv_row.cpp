@@ -21,7 +21,7 @@ constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characte
 }  // namespace
 
 CsvRowReader::CsvRowReader(const CsvDialect& dialect, CsvIssues& issues)
-    : dialect_(dialect), issues_(issues) {
+    : dialect_(dialect), issues_(issues), wide_(dialect.separator, dialect.decimal) {
   want(std::vector<bool>(dialect_.columns.size(), true));
 }
 
@@ -40,6 +40,10 @@ void CsvRowReader::begin_block(RawBlock& block, int max_rows) {
     block.columns[column].resize(max_rows);
     field_values_[field] = block.columns[column].data();
   }
+}
+
+int CsvRowReader::read_many(const char*& p, const char* end, int row, int max_rows) {
+  return wide_.can_read() ? wide_.read(p, end, field_values_, row, max_rows) : 0;
 }
 
 const char* CsvRowReader::read_plain(const char* p, const char* end, int row) {

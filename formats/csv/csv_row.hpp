@@ -7,6 +7,7 @@
 
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_issues.hpp"
+#include "formats/csv/wide_rows.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -24,6 +25,9 @@ class CsvRowReader {
   void want(const std::vector<bool>& columns);
   /// The rows that follow go into `block`, which has place for `max_rows`.
   void begin_block(RawBlock& block, int max_rows);
+  /// Reads as many lines of nothing but numbers and separators as it can quickly into the rows from `row` on
+  /// and moves `p` behind them; how many. kNumberMargin bytes around the text must be readable.
+  int read_many(const char*& p, const char* end, int row, int max_rows);
   /// Reads a line of nothing but numbers and separators into row `row` of the block and returns what is
   /// behind it; null when it is anything else and must be read with care. `end` is behind a newline.
   const char* read_plain(const char* p, const char* end, int row);
@@ -47,6 +51,7 @@ class CsvRowReader {
   std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted
   std::vector<double*> field_values_;  ///< of the block that is being filled; null for a field not wanted
   std::vector<std::string_view> fields_;
+  WideRows wide_;
   std::int64_t absent_fields_ = 0;
 };
 

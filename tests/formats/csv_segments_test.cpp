@@ -54,5 +54,34 @@ TEST(CsvReader, RewindReadsTheSameAgain) {
   EXPECT_EQ(source->identity().sha256, sha256_hex(troubled_text()));
 }
 
+/// The same lines, each with a blank at its end, which no row has that is read together with others.
+std::string with_blanks_at_ends(const std::string& text) {
+  std::string other;
+  for (const char c : text) other += c == '\n' ? std::string(" \n") : std::string(1, c);
+  return other;
+}
+
+/// In which missing values are equal.
+std::string as_text(const std::vector<std::vector<double>>& columns) {
+  std::string text;
+  for (const auto& column : columns)
+    for (const double value : column) text += std::to_string(value) + ' ';
+  return text;
+}
+
+TEST(CsvReader, RowsThatAreReadTogetherAreThoseReadOneByOne) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += i == 0 ? troubled_text() + "\n" : troubled_text().substr(23) + "\r\n";
+  const ReadLog together = read_csv(text), single = read_csv(with_blanks_at_ends(text));
+  EXPECT_EQ(together.log.time, single.log.time);
+  EXPECT_EQ(as_text(together.log.q), as_text(single.log.q));
+  EXPECT_EQ(as_text(together.log.tau), as_text(single.log.tau));
+  ASSERT_EQ(together.issues.all().size(), single.issues.all().size());
+  for (std::size_t i = 0; i < single.issues.all().size(); ++i) {
+    EXPECT_EQ(together.issues.all()[i].first_row, single.issues.all()[i].first_row);
+    EXPECT_EQ(together.issues.all()[i].count, single.issues.all()[i].count);
+  }
+}
+
 }  // namespace
 }  // namespace faultline
