@@ -12,7 +12,8 @@ constexpr std::size_t kPassedAtOnce = 1 << 16;
 
 }  // namespace
 
-ByteSource::ByteSource(const std::string& path) : file_(path), unpacker_(unpacker_of(file_)) {
+ByteSource::ByteSource(const std::string& path, bool hashed)
+    : file_(path, hashed), unpacker_(unpacker_of(file_)) {
   if (unpacker_) fill_head(kHeadBytes);
 }
 

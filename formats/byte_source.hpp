@@ -16,7 +16,8 @@ namespace faultline {
 /// the bytes and is told in issues().
 class ByteSource {
  public:
-  explicit ByteSource(const std::string& path);
+  /// Not `hashed`, it leaves sha256() empty and reads faster.
+  explicit ByteSource(const std::string& path, bool hashed = true);
 
   const std::string& path() const { return file_.path(); }
   /// The first bytes, up to 64 KiB unless extended, whatever was read before.

@@ -16,8 +16,8 @@ constexpr std::string_view kParquetMagic = "PAR1";
 
 }  // namespace
 
-std::unique_ptr<RawReader> open_raw(const std::string& path) {
-  auto bytes = std::make_unique<ByteSource>(path);
+std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed) {
+  auto bytes = std::make_unique<ByteSource>(path, hashed);
   if (bytes->head().empty())
     throw Error(ErrorCode::input, path, "is empty; a log has a header and at least one row");
   for (const LogFormat& format : log_formats())
@@ -32,9 +32,11 @@ std::unique_ptr<RawReader> open_raw(const std::string& path) {
 }
 
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
-                                      const RecordingChoice& choice) {
+                                      const RecordingChoice& choice, bool hashed) {
+  // The hash of a log of several files is one of theirs.
+  const bool all_hashed = hashed || !parts.then.empty() || !parts.join.empty();
   const auto open_chosen = [&](const std::string& file) {
-    auto reader = open_raw(file);
+    auto reader = open_raw(file, all_hashed);
     reader->choose(choice);
     return reader;
   };
@@ -53,7 +55,7 @@ std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelectio
 
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
   return std::make_unique<MappedSource>(
-      open_parts(path, options.parts, options.recording),
+      open_parts(path, options.parts, options.recording, options.hashed),
       MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra});
 }
 

@@ -24,7 +24,8 @@ std::string reason() { return std::strerror(errno); }
 
 }  // namespace
 
-FileBytes::FileBytes(std::string path) : path_(std::move(path)) {
+FileBytes::FileBytes(std::string path, bool hashed) : path_(std::move(path)) {
+  if (hashed) hash_.emplace();
   open();
   try {
     read_head(kHeadBytes);
@@ -110,9 +111,12 @@ std::size_t FileBytes::read(char* to, std::size_t size) {
     if (at_end_ && regular_) close();
   }
   position_ += static_cast<std::int64_t>(got);
-  if (sha256_.empty()) {
-    hash_.update({to, got});
-    if (got == 0 && size > 0) sha256_ = hash_.hex();
+  if (hash_) {
+    hash_->update({to, got});
+    if (got == 0 && size > 0) {
+      sha256_ = hash_->hex();
+      hash_.reset();
+    }
   }
   return got;
 }
@@ -125,7 +129,7 @@ void FileBytes::rewind() {
   at_end_ = false;
   head_given_ = 0;
   position_ = 0;
-  if (sha256_.empty()) hash_ = Sha256();
+  if (hash_) hash_.emplace();
 }
 
 double FileBytes::share_read() const {

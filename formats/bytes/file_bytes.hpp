@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,12 +10,12 @@
 
 namespace faultline {
 
-/// The bytes of a file from front to back, hashed as they pass. A regular file is open only while it is being
-/// read, so that a command may have any number of them; one that is another file by then is refused. Every
-/// failure throws Error(input).
+/// The bytes of a file from front to back, hashed as they pass where that is asked for. A regular file is
+/// open only while it is being read, so that a command may have any number of them; one that is another file
+/// by then is refused. Every failure throws Error(input).
 class FileBytes {
  public:
-  explicit FileBytes(std::string path);
+  explicit FileBytes(std::string path, bool hashed = true);
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
@@ -30,7 +31,7 @@ class FileBytes {
   void rewind();
   /// Closes a regular file until the next read().
   void pause();
-  /// Of all bytes once the end was reached, empty before.
+  /// Of all bytes once the end was reached, empty before and where they are not hashed.
   const std::string& sha256() const { return sha256_; }
   double share_read() const;
   /// Of the file, 0 for a pipe.
@@ -58,7 +59,7 @@ class FileBytes {
   std::int64_t position_ = 0;
   std::string head_;
   std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()
-  Sha256 hash_;
+  std::optional<Sha256> hash_;  ///< none where it is not asked for, or done
   std::string sha256_;
 };
 
