@@ -144,6 +144,7 @@ Hdf5Id hdf5_access(int descriptor, bool writing) {
   const Hdf5Descriptor opened{descriptor, writing};
   H5Pset_driver(access, id, &opened);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_metadata_read_attempts(access, 1);  // nobody writes meanwhile; the library would wait for it
   return access;
 }
 

@@ -15,7 +15,7 @@
 namespace faultline {
 namespace {
 
-constexpr rlim_t kLongest_s = 20;
+constexpr rlim_t kLongest_s = 10;
 
 /// Never returns. What the library or the C library says of its end is not shown.
 [[noreturn]] void try_in_copy(const std::function<void()>& work) {

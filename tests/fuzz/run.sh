@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 seconds=${1:-30}
 shift || true
-all=(csv flog mcap rosbag1 rosbag2 packed robot spec golden labels model network cases)
+all=(csv flog mcap rosbag1 rosbag2 packed npy npz h5 mat robot spec golden labels model network cases)
 targets=("${@:-${all[@]}}")
 
 if ! command -v clang++ >/dev/null; then
@@ -32,7 +32,7 @@ whole_files() {
     golden) ls $samples/golden/golden.toml $samples/golden/traces/*.csv ;;
     labels) ls $samples/*/labels.csv ;;
     model) ls $samples/golden/model-*.json ;;
-    network) ;;
+    network | npy | npz | h5 | mat) ;;
     cases) ls $samples/golden/cases-*.db ;;
   esac
 }

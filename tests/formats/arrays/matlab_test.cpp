@@ -158,8 +158,13 @@ TEST_F(Matlab, FilesOfMeasuredRobotsAreRead) {
   const ReadArrays one = read_array_file(data / "emps/DATA_EMPS.mat", emps);
   EXPECT_EQ(one.refused, "");
   EXPECT_EQ(one.log.rows(), 24841);
-  const ReadArrays ur3 = read_array_file(data / "ur3-rosbag1/id1.mat");
+  OpenLogOptions of_ur3{.columns = {{"t", {.name = "mt"}}}};
+  for (int joint = 1; joint <= 6; ++joint)
+    of_ur3.columns["q" + std::to_string(joint)].name = "mq" + std::to_string(joint);
+  const ReadArrays ur3 = read_array_file(data / "ur3-rosbag1/id1.mat", of_ur3);
   EXPECT_EQ(ur3.refused, "");
+  EXPECT_EQ(ur3.identity.rows_read, 5200);
+  EXPECT_EQ(ur3.log.joints(), 6);
 }
 
 }  // namespace
