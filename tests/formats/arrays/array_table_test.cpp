@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "formats/arrays/array_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/core/error.hpp"
+#include "tests/formats/arrays/read_bytes.hpp"
+
+namespace faultline {
+namespace {
+
+NamedArray array(const std::string& name, const std::vector<std::int64_t>& shape) {
+  NamedArray made;
+  made.name = name;
+  made.shape = shape;
+  return made;
+}
+
+std::vector<std::string> names_of(const ArrayTable& table) {
+  std::vector<std::string> names;
+  for (const RawColumn& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ArrayTable, TheTimeVectorSaysHowManyRowsThereAre) {
+  const ArrayTable table = table_of(
+      {array("image", {500, 600}), array("t", {1, 100}), array("q", {2, 100}), array("dt", {})}, "f");
+  EXPECT_EQ(table.rows, 100);
+  EXPECT_EQ(names_of(table), (Names{"t", "q1", "q2"}));
+  ASSERT_TRUE(table.issues.find("array_left_out"));
+  EXPECT_NE(table.issues.find("array_left_out")->message.find("\"image\" (500 x 600)"), std::string::npos);
+}
+
+TEST(ArrayTable, WithoutATimeTheLengthOfMostNumbersCounts) {
+  EXPECT_EQ(table_of({array("a", {7, 900}), array("b", {900}), array("c", {40})}, "f").rows, 900);
+}
+
+TEST(ArrayTable, ASampleTimeIsNoTimeVector) {
+  EXPECT_EQ(table_of({array("t", {1, 1}), array("q", {300, 2})}, "f").rows, 300);
+}
+
+TEST(ArrayTable, ASquareMatrixHasItsSamplesInRowsAndSaysSo) {
+  const ArrayTable table = table_of({array("t", {5}), array("q", {5, 5})}, "f");
+  EXPECT_FALSE(table.arrays[1].channel_major);
+  EXPECT_TRUE(table.issues.find("array_square", "q"));
+}
+
+TEST(ArrayTable, TheLastPartOfAPathIsTheNameUnlessTwoShareIt) {
+  EXPECT_EQ(names_of(table_of(
+                {array("run/t", {9}), array("run/q", {9, 2}), array("a/x", {9}), array("b/x", {9})}, "f")),
+            (Names{"t", "q1", "q2", "a/x", "b/x"}));
+}
+
+TEST(ArrayTable, UnitsStandBehindNames) {
+  const ArrayTable table = table_of({array("time_ms", {9}), array("q [deg]", {9, 2})}, "f");
+  EXPECT_EQ(table.columns[0].unit, "ms");
+  EXPECT_EQ(table.columns[2].name, "q2");
+  EXPECT_EQ(table.columns[2].unit, "deg");
+}
+
+TEST(ArrayTable, WithoutAnyArrayThereIsNoTable) { EXPECT_THROW(table_of({array("x", {})}, "f"), Error); }
+
+TEST(ArrayTable, AParquetFileIsRefusedWithTheWayToConvertIt) {
+  const std::string refused = read_bytes(std::string("PAR1\x15\0\x15", 7)).refused;
+  EXPECT_NE(refused.find("pandas.read_parquet"), std::string::npos) << refused;
+}
+
+}  // namespace
+}  // namespace faultline
