@@ -22,7 +22,7 @@ std::size_t RawExcerpt::rows() const {
 }
 
 RawExcerpt raw_excerpt(const std::string& path) {
-  const auto reader = open_raw(path);
+  const auto reader = open_raw(path, false);
   RawExcerpt excerpt;
   excerpt.path = path;
   excerpt.canonical = reader->canonical();

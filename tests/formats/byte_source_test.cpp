@@ -44,5 +44,14 @@ TEST(ByteSource, AFileThatWasReplacedMeanwhileIsRefused) {
   EXPECT_THROW(rest_of(source), Error);
 }
 
+TEST(ByteSource, WithoutItsHashAFileReadsTheSame) {
+  const TemporaryFolder folder;
+  ByteSource source(folder.write("a", long_text('a')), false);
+  for (int time = 0; time < 2; ++time, source.rewind()) {
+    EXPECT_EQ(rest_of(source), long_text('a'));
+    EXPECT_EQ(source.sha256(), "");
+  }
+}
+
 }  // namespace
 }  // namespace faultline
