@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/commands.hpp"
+#include "apps/diagnosis_events.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/log_selection.hpp"
@@ -13,6 +14,7 @@
 #include "formats/open_log.hpp"
 #include "formats/provenance.hpp"
 #include "formats/write_log.hpp"
+#include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -23,6 +25,7 @@ struct ConvertArguments {
   std::string log;
   std::string out;
   std::string robot;
+  std::string diagnosis;
   LogSelection parts;
 };
 
@@ -58,6 +61,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
       .reads("the log", arguments.log)
       .reads("a part of the log", files_of(arguments.parts))
       .reads("the robot file", arguments.robot)
+      .reads("the diagnosis", arguments.diagnosis)
       .writes("OUT", arguments.out)
       .claim();
   OpenLogOptions options;
@@ -67,12 +71,16 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
     options.columns = meaning.columns;
     options.recording = meaning.recording;
   }
+  std::vector<LogEvent> events;
+  if (!arguments.diagnosis.empty()) events = events_of_diagnosis(arguments.diagnosis);
   const auto source = open_log(arguments.log, options);
   const auto writer = create_log(arguments.out);
   {
     ProgressBar bar(color);
     copy_rows(*source, *writer, bar.callback());
   }
+  if (!arguments.diagnosis.empty() && !writer->note_events(events))
+    throw Error(ErrorCode::usage, "--diagnosis", "only a log written as .mcap holds events");
   const std::string provenance = provenance_of(*source);
   if (!provenance.empty()) writer->note_provenance(provenance);
   writer->commit();
@@ -90,6 +98,10 @@ void add_convert(CLI::App& app, Program& program) {
   command->add_option("OUT", arguments->out, "The file to write: " + written_extensions())->required();
   command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
       ->type_name("ROBOT.toml");
+  command
+      ->add_option("--diagnosis", arguments->diagnosis,
+                   "A diagnosis of this log, whose events go into a .mcap")
+      ->type_name("REPORT.json");
   add_log_selection(*command, arguments->parts);
   command->footer(
       "The converted log needs no column mapping any more. Rows without a usable time are left out and "

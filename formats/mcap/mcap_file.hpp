@@ -28,7 +28,7 @@ class McapFile {
  public:
   explicit McapFile(const std::string& path);
 
-  /// The number of the channel, for message(). All before the first message.
+  /// The number of the channel, for message().
   std::uint16_t add_topic(const McapTopic& topic);
   void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view bytes);
   /// A text under a name, behind the messages so far.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "formats/mcap/mcap_events.hpp"
 #include "formats/mcap/mcap_file.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/messages/own_topics.hpp"
@@ -71,6 +72,15 @@ class McapWriter : public LogWriter {
     file_.metadata(kMcapProvenance, kMcapProvenanceKey, provenance);
   }
 
+  bool note_events(const std::vector<LogEvent>& events) override {
+    const std::uint16_t channel = file_.add_topic(event_topic());
+    for (const LogEvent& event : events) {
+      const std::int64_t stamp = stamp_of(event.time_s);
+      file_.message(channel, static_cast<std::uint64_t>(stamp), event_message(stamp, event));
+    }
+    return true;
+  }
+
   void commit() override { file_.finish(); }
 
  private:
@@ -89,17 +99,7 @@ class McapWriter : public LogWriter {
   }
 
   void write_row(const Log& log, int row) {
-    const double time = log.time[row];
-    if (!(time >= 0.0 && time < kMostSeconds))
-      throw Error(
-          ErrorCode::output, path_,
-          fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv or "
-                      ".flog",
-                      time, kMostSeconds));
-    // Seconds and their fraction apart, so that a time since 1970 keeps its bits.
-    const double seconds = std::floor(time);
-    const auto stamp =
-        static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((time - seconds) * 1e9);
+    const std::int64_t stamp = stamp_of(log.time[row]);
     if (extra_) {
       row_ = {};
       for (const ExtraChannel& extra : log.extra) row_.position.push_back(extra.values[row]);
@@ -112,6 +112,19 @@ class McapWriter : public LogWriter {
       take_row(signals(log, kTopics[i].effort), row, row_.effort);
       put(*states_, channels_[i], stamp);
     }
+  }
+
+  /// Of a time of the log, in ns.
+  std::int64_t stamp_of(double time) const {
+    if (!(time >= 0.0 && time < kMostSeconds))
+      throw Error(
+          ErrorCode::output, path_,
+          fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv or "
+                      ".flog",
+                      time, kMostSeconds));
+    // Seconds and their fraction apart, so that a time since 1970 keeps its bits.
+    const double seconds = std::floor(time);
+    return static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((time - seconds) * 1e9);
   }
 
   void put(const JointStateEncoder& encoder, std::uint16_t channel, std::int64_t stamp) {

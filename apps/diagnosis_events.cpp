@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "apps/diagnosis_events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kSchema = "faultline/diagnosis/1";
+constexpr std::size_t kMostBytes = 256 << 20;
+
+/// "collision of joint 1 (fault 1, confidence 0.97)".
+std::string fault_text(const json& fault) {
+  std::string text = fault.at("kind").get<std::string>();
+  if (const auto joint = fault.find("joint"); joint != fault.end() && joint->is_number())
+    text += fmt::format(" of joint {}", joint->get<int>());
+  text += fmt::format(" (fault {}", fault.at("id").get<int>());
+  if (const auto confidence = fault.find("confidence"); confidence != fault.end() && confidence->is_number())
+    text += fmt::format(", confidence {:.2f}", confidence->get<double>());
+  return text + ")";
+}
+
+void add_events(const json& fault, std::vector<LogEvent>& events) {
+  const std::string text = fault_text(fault);
+  const auto add = [&](const char* member, const char* what, bool grave) {
+    if (const auto time = fault.find(member); time != fault.end() && time->is_number())
+      events.push_back({time->get<double>(), grave, what + text});
+  };
+  add("onset_s", "begins: ", true);
+  add("alarm_s", "could be told: ", false);
+  add("end_s", "ends: ", false);
+}
+
+}  // namespace
+
+std::vector<LogEvent> events_of_diagnosis(const std::string& path) {
+  const json diagnosis = json::parse(read_file(path, kMostBytes), nullptr, false);
+  std::vector<LogEvent> events;
+  try {
+    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, path, "");
+    for (const json& fault : diagnosis.at("faults")) add_events(fault, events);
+  } catch (const std::exception&) {
+    throw Error(
+        ErrorCode::input, path,
+        std::string("is no diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const LogEvent& a, const LogEvent& b) { return a.time_s < b.time_s; });
+  return events;
+}
+
+}  // namespace faultline

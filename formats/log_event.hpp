@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace faultline {
+
+/// Something that happened during a log, for formats that hold it beside the rows.
+struct LogEvent {
+  double time_s = 0.0;
+  bool grave = false;  ///< an error rather than a remark
+  std::string text;
+};
+
+}  // namespace faultline
