@@ -177,8 +177,9 @@ bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_
     start[other] = static_cast<hsize_t>(column);
     count[other] = static_cast<hsize_t>(columns);
   }
-  const auto all = static_cast<hsize_t>(rows * (shape_.size() > 1 ? columns : 1));
-  const Hdf5Id space(H5Dget_space(dataset_), H5Sclose), memory(H5Screate_simple(1, &all, nullptr), H5Sclose);
+  // A memory of the same shape lets the library copy whole chunks.
+  const Hdf5Id space(H5Dget_space(dataset_), H5Sclose),
+      memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   return H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
          H5Dread(dataset_, memory_type_, memory, space, H5P_DEFAULT, to) >= 0;
 }
