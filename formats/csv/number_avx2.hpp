@@ -36,7 +36,7 @@ inline constexpr std::array<double, kExactDigits + 1> kPowersOfTen = {
 /// Digits as numbers from 0 to 9; any other character becomes more than 9.
 FAULTLINE_AVX2_INLINE __m256i digits_at(const char* p) {
   const __m256i bytes = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-  return _mm256_sub_epi8(bytes, _mm256_set1_epi8('0'));
+  return _mm256_xor_si256(bytes, _mm256_set1_epi16('0' * 0x101));
 }
 
 FAULTLINE_AVX2_INLINE __m256i last_bytes(unsigned count) {
@@ -45,7 +45,7 @@ FAULTLINE_AVX2_INLINE __m256i last_bytes(unsigned count) {
 
 /// A bit for each byte that is no digit, the highest for the last one.
 FAULTLINE_AVX2_INLINE std::uint32_t others_of(__m256i digits) {
-  const __m256i is_digit = _mm256_cmpeq_epi8(_mm256_min_epu8(digits, _mm256_set1_epi8(9)), digits);
+  const __m256i is_digit = _mm256_cmpeq_epi8(_mm256_min_epu8(digits, _mm256_set1_epi16(9 * 0x101)), digits);
   return ~static_cast<std::uint32_t>(_mm256_movemask_epi8(is_digit));
 }
 
@@ -70,10 +70,13 @@ FAULTLINE_AVX2_INLINE std::uint64_t sign_bit_of(char c) {
 struct Decimal {
   std::uint64_t sign_bit = 0;
   unsigned digits = 0, decimals = 0;
-  std::uint64_t upper = 0, lower = 0;
+  std::uint64_t upper = 0;
+  __m128i lower{};  ///< in its lower half
 
   bool fits() const { return upper <= kMostUpper; }
-  std::uint64_t mantissa() const { return upper * 10000000000000000 + lower; }
+  FAULTLINE_AVX2_INLINE std::uint64_t mantissa() const {
+    return upper * 10000000000000000 + static_cast<std::uint64_t>(_mm_cvtsi128_si64(lower));
+  }
 };
 
 /// Reads [-]digits with a decimal sign anywhere, of no more bytes than fit; false when it is anything else.
@@ -94,8 +97,19 @@ FAULTLINE_AVX2_INLINE bool read_decimal(const char* begin, const char* end, char
   const __m256i sixteens = sixteens_of(_mm256_and_si256(joint, last_bytes(total)));
   decimal = {sign_bit, total, decimals,
              static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm256_castsi256_si128(sixteens))),
-             static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm256_extracti128_si256(sixteens, 1)))};
+             _mm256_extracti128_si256(sixteens, 1)};
   return true;
+}
+
+/// mantissa / 10^decimals where both are exact doubles.
+FAULTLINE_AVX2_INLINE double quotient_of(const Decimal& decimal) {
+  // With these bits above its own, a number below 2^52 is a double of 2^52 more.
+  constexpr double kTwoTo52 = 4503599627370496.0;
+  const __m128i above = _mm_set1_epi64x(std::bit_cast<std::int64_t>(kTwoTo52));
+  const double mantissa = _mm_cvtsd_f64(_mm_castsi128_pd(_mm_or_si128(decimal.lower, above))) - kTwoTo52;
+  // The divisor takes the sign, so that -0 comes out, too.
+  const auto divisor = std::bit_cast<std::uint64_t>(kPowersOfTen[decimal.decimals]) | decimal.sign_bit;
+  return mantissa / std::bit_cast<double>(divisor);
 }
 
 /// The double next to mantissa / 10^decimals by the method of Eisel and Lemire; false where that takes more
@@ -161,9 +175,7 @@ FAULTLINE_AVX2_INLINE bool read_number(const char* begin, const char* end, char 
   Decimal decimal;
   if (read_decimal(begin, end, sign, decimal)) [[likely]] {
     if (decimal.digits <= kExactDigits) {
-      // The divisor takes the sign, so that -0 comes out, too.
-      const auto divisor = std::bit_cast<std::uint64_t>(kPowersOfTen[decimal.decimals]) | decimal.sign_bit;
-      value = static_cast<double>(static_cast<std::int64_t>(decimal.lower)) / std::bit_cast<double>(divisor);
+      value = quotient_of(decimal);
       return true;
     }
     const std::uint64_t mantissa = decimal.mantissa();

@@ -54,8 +54,9 @@ FAULTLINE_AVX2 int WideRows::find_ends(const char* text, int size) {
 }
 
 /// Reads the row at `p`, whose fields have the next `ends`; returns what is behind it, or null.
-FAULTLINE_AVX2 const char* WideRows::read_row(const char* text, const char* p, const std::uint32_t* ends,
-                                              const std::vector<double*>& columns, int row) const {
+FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const char* p,
+                                                     const std::uint32_t* ends,
+                                                     const std::vector<double*>& columns, int row) const {
   const int fields = static_cast<int>(columns.size());
   const char* end = text + ends[fields - 1];
   if (*end != '\n') return nullptr;
@@ -76,8 +77,8 @@ FAULTLINE_AVX2 const char* WideRows::read_row(const char* text, const char* p, c
   return p;
 }
 
-int WideRows::read(const char*& p, const char* end, const std::vector<double*>& columns, int row,
-                   int max_rows) {
+FAULTLINE_AVX2 int WideRows::read(const char*& p, const char* end, const std::vector<double*>& columns,
+                                  int row, int max_rows) {
   const int fields = static_cast<int>(columns.size()), first = row;
   while (fields > 0 && row < max_rows && p < end) {
     const char* const text = p;
