@@ -30,8 +30,7 @@ FAULTLINE_AVX2_INLINE std::uint64_t end_bits(const char* p, __m256i separator, _
 
 bool WideRows::can_read() const {
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
-                               __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") &&
-                               __builtin_cpu_supports("popcnt");
+                               __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
   return has_avx2 && separator_ != ' ';
 }
 
