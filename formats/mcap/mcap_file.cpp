@@ -16,11 +16,14 @@ constexpr int kZstdLevel = 1;
 constexpr std::size_t kIndexEntry = 16;
 constexpr std::size_t kTime = 8, kCount = 8;  // bytes of a number in a map
 
+const char* name_of(McapPacking packing) { return packing == McapPacking::zstd ? "zstd" : ""; }
+
 std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-std::string packed(std::string_view bytes) {
+std::string packed(std::string_view bytes, McapPacking packing) {
+  if (packing == McapPacking::none) return std::string(bytes);
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kZstdLevel);
   if (ZSTD_isError(size)) throw Error(ErrorCode::internal, "zstd", ZSTD_getErrorName(size));
@@ -40,7 +43,7 @@ void put_map(ByteBuilder& out, const std::map<std::uint16_t, std::uint64_t>& val
 
 }  // namespace
 
-McapFile::McapFile(const std::string& path) : file_(path) {
+McapFile::McapFile(const std::string& path, McapPacking packing) : file_(path), packing_(packing) {
   write(kMcapMagic);
   write_record(McapOp::header, ByteBuilder().put_text("ros2").put_text("faultline").bytes());
 }
@@ -82,10 +85,10 @@ void McapFile::message(std::uint16_t channel, std::uint64_t time_ns, std::string
 void McapFile::end_chunk() {
   const std::string& inside = chunk_.bytes();
   if (inside.empty()) return;
-  const std::string small = packed(inside);
+  const std::string small = packed(inside, packing_);
   ByteBuilder content;
   content.put(first_ns_).put(last_ns_).put(static_cast<std::uint64_t>(inside.size())).put(crc_of(inside));
-  content.put_text("zstd").put(static_cast<std::uint64_t>(small.size())).put_bytes(small);
+  content.put_text(name_of(packing_)).put(static_cast<std::uint64_t>(small.size())).put_bytes(small);
   ChunkPlace place{first_ns_, last_ns_,     written_,      kMcapRecordHead + content.bytes().size(),
                    0,         small.size(), inside.size(), {}};
   write_record(McapOp::chunk, content.bytes());
@@ -134,7 +137,7 @@ void McapFile::write_summary() {
     ByteBuilder index;
     index.put(chunk.first_ns).put(chunk.last_ns).put(chunk.begin).put(chunk.size);
     put_map(index, chunk.index_of);
-    index.put(chunk.index_size).put_text("zstd").put(chunk.packed).put(chunk.unpacked);
+    index.put(chunk.index_size).put_text(name_of(packing_)).put(chunk.packed).put(chunk.unpacked);
     put_record(summary, McapOp::chunk_index, index.bytes());
   }
   const std::uint64_t begin = written_;

@@ -22,11 +22,14 @@ struct McapTopic {
   std::string message_encoding;  ///< "cdr", "json"
 };
 
-/// Writes an MCAP file: chunks compressed with zstd, their index, statistics and a summary, so that programs
+/// How the chunks of a file that is written are compressed.
+enum class McapPacking { none, zstd };
+
+/// Writes an MCAP file: chunks, their index, statistics and a summary, so that programs
 /// can jump in it. It appears under its name at finish() only.
 class McapFile {
  public:
-  explicit McapFile(const std::string& path);
+  explicit McapFile(const std::string& path, McapPacking packing = McapPacking::zstd);
 
   /// The number of the channel, for message().
   std::uint16_t add_topic(const McapTopic& topic);
@@ -53,6 +56,7 @@ class McapFile {
   void write_summary();
 
   AtomicFile file_;
+  McapPacking packing_;
   std::uint64_t written_ = 0;
   std::string definitions_;  ///< schema and channel records
   ByteBuilder chunk_;

@@ -56,7 +56,8 @@ bool McapRecords::is_record(std::string_view bytes) const {
   if (op == McapOp::chunk) return is_chunk(head.rest(), size);
   if (op == McapOp::data_end) return size == kDataEndSize;
   if (op == McapOp::footer)
-    return size == kFooterSize && head.rest().substr(kFooterSize).starts_with(kMcapMagic);
+    return size == kFooterSize &&
+           head.rest().substr(std::min<std::size_t>(kFooterSize, head.rest().size())).starts_with(kMcapMagic);
   if (op != McapOp::message || size < kMessageHead) return false;
   const int topic = topics_.topic_of(head.take<std::uint16_t>());
   head.take<std::uint32_t>();
