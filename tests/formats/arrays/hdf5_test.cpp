@@ -5,8 +5,8 @@
 
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "tests/formats/arrays/python.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"
+#include "tests/support/run_python.hpp"
 
 namespace faultline {
 namespace {
