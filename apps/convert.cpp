@@ -66,6 +66,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
       .claim();
   OpenLogOptions options;
   options.parts = arguments.parts;
+  options.parts.hashed = false;  // provenance asks for it itself
   if (!arguments.robot.empty()) {
     const LogMeaning meaning = load_robot_file(arguments.robot).log;
     options.columns = meaning.columns;

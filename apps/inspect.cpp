@@ -34,10 +34,12 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
   std::optional<Robot> robot;
   if (!arguments.robot.empty()) robot = load_robot_file(arguments.robot);
   std::vector<Inspection> inspections;
+  LogSelection parts = arguments.parts;
+  parts.hashed = !arguments.json.empty() || !arguments.html.empty();
   for (const std::string& log : arguments.logs) {
     const int result = guarded([&] {
       ProgressBar bar(color);
-      inspections.push_back(inspect_log(log, robot, bar.callback(), arguments.parts));
+      inspections.push_back(inspect_log(log, robot, bar.callback(), parts));
       return inspections.back().severe() ? kFindings : kNothingFound;
     });
     status = std::max(status, result);

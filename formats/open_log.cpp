@@ -32,9 +32,9 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed) {
 }
 
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
-                                      const RecordingChoice& choice, bool hashed) {
+                                      const RecordingChoice& choice) {
   // The hash of a log of several files is one of theirs.
-  const bool all_hashed = hashed || !parts.then.empty() || !parts.join.empty();
+  const bool all_hashed = parts.hashed || !parts.then.empty() || !parts.join.empty();
   const auto open_chosen = [&](const std::string& file) {
     auto reader = open_raw(file, all_hashed);
     reader->choose(choice);
@@ -55,7 +55,7 @@ std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelectio
 
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
   return std::make_unique<MappedSource>(
-      open_parts(path, options.parts, options.recording, options.hashed),
+      open_parts(path, options.parts, options.recording),
       MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra});
 }
 

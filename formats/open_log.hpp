@@ -18,6 +18,7 @@ struct LogSelection {
   std::vector<std::string> join{};  ///< files with more columns of it
   JoinBy by = JoinBy::automatic;    ///< how their rows are found
   int run = 1;                      ///< where the clock restarts, from 1
+  bool hashed = true;               ///< identity() has the SHA-256; text is read in half the time without
 };
 
 struct OpenLogOptions {
@@ -26,8 +27,7 @@ struct OpenLogOptions {
   RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
   int segment_rows = 4096;      ///< rows of a segment at most; changes no byte of any result
   bool keep_extra =
-      true;            ///< hand out columns without a canonical meaning too; without them reading is faster
-  bool hashed = true;  ///< identity() has the file's SHA-256; text is read in half the time without
+      true;  ///< hand out columns without a canonical meaning too; without them reading is faster
 };
 
 /// Opens a log of any known format, told by its content first, then by its extension. Throws Error(input)
@@ -39,6 +39,6 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed = true)
 
 /// The same of a log of several files: `choice` holds for each of them.
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
-                                      const RecordingChoice& choice, bool hashed = true);
+                                      const RecordingChoice& choice);
 
 }  // namespace faultline

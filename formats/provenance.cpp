@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/hash.hpp"
 #include "lib/core/issue_json.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
@@ -53,7 +54,7 @@ std::string provenance_of(const LogSource& source) {
   const LogIdentity& log = source.identity();
   const Json json{{"schema", kSchema},
                   {"source", std::filesystem::path(log.path).filename().string()},
-                  {"sha256", log.sha256},
+                  {"sha256", log.sha256.empty() ? sha256_of_file(log.path) : log.sha256},
                   {"rows_read", log.rows_read},
                   {"rows_left_out", source.issues().rows_dropped()},
                   {"losses", losses}};

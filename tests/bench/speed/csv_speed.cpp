@@ -72,7 +72,7 @@ Sum read_table(const char* path) {
 
 Sum read_log(const char* path, bool hashed, bool ahead) {
   OpenLogOptions options;
-  options.hashed = hashed;
+  options.parts.hashed = hashed;
   auto source = open_log(path, options);
   if (ahead) source = prefetched(std::move(source));
   Log segment;
