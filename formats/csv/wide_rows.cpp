@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #if defined(__x86_64__)
 
@@ -59,6 +60,7 @@ FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const cha
   const int fields = static_cast<int>(columns.size());
   const char* end = text + ends[fields - 1];
   if (*end != '\n') return nullptr;
+  bool any = false;  // number; a line without may be a blank one
   for (int field = 0; field < fields; ++field, p = end + 1) {
     end = text + ends[field];
     const char* last = end;
@@ -68,12 +70,17 @@ FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const cha
       return nullptr;
     while (*p == ' ') ++p;
     if (double* values = columns[field]) {
-      if (!avx2::read_number(p, last, decimal_, values[row])) return nullptr;
+      if (p == last)
+        values[row] = std::numeric_limits<double>::quiet_NaN();
+      else if (avx2::read_number(p, last, decimal_, values[row]))
+        any = true;
+      else
+        return nullptr;
     } else if (std::memchr(p, '"', static_cast<std::size_t>(last - p))) {
       return nullptr;
     }
   }
-  return p;
+  return any ? p : nullptr;
 }
 
 FAULTLINE_AVX2 int WideRows::read(const char*& p, const char* end, const std::vector<double*>& columns,

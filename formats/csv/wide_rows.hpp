@@ -7,9 +7,9 @@
 
 namespace faultline {
 
-/// Reads rows of nothing but numbers and separators with the processor's 32-byte registers: first where the
-/// fields end, some KiB of text at a time, then each number between two ends, which need not wait for the one
-/// before it. The numbers are those that read_number() gives.
+/// Reads rows of nothing but numbers, separators and empty cells (NaN) with the processor's 32-byte
+/// registers: first where the fields end, some KiB of text at a time, then each number between two ends,
+/// which need not wait for the one before it. The numbers are those that read_number() gives.
 class WideRows {
  public:
   WideRows(char separator, char decimal) : separator_(separator), decimal_(decimal) {}

@@ -186,5 +186,20 @@ TEST(CsvNumber, WhatIsNoNumberIsNotReadAsOne) {
   }
 }
 
+TEST(CsvNumber, AnEmptyCellIsMissingButARowOfThemIsLeftToOthers) {
+  WideRows wide('\t', '.');
+  if (!wide.can_read()) GTEST_SKIP() << "this processor reads numbers one by one";
+  std::string text = std::string(kNumberMargin, '1') + "0.5\t\n\t2.5\r\n\t \r\n";
+  const std::size_t size = text.size();
+  text.append(kNumberMargin, '1');
+  std::vector<double> first(3, 0.0), second(3, 0.0);
+  const char* p = text.data() + kNumberMargin;
+  EXPECT_EQ(wide.read(p, text.data() + size, {first.data(), second.data()}, 0, 3), 2);
+  EXPECT_EQ(p, text.data() + size - 4);
+  EXPECT_TRUE(std::isnan(second[0]) && std::isnan(first[1]));
+  EXPECT_EQ(first[0], 0.5);
+  EXPECT_EQ(second[1], 2.5);
+}
+
 }  // namespace
 }  // namespace faultline
