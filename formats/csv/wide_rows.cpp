@@ -2,6 +2,7 @@
 #include "formats/csv/wide_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -25,6 +26,11 @@ FAULTLINE_AVX2_INLINE std::uint64_t end_bits(const char* p, __m256i separator, _
   return static_cast<std::uint32_t>(_mm256_movemask_epi8(lower_ends)) |
          static_cast<std::uint64_t>(static_cast<std::uint32_t>(_mm256_movemask_epi8(upper_ends)))
              << avx2::kWidth;
+}
+
+bool has_number(const std::vector<double*>& columns, int row) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [row](const double* values) { return values && !std::isnan(values[row]); });
 }
 
 }  // namespace
@@ -60,7 +66,7 @@ FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const cha
   const int fields = static_cast<int>(columns.size());
   const char* end = text + ends[fields - 1];
   if (*end != '\n') return nullptr;
-  bool any = false;  // number; a line without may be a blank one
+  bool some_empty = false;
   for (int field = 0; field < fields; ++field, p = end + 1) {
     end = text + ends[field];
     const char* last = end;
@@ -70,17 +76,18 @@ FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const cha
       return nullptr;
     while (*p == ' ') ++p;
     if (double* values = columns[field]) {
-      if (p == last)
+      if (p == last) {
         values[row] = std::numeric_limits<double>::quiet_NaN();
-      else if (avx2::read_number(p, last, decimal_, values[row]))
-        any = true;
-      else
+        some_empty = true;
+      } else if (!avx2::read_number(p, last, decimal_, values[row])) {
         return nullptr;
+      }
     } else if (std::memchr(p, '"', static_cast<std::size_t>(last - p))) {
       return nullptr;
     }
   }
-  return any ? p : nullptr;
+  // A line without any number may be a blank one or a comment.
+  return some_empty && !has_number(columns, row) ? nullptr : p;
 }
 
 FAULTLINE_AVX2 int WideRows::read(const char*& p, const char* end, const std::vector<double*>& columns,
