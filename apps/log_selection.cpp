@@ -12,7 +12,7 @@ void add_log_selection(CLI::App& command, LogSelection& parts) {
       {"auto", JoinBy::automatic}, {"row", JoinBy::row}, {"time", JoinBy::time}};
   command.add_option("--join", parts.join, "A file with more columns of the log; may be given several times")
       ->type_name("FILE")
-      ->expected(1);
+      ->allow_extra_args(false);
   command
       .add_option("--join-by", parts.by,
                   "How rows belong together: time, row, or auto (by time where both have one)")
@@ -20,7 +20,7 @@ void add_log_selection(CLI::App& command, LogSelection& parts) {
       ->type_name("HOW");
   command.add_option("--then", parts.then, "A file in which the log goes on; may be given several times")
       ->type_name("FILE")
-      ->expected(1);
+      ->allow_extra_args(false);
   command.add_option("--run", parts.run, "Which run of a file in which the clock restarts, from 1")
       ->check(CLI::PositiveNumber)
       ->type_name("N");

@@ -194,7 +194,7 @@ void StoredArrays::finish() {
       crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(piece.data()), got);
     if (crc != *content.crc) tell_mismatch(content.name);
   }
-  for (const auto& [key, stream] : streams_)
+  for (auto& [key, stream] : streams_)
     if (stream.mismatch()) tell_mismatch(list_.contents[list_.arrays[key.first].content].name);
 }
 

@@ -78,7 +78,7 @@ struct ContentStream::Inflater {
     stream.avail_in = 0;
     taken = position = 0;
     crc = 0;
-    ended = false;
+    ended = wrong = false;
   }
 
   void fill() {
@@ -102,6 +102,7 @@ struct ContentStream::Inflater {
       const std::size_t more = room - stream.avail_out;
       got += more;
       ended = state == Z_STREAM_END;
+      wrong = wrong || state == Z_DATA_ERROR;
       const bool stuck = more == 0 && before == stream.avail_in;
       ok = state == Z_STREAM_END || (state == Z_OK && !stuck) || (state == Z_BUF_ERROR && !stuck);
     }
@@ -118,6 +119,7 @@ struct ContentStream::Inflater {
   std::int64_t position = 0;  ///< unpacked bytes
   unsigned long crc = 0;
   bool begun = false, ok = false, ended = false;
+  bool wrong = false;  ///< the compressed bytes, or what zlib checks them by
 };
 
 ContentStream::ContentStream(const RandomFile& file, const StoredContent& content)
@@ -143,8 +145,15 @@ std::size_t ContentStream::read(std::int64_t at, char* to, std::size_t count) {
   return inflater.next(to, count);
 }
 
-bool ContentStream::mismatch() const {
-  return inflater_ && content_.crc && inflater_->ended && inflater_->crc != *content_.crc;
+bool ContentStream::mismatch() {
+  if (!inflater_) return false;
+  if (content_.packing == Packing::deflate)
+    return content_.crc && inflater_->ended && inflater_->crc != *content_.crc;
+  // zlib checks at its end, behind the last number.
+  inflater_->passed.resize(kInputBytes);
+  while (inflater_->next(inflater_->passed.data(), kInputBytes) > 0) {
+  }
+  return inflater_->wrong;
 }
 
 }  // namespace faultline

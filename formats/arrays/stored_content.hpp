@@ -51,8 +51,8 @@ class ContentStream {
 
   /// Bytes read, fewer where the content ends or is damaged.
   std::size_t read(std::int64_t at, char* to, std::size_t count);
-  /// Whether all was read in its order and does not match the checksum.
-  bool mismatch() const;
+  /// Whether all was read in its order and does not match the checksum; of zlib, the rest is read for that.
+  bool mismatch();
 
  private:
   struct Inflater;

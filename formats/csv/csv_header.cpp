@@ -113,8 +113,9 @@ bool starts_with_stamp(const CsvLine& line) {
   const Cell seconds = read_cell(line.fields[0], '.'), nanoseconds = read_cell(line.fields[1], '.');
   const bool whole = line.fields[0].find('.') == std::string_view::npos &&
                      line.fields[1].find('.') == std::string_view::npos;
-  return whole && seconds.value > 1e9 && seconds.value < 4e9 && nanoseconds.value > 1e5 &&
-         nanoseconds.value < 1e9;
+  return whole && seconds.value > 1e9 && seconds.value < 4e9 && nanoseconds.value < 1e9 &&
+         (nanoseconds.value > 1e5 ||
+          (nanoseconds.value >= 0.0 && read_cell(line.fields[2], '.').kind != CellKind::number));
 }
 
 /// The fields of `ros2 topic echo --csv` of a JointState: stamp, frame, names, then the numbers of each
@@ -130,15 +131,6 @@ void name_joint_states(const CsvLine& row, std::vector<std::string>& names) {
   for (std::size_t a = 0; a < std::size(arrays); ++a)
     for (std::size_t j = 0; j < joints; ++j)
       names[kNamesBegin + (a + 1) * joints + j] = arrays[a] + std::to_string(j + 1);
-}
-
-/// Of a time without a unit that is so large that it can only count from 1970.
-std::string epoch_unit(const std::string& name, double value) {
-  constexpr double kEarliest = 3e8, kLatest = 4.2e9;  // s: 1979 to 2103
-  if (find_time_column({name}) < 0) return "";
-  for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, std::pair{"us", 1e6}, std::pair{"ns", 1e9}})
-    if (value >= kEarliest * factor && value <= kLatest * factor) return unit;
-  return "";
 }
 
 void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vector<std::string>& names) {
@@ -170,8 +162,8 @@ void make_columns(const Header& header, int fields, const CsvLine* row, CsvDiale
     RawColumn column{name.empty() ? "column" + std::to_string(i + 1) : parts.name, parts.unit};
     if (column.unit.empty() && i < static_cast<int>(units.size())) column.unit = units[i];
     if (column.name == "rosbagTimestamp") column.unit = "ns";
-    if (column.unit.empty() && row)
-      column.unit = epoch_unit(column.name, read_cell(row->fields[i], dialect.decimal).value);
+    if (column.unit.empty() && row && find_time_column({column.name}) >= 0)
+      column.unit = epoch_unit(read_cell(row->fields[i], dialect.decimal).value);
     dialect.columns.push_back(column);
     dialect.value_fields.push_back(i);
   }

@@ -18,9 +18,9 @@ void McapTopics::add_channel(std::string_view content) {
   const std::string_view name = record.text(), encoding = record.text();
   if (!record.ok() || topic_of_channel_.count(id)) return;
   const auto type = type_of_schema_.find(schema);
-  topic_of_channel_.emplace(id, static_cast<int>(topics_.size()));
-  topics_.push_back(
-      {std::string(name), type == type_of_schema_.end() ? "" : type->second, std::string(encoding)});
+  topic_of_channel_.emplace(
+      id, add_topic(topics_, {std::string(name), type == type_of_schema_.end() ? "" : type->second,
+                              std::string(encoding)}));
 }
 
 int McapTopics::topic_of(std::uint16_t channel) const {

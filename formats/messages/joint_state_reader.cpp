@@ -211,8 +211,9 @@ class JointStateReader : public RawReader {
     if (unknown)
       issues_.add(
           {"joints_appear_late", "", Severity::severe,
-           fmt::format("message {} speaks of joints that no earlier one had; their values were left out",
-                       identity_.rows_read),
+           fmt::format(
+               "message {} speaks of joints that no earlier one had, or of one twice; their values were left out",
+               identity_.rows_read),
            identity_.rows_read});
     const auto missing = std::find(placing.is_present.begin(), placing.is_present.end(), false);
     if (missing == placing.is_present.end()) return;

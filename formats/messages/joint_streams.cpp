@@ -114,8 +114,9 @@ void JointStreams::place(Pattern& pattern) const {
   placing.is_present.assign(joints.size(), false);
   for (std::size_t i = 0; i < pattern.names.size(); ++i) {
     const int joint = index_of(joints, pattern.names[i]);
+    if (joint < 0 || placing.is_present[joint]) continue;  // not known, or named twice
     placing.joint_of[i] = joint;
-    if (joint >= 0) placing.is_present[joint] = true;
+    placing.is_present[joint] = true;
   }
   const auto all = [](const auto& values, auto holds) {
     return std::all_of(values.begin(), values.end(), holds);

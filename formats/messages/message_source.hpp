@@ -15,7 +15,13 @@ struct Topic {
   std::string name;
   std::string type;      ///< such as "sensor_msgs/msg/JointState"
   std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
+
+  bool operator==(const Topic&) const = default;
 };
+
+/// The index of a topic, which is added unless it is there: what a second publisher or a driver that was
+/// started again sends belongs to the same one.
+int add_topic(std::vector<Topic>& topics, const Topic& topic);
 
 /// One message. The bytes are valid until the next one is asked for.
 struct Message {

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "formats/parts/joined_reader.hpp"
+#include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
@@ -14,7 +16,10 @@ namespace {
 class ContinuedReader : public RawReader {
  public:
   explicit ContinuedReader(std::vector<std::unique_ptr<RawReader>> files) : files_(std::move(files)) {
-    for (const auto& file : files_) places_.push_back(places_in(*file));
+    for (const auto& file : files_) {
+      places_.push_back(places_in(*file));
+      factors_.push_back(factors_in(*file, places_.back()));
+    }
     identity_ = files_.front()->identity();
     wanted_.assign(columns().size(), true);
   }
@@ -86,6 +91,25 @@ class ContinuedReader : public RawReader {
     return places;
   }
 
+  /// What turns the numbers of its columns into the first file's units.
+  std::vector<double> factors_in(const RawReader& file, const std::vector<int>& places) const {
+    std::vector<double> factors(places.size(), 1.0);
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      if (places[c] < 0) continue;
+      const std::string &ours = columns()[c].unit, &theirs = file.columns()[places[c]].unit;
+      if (ours == theirs) continue;
+      const auto from = known_unit(theirs), to = known_unit(ours);
+      if (!from || !to || from->dimension != to->dimension)
+        throw Error(
+            ErrorCode::input, file.identity().path,
+            fmt::format("has column \"{}\" in \"{}\", the first file of the log in \"{}\"; write both in "
+                        "one unit",
+                        columns()[c].name, theirs, ours));
+      factors[c] = from->factor / to->factor;
+    }
+    return factors;
+  }
+
   void take(RawBlock& block) {
     block.first_row = rows_before_ + theirs_.first_row;
     block.rows = theirs_.rows;
@@ -96,6 +120,8 @@ class ContinuedReader : public RawReader {
         block.columns[c].swap(theirs_.columns[place]);
       else
         block.columns[c].assign(block.rows, std::numeric_limits<double>::quiet_NaN());
+      if (const double factor = factors_[at_][c]; factor != 1.0)
+        for (double& value : block.columns[c]) value *= factor;
     }
   }
 
@@ -106,9 +132,10 @@ class ContinuedReader : public RawReader {
   }
 
   std::vector<std::unique_ptr<RawReader>> files_;
-  std::vector<std::vector<int>> places_;  ///< by file and column: the file's column, -1 for none
-  std::size_t at_ = 0;                    ///< file that is being read
-  std::int64_t rows_before_ = 0;          ///< of the files before it
+  std::vector<std::vector<int>> places_;      ///< by file and column: the file's column, -1 for none
+  std::vector<std::vector<double>> factors_;  ///< by file and column, to the first file's units
+  std::size_t at_ = 0;                        ///< file that is being read
+  std::int64_t rows_before_ = 0;              ///< of the files before it
   RawBlock theirs_;
   std::vector<bool> wanted_;
   LogIdentity identity_;

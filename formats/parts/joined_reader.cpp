@@ -123,6 +123,7 @@ class JoinedReader : public RawReader {
     std::vector<std::string> hashes{first_->identity().sha256};
     RawBlock rest;
     for (Joined& joined : joined_) {
+      joined.partner.read_rest();
       while (joined.partner.reader().next(rest, 4096)) {
       }
       hashes.push_back(joined.partner.reader().identity().sha256);

@@ -27,7 +27,7 @@ void Partner::rewind() {
   at_ = -1;
   ended_ = has_before_ = has_behind_ = false;
   step_s_ = 0.0;
-  without_ = between_ = asked_ = 0;
+  without_ = between_ = asked_ = passed_ = 0;
 }
 
 bool Partner::next_row() {
@@ -60,6 +60,11 @@ void Partner::read_sample(Sample& sample) {
   for (std::size_t c = 0; c < block_.columns.size(); ++c) sample.values[c] = block_.columns[c][at_];
 }
 
+void Partner::read_rest() {
+  if (time_) return;
+  while (next_row()) ++passed_;
+}
+
 /// The next row whose time is behind that of the last one; others cannot be found by time.
 bool Partner::advance() {
   if (has_behind_) {
@@ -71,6 +76,7 @@ bool Partner::advance() {
   while (!has_behind_ && next_row()) {
     read_sample(behind_);
     has_behind_ = std::isfinite(behind_.time_s) && (!has_before_ || behind_.time_s > before_.time_s);
+    passed_ += !has_behind_;
   }
   return has_behind_;
 }
@@ -102,6 +108,10 @@ Issues Partner::issues() const {
         {"join_without_partner", "", Severity::warning,
          fmt::format("{} of {} rows have no row of {} that belongs to them; its values are missing there",
                      without_, asked_, path)});
+  if (passed_ > 0)
+    issues.add({"join_rows_left", "", Severity::warning,
+                fmt::format("{} rows of {} belong to no row of the log: {}", passed_, path,
+                            time_ ? "their time runs back or is missing" : "they are behind its last one")});
   if (between_ > 0)
     issues.add({"join_interpolated", "", Severity::note,
                 fmt::format("{} of {} rows lie between two of {}; its values were interpolated linearly",

@@ -25,6 +25,8 @@ class Partner {
   /// Writes the values of the file's columns into values[column][row], for a row of the other file with this
   /// number and time.
   void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values);
+  /// After the last give(): rows that were never asked for.
+  void read_rest();
   void rewind();
   /// What the file itself has to tell, and how well its rows fitted.
   Issues issues() const;
@@ -50,7 +52,7 @@ class Partner {
   Sample before_, behind_;  ///< of the time that was asked for last
   bool has_before_ = false, has_behind_ = false;
   double step_s_ = 0.0;  ///< between the two rows before
-  std::int64_t without_ = 0, between_ = 0, asked_ = 0;
+  std::int64_t without_ = 0, between_ = 0, asked_ = 0, passed_ = 0;
 };
 
 }  // namespace faultline

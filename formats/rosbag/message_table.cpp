@@ -82,8 +82,9 @@ void MessageTable::read_topics() {
         "topics and messages. Export it as CSV",
         sqlite3_errmsg(db_)));
   while (sqlite3_step(topics.get()) == SQLITE_ROW) {
-    topic_of_id_.emplace(sqlite3_column_int64(topics.get(), 0), static_cast<int>(topics_.size()));
-    topics_.push_back({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)});
+    topic_of_id_.emplace(
+        sqlite3_column_int64(topics.get(), 0),
+        add_topic(topics_, {text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
   }
 }
 

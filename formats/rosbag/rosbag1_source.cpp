@@ -180,9 +180,8 @@ class Rosbag1Source : public MessageSource {
   void add_connection(const Rosbag1Fields& fields, std::string_view data) {
     const std::uint32_t id = fields.word("conn");
     if (topic_of_.count(id)) return;
-    topic_of_.emplace(id, static_cast<int>(topics_.size()));
-    topics_.push_back(
-        {std::string(fields.text("topic")), std::string(Rosbag1Fields(data).text("type")), "ros1"});
+    topic_of_.emplace(id, add_topic(topics_, {std::string(fields.text("topic")),
+                                              std::string(Rosbag1Fields(data).text("type")), "ros1"}));
   }
 
   bool read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {

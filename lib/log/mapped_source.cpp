@@ -12,6 +12,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
+#include "lib/log/units.hpp"
 
 namespace faultline {
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
@@ -90,6 +91,7 @@ bool MappedSource::fill(Log& segment) {
     segment_first_row_ = waiting_file_row_;
     return true;
   }
+  if (!epoch_found_) find_epoch();
   take_block(segment);
   segment_first_row_ = block_.first_row;
   if (waiting_.rows() > 0) put_waiting_row_first(segment);
@@ -127,6 +129,15 @@ void MappedSource::take_block(Log& segment) {
     segment.extra[i].unit = column.unit;
     segment.extra[i].values.swap(block_.columns[matching_.extra[i]]);
   }
+}
+
+/// A time that only counts from 1970 in a unit that nobody told gets it by its first row.
+void MappedSource::find_epoch() {
+  epoch_found_ = true;
+  ChannelSource& time = matching_.channels.front();
+  if (time.column < 0 || !time.unchanged() || block_.columns[time.column].empty()) return;
+  const char* unit = epoch_unit(block_.columns[time.column].front());
+  time.gain = *si_factor(unit);
 }
 
 void MappedSource::take(const ChannelSource& source, std::vector<double>& values) {

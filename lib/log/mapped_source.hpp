@@ -35,6 +35,7 @@ class MappedSource : public LogSource {
  private:
   bool fill(Log& segment);
   void take_block(Log& segment);
+  void find_epoch();
   void put_waiting_row_first(Log& segment);
   void take(const ChannelSource& source, std::vector<double>& values);
   std::vector<double>& channel_of(Log& log, Channel channel) const;
@@ -53,6 +54,7 @@ class MappedSource : public LogSource {
   std::int64_t waiting_file_row_ = 0;   ///< data row of the waiting one, from 0
   std::int64_t rows_kept_ = 0;
   bool at_end_ = false;
+  bool epoch_found_ = false;  ///< or looked for
   Issues cleaning_issues_;
   mutable Issues issues_;          ///< gathered when asked for
   mutable bool gathered_ = false;  ///< whether issues_ holds all so far

@@ -43,7 +43,8 @@ Units known_units() {
   add(Dimension::angular_speed, 1.0, {"rad/s", "rad/sec", "rads-1", "rads^-1"});
   add(Dimension::angular_speed, 1e-3, {"mrad/s"});
   add(Dimension::angular_speed, kDegree,
-      {"deg/s", "deg/sec", "°/s", "°/sec", "grad/s", "degrees/s", "degrés/s", "grados/s", "gradi/s", "º/s"});
+      {"deg/s", "deg/sec", "°/s", "°/sec", "grad/s", "degrees/s", "dps", "degps", "degrés/s", "grados/s",
+       "gradi/s", "º/s"});
   add(Dimension::angular_speed, kTurn / 60.0,
       {"rpm", "rev/min", "1/min", "u/min", "tr/min", "giri/min", "min-1", "min^-1"});
   add(Dimension::angular_speed, kTurn, {"rev/s"});
@@ -76,8 +77,9 @@ std::string plain(std::string_view unit) {
 
 /// Units that are one after an underscore too; "_m", "_a" or "_min" more often mean something else.
 bool is_clear_suffix(std::string_view unit) {
-  for (const char* known :
-       {"s", "sec", "ms", "msec", "us", "usec", "ns", "nsec", "deg", "rad", "mm", "rpm", "nm"})
+  for (const char* known : {"s",      "sec",     "ms",  "msec",  "us",    "usec",  "ns",   "nsec",    "deg",
+                            "rad",    "mm",      "rpm", "nm",    "mnm",   "ncm",   "knm",  "percent", "%",
+                            "degree", "degrees", "dps", "degps", "rad/s", "deg/s", "mm/s", "m/s"})
     if (plain(unit) == known) return true;
   return false;
 }
@@ -101,6 +103,15 @@ std::optional<double> si_factor(std::string_view unit) {
   const auto known = known_unit(unit);
   if (!known) return std::nullopt;
   return known->factor;
+}
+
+const char* epoch_unit(double time) {
+  constexpr double kEarliest_s = 3e8, kLatest_s = 4.2e9;  // 1979 to 2103
+  for (const char* unit : {"ms", "us", "ns"}) {
+    const double seconds = time * *si_factor(unit);
+    if (seconds >= kEarliest_s && seconds <= kLatest_s) return unit;
+  }
+  return "";
 }
 
 NameAndUnit split_unit(std::string_view text) {

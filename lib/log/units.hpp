@@ -34,6 +34,10 @@ std::optional<Unit> known_unit(std::string_view unit);
 /// give 1. Capitals matter only for prefixes ("mm"); nullopt for a unit that is not known.
 std::optional<double> si_factor(std::string_view unit);
 
+/// "ms", "us" or "ns" for a time that is so large that it can only count in that unit from 1970; "" for any
+/// other.
+const char* epoch_unit(double time);
+
 /// Separates a unit written behind a name, as in "q1 [deg]", "q1 (deg)" or "time_ms"; unit is empty when
 /// there is none. After an underscore only units count that hardly mean anything else there.
 struct NameAndUnit {

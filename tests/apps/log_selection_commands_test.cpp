@@ -21,6 +21,9 @@ TEST(LogSelectionOptions, ConvertWritesOneLogOfSeveralFiles) {
   EXPECT_EQ(joined.out, "t,q1,tau1\n0,1,10\n0.1,2,20\n0.2,3,30\n");
   const ProgramRun longer = run_program({"convert", q, "-", "--then", next});
   EXPECT_EQ(longer.out, "t,q1\n0,1\n0.1,2\n0.2,3\n0.3,4\n");
+  const std::string last = folder.write("last.csv", "t,q1\n0.4,5\n");
+  const ProgramRun all = run_program({"convert", "--then", next, q, "--then", last, "-"});
+  EXPECT_EQ(all.out, "t,q1\n0,1\n0.1,2\n0.2,3\n0.3,4\n0.4,5\n") << all.err;
 }
 
 TEST(LogSelectionOptions, InspectSeesTheJoinedColumns) {

@@ -12,7 +12,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-class LogPartsTest : public testing::Test {
+class LogSelectionTest : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) { return folder_.write(name, text); }
   static Log read(const std::string& path, const LogSelection& parts) {
@@ -24,7 +24,7 @@ class LogPartsTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(LogPartsTest, FilesWithoutTimeAreJoinedRowByRow) {
+TEST_F(LogSelectionTest, FilesWithoutTimeAreJoinedRowByRow) {
   const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n2,3\n"),
                     current = file("c.csv", "tau1\n10\n20\n30\n");
   const Log log = read(position, {.join = {current}});
@@ -32,7 +32,7 @@ TEST_F(LogPartsTest, FilesWithoutTimeAreJoinedRowByRow) {
   EXPECT_EQ(log.tau[0], (Values{10, 20, 30}));
 }
 
-TEST_F(LogPartsTest, FilesWithTimeAreJoinedByItAndValuesBetweenRowsAreInterpolated) {
+TEST_F(LogSelectionTest, FilesWithTimeAreJoinedByItAndValuesBetweenRowsAreInterpolated) {
   const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n2,3\n3,4\n");
   const std::string current = file("c.csv", "t [ms],tau1\n0,10\n500,20\n1500,40\n2000,50\n2500,60\n");
   OpenLogOptions options;
@@ -50,7 +50,7 @@ TEST_F(LogPartsTest, FilesWithTimeAreJoinedByItAndValuesBetweenRowsAreInterpolat
   EXPECT_NE(source->issues().find("join_without_partner")->message.find("1 of 4 rows"), std::string::npos);
 }
 
-TEST_F(LogPartsTest, AWideGapOfTheOtherFileIsNotInterpolatedOver) {
+TEST_F(LogSelectionTest, AWideGapOfTheOtherFileIsNotInterpolatedOver) {
   std::string position = "t,q1\n", current = "t,tau1\n";
   for (int i = 0; i < 100; ++i) {
     position += std::to_string(i) + "," + std::to_string(i % 7) + "\n";
@@ -60,7 +60,7 @@ TEST_F(LogPartsTest, AWideGapOfTheOtherFileIsNotInterpolatedOver) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(std::isnan(log.tau[0][i]), i >= 40 && i <= 60) << i;
 }
 
-TEST_F(LogPartsTest, AShorterFileLeavesTheRestMissing) {
+TEST_F(LogSelectionTest, AShorterFileLeavesTheRestMissing) {
   const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n2,3\n"), current = file("c.csv", "tau1\n10\n");
   const Log log = read(position, {.join = {current}});
   EXPECT_EQ(log.rows(), 3);
@@ -68,7 +68,7 @@ TEST_F(LogPartsTest, AShorterFileLeavesTheRestMissing) {
   EXPECT_TRUE(std::isnan(log.tau[0][2]));
 }
 
-TEST_F(LogPartsTest, AJoinByTimeOfAFileWithoutTimeIsRefused) {
+TEST_F(LogSelectionTest, AJoinByTimeOfAFileWithoutTimeIsRefused) {
   const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n"), current = file("c.csv", "tau1\n10\n20\n");
   try {
     read(position, {.join = {current}, .by = JoinBy::time});
@@ -79,7 +79,7 @@ TEST_F(LogPartsTest, AJoinByTimeOfAFileWithoutTimeIsRefused) {
   }
 }
 
-TEST_F(LogPartsTest, ALogGoesOnInTheNextFileWhateverTheOrderOfItsColumns) {
+TEST_F(LogSelectionTest, ALogGoesOnInTheNextFileWhateverTheOrderOfItsColumns) {
   const std::string first = file("1.csv", "t,q1,tau1\n0,1,5\n1,2,6\n"),
                     next = file("2.csv", "tau1,t,q1\n7,2,3\n8,3,4\n");
   const Log log = read(first, {.then = {next}});
@@ -88,7 +88,27 @@ TEST_F(LogPartsTest, ALogGoesOnInTheNextFileWhateverTheOrderOfItsColumns) {
   EXPECT_EQ(log.tau[0], (Values{5, 6, 7, 8}));
 }
 
-TEST_F(LogPartsTest, OneRunOfAFileInWhichTheClockRestartsIsRead) {
+TEST_F(LogSelectionTest, TheNextFileIsTurnedIntoTheUnitsOfTheFirst) {
+  const std::string first = file("1.csv", "t [s],q1 [mm]\n0,1000\n1,2000\n");
+  const std::string next = file("2.csv", "t [ms],q1 [m]\n2000,3\n3000,4\n");
+  const Log log = read(first, {.then = {next}});
+  EXPECT_EQ(log.time, (Values{0, 1, 2, 3}));
+  EXPECT_EQ(log.q[0], (Values{1, 2, 3, 4}));
+  EXPECT_THROW(read(first, {.then = {file("3.csv", "t [s],q1 [deg]\n2,3\n3,4\n")}}), Error);
+}
+
+TEST_F(LogSelectionTest, RowsOfTheJoinedFileThatBelongToNoneAreTold) {
+  const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n"),
+                    longer = file("c.csv", "tau1\n10\n20\n30\n40\n");
+  OpenLogOptions options;
+  options.parts.join = {longer};
+  const auto source = open_log(position, options);
+  read_all(*source);
+  ASSERT_NE(source->issues().find("join_rows_left"), nullptr);
+  EXPECT_NE(source->issues().find("join_rows_left")->message.find("2 rows"), std::string::npos);
+}
+
+TEST_F(LogSelectionTest, OneRunOfAFileInWhichTheClockRestartsIsRead) {
   std::string text = "t,q1\n";
   for (int run = 0; run < 3; ++run)
     for (int i = 0; i < 50 + 10 * run; ++i)
@@ -114,7 +134,7 @@ TEST_F(LogPartsTest, OneRunOfAFileInWhichTheClockRestartsIsRead) {
   }
 }
 
-TEST_F(LogPartsTest, RowsThatAreSentTwiceAreNoRestart) {
+TEST_F(LogSelectionTest, RowsThatAreSentTwiceAreNoRestart) {
   std::string text = "t,q1\n";
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + ",1\n";
   for (int i = 70; i < 130; ++i) text += std::to_string(i) + ",1\n";

@@ -324,6 +324,8 @@ def mcap_cases():
         if k % 3 == 0:
             arm_and_gripper.append((1, stamp(k) + 3_000_000, cdr(k, ["finger"], [0.04], [0.0], [1.0])))
     case("gripper_on_same_topic", Mcap([STATES]).bytes(arm_and_gripper))
+    restarted = messages()[:30] + [(2, time, data) for _, time, data in messages()[30:]]
+    case("topic_of_two_channels", Mcap([STATES, STATES]).bytes(restarted))
     # damage
     whole = Mcap([STATES], "zstd").bytes(messages())
     second = whole.index(b"zstd", whole.index(b"zstd") + 4)
@@ -416,12 +418,12 @@ def dialect_cases():
     write("csv_units_of_other_languages", ".csv", table(french, rows), expected("csv"))
     echo = b""
     for k in range(ROWS):
-        head = [str(base + k // 4), str(250000000 * (k % 4) + 123456), "base"] + NAMES
+        head = [str(base + k // 4), str(250000000 * (k % 4)), "base"] + NAMES
         echo += ",".join(head + values(k)).encode() + b"\n"
     text_cells = {"no_header": 1, "not_a_number": 3 * ROWS}
     first, last = at_epoch(base)["first"], at_epoch(base)["last"]
     for k, values_there in ((0, first), (ROWS - 1, last)):
-        values_there["t"] = float(base + k // 4) + 1e-9 * (250000000 * (k % 4) + 123456)
+        values_there["t"] = float(base + k // 4) + 1e-9 * (250000000 * (k % 4))
     want = expected("csv", first=first, last=last, issues=text_cells)
     write("csv_ros2_topic_echo", ".csv", echo, want)
     sparse = []

@@ -47,6 +47,16 @@ TEST(LogPreset, FrankaCountsMilliseconds) {
   EXPECT_EQ(read.tau[0], (Values{2, 3}));
 }
 
+TEST(LogPreset, MecademicHasDegreesAndSharesOfTheRatedTorque) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write(
+      "run.csv", "Timestamp,JointPos_1,JointVel_1,JointTorq_1\n1000000,180,90,50\n1001000,90,90,25\n");
+  const Log read = read_with("axes = \"R\"\n[log]\npreset = \"mecademic\"\n", log);
+  EXPECT_DOUBLE_EQ(read.time[0], 1.0);
+  EXPECT_DOUBLE_EQ(read.q[0][0], 2 * read.q[0][1]);
+  EXPECT_DOUBLE_EQ(read.tau[0][0], 0.5);
+}
+
 TEST(LogPreset, WhatTheRobotFileSaysComesFirst) {
   const Robot robot = robot_from_toml(
       "axes = \"RR\"\n[log]\npreset = \"ur-rtde\"\ntorque = \"measured\"\n[log.columns]\nq2 = \"mine\"\n",

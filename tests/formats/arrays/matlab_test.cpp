@@ -151,6 +151,23 @@ with open('v73.mat', 'r+b') as f:
   EXPECT_EQ(read.log.q[1][30], 0.6);
 }
 
+TEST_F(Matlab, AFlippedBitOfACompressedFileIsTold) {
+  const char* script = R"(
+import numpy as np
+from scipy.io import savemat
+t = np.arange(400) * 0.01
+savemat('whole.mat', {'t': t, 'q': np.random.default_rng(1).random((400, 2))}, do_compression=True)
+)";
+  if (!run_python(folder_, script)) GTEST_SKIP() << "no Python with scipy";
+  const std::string whole = read_file(folder_.file("whole.mat"));
+  for (std::size_t at = whole.size() / 3; at + 1 < whole.size(); at += whole.size() / 40) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 64);
+    const ReadArrays read = read_array_file(folder_.write("flipped.mat", flipped));
+    EXPECT_TRUE(!read.refused.empty() || !read.issues.empty()) << at;
+  }
+}
+
 TEST_F(Matlab, FilesOfMeasuredRobotsAreRead) {
   const std::filesystem::path data = shared_data();
   if (data.empty()) GTEST_SKIP();
