@@ -241,6 +241,26 @@ class TableMaker {
     std::vector<std::string> names;
     for (const RawColumn& column : table_.columns) names.push_back(column.name);
     table_.time_column = find_time_column(names);
+    note_other_clocks();
+  }
+
+  /// Arrays of times beside the one that was taken: what belongs to them is taken row by row all the same.
+  void note_other_clocks() {
+    std::string clocks;
+    int found = 0;
+    for (const NamedArray& array : arrays_) {
+      const std::string leaf = leaf_of(array.name);
+      const bool clock = looks_like_time(array) || ((leaf.starts_with("t_") || leaf.starts_with("time_")) &&
+                                                    squeezed(array.shape).size() == 1);
+      if (!clock) continue;
+      clocks += (found++ > 0 ? ", " : "") + label(array);
+    }
+    if (found > 1)
+      table_.issues.add(
+          make_issue("several_clocks", Severity::warning,
+                     clocks + " look like times; one is taken for all rows. If the others' signals were "
+                              "sampled at other times, write them into files of their own and --join "
+                              "them by time"));
   }
 
   const std::vector<NamedArray>& arrays_;

@@ -81,6 +81,14 @@ bool is_something_else(const std::string& word) {
                       "roll", "pitch", "yaw"});
 }
 
+/// Words that say how, or where at a joint, something was measured.
+bool is_decoration(const std::string& word) {
+  return is_reference(word) || is_measurement(word) ||
+         among(word, {"con",   "ctrl",  "control", "filt", "filtered", "lp",    "raw",
+                      "motor", "link",  "load",    "gear", "encoder",  "enc",   "abs",
+                      "rel",   "joint", "joints",  "axis", "values",   "value", "data"});
+}
+
 std::optional<Quantity> quantity_of(const std::string& word) {
   if (among(word, {"q", "qm", "qg", "pos", "position", "positions", "angle", "angles", "theta"}))
     return Quantity::q;
@@ -181,6 +189,9 @@ NameReading read_name(const std::string& name) {
     measured = measured || is_measurement(words[i]);
     other = other || is_something_else(words[i]);
   }
+  for (const std::string& word : words)
+    if (!quantity_of(word) && !is_decoration(word))
+      reading.joint += (reading.joint.empty() ? "" : " ") + word;
   for (std::size_t i = 0; i < words.size(); ++i)
     reading.stem += (i ? " " : "") + (static_cast<int>(i) == number_at ? std::string("#") : words[i]);
   if (number_at >= 0 && words[number_at].size() <= 3) reading.number = std::stoi(words[number_at]);

@@ -42,7 +42,9 @@ struct NameReading {
   std::optional<int> number;
   std::optional<Quantity> quantity;  ///< nullopt when it says none, or is an error, limit, acceleration ...
   int fitness = 0;                   ///< how well it fits, to choose among several columns of one quantity
-  int as_torque = 0;                 ///< how well a torque of any meaning fits as the only torque of a log
+  /// The words, numbers included, that say neither quantity nor how it was measured: a joint's name, perhaps.
+  std::string joint{};
+  int as_torque = 0;  ///< how well a torque of any meaning fits as the only torque of a log
 };
 NameReading read_name(const std::string& name);
 

@@ -8,7 +8,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/column_families.hpp"
-#include "lib/log/columns/missing_column.hpp"
+#include "lib/log/columns/matching_sentences.hpp"
+#include "lib/log/columns/named_joints.hpp"
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/units.hpp"
 
@@ -28,6 +29,7 @@ class Matcher {
     match_mapped();
     match_told();
     match_time();
+    match_named_joints();
     find_families();
     for (const Quantity quantity : kJointQuantities) {
       match_quantity(quantity);
@@ -114,6 +116,17 @@ class Matcher {
       add(*meaning, i);
       told_.insert(meaning->quantity);
     }
+  }
+
+  /// Joints that have words for names, where no other way of telling them is used.
+  void match_named_joints() {
+    if (told_.count(Quantity::q) || column_named("q1") >= 0 || named_in_map(Quantity::q)) return;
+    const auto joints = named_joints(names_, [&](int column) { return !used_.count(column); });
+    for (const auto& [channel, column] : joints) {
+      add(channel, column);
+      told_.insert(channel.quantity);
+    }
+    if (!joints.empty()) note("joint_order", "", Severity::note, joint_order_sentence(names_, joints));
   }
 
   void match_time() {
@@ -216,26 +229,13 @@ class Matcher {
     const auto later = family.column_of.upper_bound(first_of(family) + matching_.joints);
     if (!family.numbered || later == family.column_of.end() || later->first > kMostJoints) return;
     note("channel_missing", to_string({Quantity::q, matching_.joints + 1}), Severity::severe,
-         "no column for the position of joint " + std::to_string(matching_.joints + 1) +
-             ", though there is \"" + shortened(names_[later->second], kLongestName) +
-             "\"; only the joints before it are read");
+         missing_joint_sentence(matching_.joints + 1, names_[later->second]));
   }
 
   void note_rivals(Quantity quantity, const ColumnFamily& chosen) {
     if (chosen.fitness >= 100) return;
-    std::string rivals;
-    for (const ColumnFamily& family : families_) {
-      const bool rival = family.quantity == quantity || family.quantity == chosen.quantity;
-      if (!rival || &family == &chosen) continue;
-      rivals += (rivals.empty() ? "\"" : ", \"") +
-                shortened(names_[family.column_of.begin()->second], kLongestName) + "\"";
-    }
-    if (rivals.empty()) return;
-    const std::string channel = to_string({quantity, 1});
-    note("channel_ambiguous", channel, Severity::note,
-         "\"" + shortened(names_[chosen.column_of.begin()->second], kLongestName) + "\" was taken as " +
-             channel + "; " + rivals +
-             " could be meant as well. To choose, name it in the robot file: [log.columns] " + channel);
+    const std::string sentence = rivals_sentence(names_, families_, quantity, chosen);
+    if (!sentence.empty()) note("channel_ambiguous", to_string({quantity, 1}), Severity::note, sentence);
   }
 
   void require_positions() const {

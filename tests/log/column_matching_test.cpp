@@ -213,5 +213,46 @@ TEST(Units, SplitFromTheName) {
   EXPECT_EQ(split("vel_m"), "vel_m|");
 }
 
+TEST(ColumnMatching, JointsNamedByWordsAreJointsInTheirOrder) {
+  const std::vector<RawColumn> columns{{"t", ""},
+                                       {"shoulder_pos", ""},
+                                       {"elbow_pos", ""},
+                                       {"elbow_torque", ""},
+                                       {"shoulder_torque", ""},
+                                       {"elbow_vel", ""}};
+  const Matching matching = match_columns(columns, {}, "log");
+  EXPECT_EQ(matching.joints, 2);
+  const auto column_of = [&](Channel channel) {
+    for (const ChannelSource& source : matching.channels)
+      if (source.channel == channel) return source.column;
+    return -1;
+  };
+  EXPECT_EQ(column_of({Quantity::q, 2}), 2);
+  EXPECT_EQ(column_of({Quantity::tau, 1}), 4);
+  EXPECT_EQ(column_of({Quantity::tau, 2}), 3);
+  EXPECT_EQ(column_of({Quantity::dq, 1}), -1);
+  EXPECT_EQ(column_of({Quantity::dq, 2}), 5);
+  EXPECT_NE(matching.issues.find("joint_order"), nullptr);
+}
+
+TEST(ColumnMatching, JointsOfAMergedRecordingKeepTheirSignalsTogether) {
+  std::vector<RawColumn> columns{{"__time", ""}};
+  for (const char* joint : {"shoulder_pan_joint", "shoulder_lift_joint", "wrist_1_joint", "wrist_2_joint"})
+    for (const char* array : {"effort", "position", "velocity"})
+      columns.push_back({std::string("/joint_states/") + joint + "/" + array, ""});
+  const Matching matching = match_columns(columns, {}, "log");
+  EXPECT_EQ(matching.joints, 4);
+  for (const ChannelSource& source : matching.channels) {
+    if (source.channel.joint == 0) continue;
+    EXPECT_EQ((source.column - 1) / 3 + 1, source.channel.joint);
+  }
+}
+
+TEST(ColumnMatching, TwoWaysToMeasureOneJointAreOneJoint) {
+  for (const char* other : {"raw_pos", "motor_pos", "pos_filtered", "encoder_pos"})
+    EXPECT_EQ(match_columns({{"t", ""}, {"pos", ""}, {other, ""}, {"link_pos", ""}}, {}, "log").joints, 1)
+        << other;
+}
+
 }  // namespace
 }  // namespace faultline

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/log/column_families.hpp"
+
+namespace faultline {
+
+/// That none of the columns is this channel, and how to name one in the robot file.
+std::string missing_column_sentence(const std::vector<std::string>& columns, const std::string& channel,
+                                    const std::string& meaning);
+
+/// That a joint has no position, though a later one has one in the column `later`.
+std::string missing_joint_sentence(int joint, const std::string& later);
+
+/// Which column was taken as a quantity, and which others could be meant; empty when there are none.
+std::string rivals_sentence(const std::vector<std::string>& columns,
+                            const std::vector<ColumnFamily>& families, Quantity quantity,
+                            const ColumnFamily& chosen);
+
+/// In which order joints that have words for names were taken.
+std::string joint_order_sentence(const std::vector<std::string>& columns,
+                                 const std::vector<std::pair<Channel, int>>& joints);
+
+}  // namespace faultline
