@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/mcap/mcap_file.hpp"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -17,10 +16,6 @@ constexpr std::size_t kIndexEntry = 16;
 constexpr std::size_t kTime = 8, kCount = 8;  // bytes of a number in a map
 
 const char* name_of(McapPacking packing) { return packing == McapPacking::zstd ? "zstd" : ""; }
-
-std::uint32_t crc_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 std::string packed(std::string_view bytes, McapPacking packing) {
   if (packing == McapPacking::none) return std::string(bytes);
@@ -87,7 +82,7 @@ void McapFile::end_chunk() {
   if (inside.empty()) return;
   const std::string small = packed(inside, packing_);
   ByteBuilder content;
-  content.put(first_ns_).put(last_ns_).put(static_cast<std::uint64_t>(inside.size())).put(crc_of(inside));
+  content.put(first_ns_).put(last_ns_).put(static_cast<std::uint64_t>(inside.size())).put(mcap_crc(inside));
   content.put_text(name_of(packing_)).put(static_cast<std::uint64_t>(small.size())).put_bytes(small);
   ChunkPlace place{first_ns_, last_ns_,     written_,      kMcapRecordHead + content.bytes().size(),
                    0,         small.size(), inside.size(), {}};
@@ -146,7 +141,7 @@ void McapFile::write_summary() {
   footer_head.put(static_cast<unsigned char>(McapOp::footer))
       .put(std::uint64_t{2 * kTime + sizeof(std::uint32_t)});
   footer_head.put(begin).put(std::uint64_t{0});
-  const std::uint32_t crc = crc_of(summary.bytes() + footer_head.bytes());
+  const std::uint32_t crc = mcap_crc(summary.bytes() + footer_head.bytes());
   write(summary.bytes() + footer_head.put(crc).bytes());
 }
 

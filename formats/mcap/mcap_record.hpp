@@ -29,4 +29,7 @@ inline constexpr std::size_t kMcapRecordHead = 9;
 /// The kinds that the specification knows; others are of its future or damaged.
 constexpr bool is_mcap_op(unsigned char op) { return op >= 0x01 && op <= 0x0F; }
 
+/// The checksum of chunks and of the summary: CRC-32 as zlib has it.
+std::uint32_t mcap_crc(std::string_view bytes);
+
 }  // namespace faultline

@@ -2,10 +2,8 @@
 #include "formats/mcap/mcap_source.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,6 +13,7 @@
 #include "formats/mcap/mcap_records.hpp"
 #include "formats/mcap/mcap_writer.hpp"
 #include "formats/messages/joint_state_reader.hpp"
+#include "formats/messages/lost_messages.hpp"
 #include "formats/provenance.hpp"
 
 namespace faultline {
@@ -33,10 +32,6 @@ std::optional<BlockPacking> packing_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::uint32_t crc_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
 class McapSource : public MessageSource {
  public:
   explicit McapSource(std::unique_ptr<ByteSource> bytes)
@@ -53,12 +48,9 @@ class McapSource : public MessageSource {
 
   bool next(Message& message) override {
     while (!at_end_) {
-      if (next_lost_ < lost_.size()) {
-        message = {lost_[next_lost_++], 0, {}, true};
-        return true;
-      }
+      if (lost_.next(message)) return true;
       if (next_in_chunk_ < in_chunk_.size()) {
-        if (read_message(in_chunk_[next_in_chunk_++].content, message)) return true;
+        if (read_message(in_chunk_[next_in_chunk_++].content, chunk_doubtful_, message)) return true;
       } else if (!next_record(message)) {
         end();
       } else if (given_) {
@@ -75,8 +67,8 @@ class McapSource : public MessageSource {
     issues_ = {};
     index_ = {};
     in_chunk_.clear();
-    lost_.clear();
-    next_in_chunk_ = next_lost_ = 0;
+    lost_ = {};
+    next_in_chunk_ = 0;
     given_ = at_end_ = false;
     records_.start(size_if_known());
   }
@@ -96,7 +88,7 @@ class McapSource : public MessageSource {
         topics_.add_channel(content);
         break;
       case McapOp::message:
-        given_ = read_message(content, message);
+        given_ = read_message(content, false, message);
         break;
       case McapOp::chunk:
         open_chunk(content);
@@ -128,7 +120,7 @@ class McapSource : public MessageSource {
     issues_.add(issue_from_provenance(is_ours && map.ok() && record.ok() ? text : ""));
   }
 
-  bool read_message(std::string_view content, Message& message) {
+  bool read_message(std::string_view content, bool lost, Message& message) {
     ByteCursor record(content);
     const auto channel = record.take<std::uint16_t>();
     record.take<std::uint32_t>();
@@ -136,9 +128,8 @@ class McapSource : public MessageSource {
     record.take<std::uint64_t>();
     if (!record.ok()) return false;
     index_.met_message();
-    ++met_in_chunk_[channel];
-    message = {topics_.topic_of(channel), static_cast<std::int64_t>(log_time), record.rest(),
-               chunk_doubtful_};
+    lost_.met(channel);
+    message = {topics_.topic_of(channel), static_cast<std::int64_t>(log_time), record.rest(), lost};
     if (message.topic >= 0) {
       records_.met_time(log_time);
       return true;
@@ -159,9 +150,8 @@ class McapSource : public MessageSource {
     chunk.take<std::uint64_t>();
     in_chunk_.clear();
     next_in_chunk_ = 0;
-    met_in_chunk_.clear();
+    lost_.begin_chunk();
     chunk_doubtful_ = false;
-    chunk_lost_ = true;
     if (!chunk.ok() || !packing) return lose_chunk("its head cannot be read");
     index_.met_chunk(records_.begin(), static_cast<std::int64_t>(kMcapRecordHead + content.size()));
     std::string_view inside = chunk.rest();
@@ -170,18 +160,17 @@ class McapSource : public MessageSource {
       sound = unpack_block(*packing, inside, size, unpacked_);
       inside = unpacked_;
     }
-    const bool wrong = sound && checksum != 0 && crc_of(inside) != checksum;
+    const bool wrong = sound && checksum != 0 && mcap_crc(inside) != checksum;
     if (records_.is_cut())
       lose_chunk("the file ends in it; what stands before is read", false);
     else if (!sound || wrong)
       lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end");
-    else
-      chunk_lost_ = false;
     list_messages(inside);
   }
 
   void lose_chunk(const char* why, bool doubtful = true) {
     chunk_doubtful_ = doubtful;
+    lost_.lose();
     issues_.add({"chunk_damaged", "", Severity::severe,
                  fmt::format("the chunk at byte {}: {}{}", records_.begin(), why,
                              doubtful ? "; its messages were left out" : "")});
@@ -214,16 +203,11 @@ class McapSource : public MessageSource {
 
   /// The index behind a damaged chunk tells how many messages it had.
   void count_lost(std::string_view content) {
-    if (!chunk_lost_) return;
     ByteCursor record(content);
     const auto channel = record.take<std::uint16_t>();
     constexpr std::size_t kEntry = 16;
-    const std::size_t told = record.text().size() / kEntry, met = met_in_chunk_[channel];
-    const int topic = topics_.topic_of(channel);
-    met_in_chunk_[channel] = std::max(told, met);
-    if (!record.ok() || topic < 0) return;
-    if (next_lost_ == lost_.size()) lost_.clear(), next_lost_ = 0;
-    for (std::size_t i = met; i < told; ++i) lost_.push_back(topic);
+    const std::size_t messages = record.text().size() / kEntry;
+    if (record.ok()) lost_.told(channel, messages, topics_.topic_of(channel));
   }
 
   void end() {
@@ -242,11 +226,8 @@ class McapSource : public MessageSource {
   std::string unpacked_;  ///< the open chunk, where it was compressed
   std::vector<ChunkedMessage> in_chunk_;
   std::size_t next_in_chunk_ = 0;
-  std::map<std::uint16_t, std::size_t> met_in_chunk_;  ///< messages by channel
-  bool chunk_doubtful_ = false;                        ///< its bytes may be wrong
-  bool chunk_lost_ = false;                            ///< some of its messages may be missing
-  std::vector<int> lost_;                              ///< topics of messages that are missing
-  std::size_t next_lost_ = 0;
+  bool chunk_doubtful_ = false;  ///< its bytes may be wrong
+  LostMessages lost_;
   bool given_ = false, at_end_ = false;
 };
 

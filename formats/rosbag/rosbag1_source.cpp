@@ -12,6 +12,7 @@
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/unpack_block.hpp"
 #include "formats/messages/joint_state_reader.hpp"
+#include "formats/messages/lost_messages.hpp"
 #include "formats/rosbag/rosbag1_record.hpp"
 #include "lib/core/error.hpp"
 
@@ -45,10 +46,7 @@ class Rosbag1Source : public MessageSource {
 
   bool next(Message& message) override {
     while (!at_end_) {
-      if (next_lost_ < lost_.size()) {
-        message = {lost_[next_lost_++], 0, {}, true};
-        return true;
-      }
+      if (lost_.next(message)) return true;
       if (!inside_.empty()) {
         if (next_inside(message)) return true;
       } else if (!next_record(message)) {
@@ -71,9 +69,8 @@ class Rosbag1Source : public MessageSource {
  private:
   void start() {
     inside_ = {};
-    lost_.clear();
-    next_lost_ = 0;
-    given_ = at_end_ = chunk_lost_ = chunk_doubtful_ = false;
+    lost_ = {};
+    given_ = at_end_ = chunk_doubtful_ = false;
     record_size_ = kRosbag1Magic.size();
   }
 
@@ -186,7 +183,7 @@ class Rosbag1Source : public MessageSource {
 
   bool read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {
     const std::uint32_t id = fields.word("conn");
-    ++met_in_chunk_[id];
+    lost_.met(id);
     const auto topic = topic_of_.find(id);
     if (topic == topic_of_.end()) {
       issues_.add(
@@ -199,8 +196,7 @@ class Rosbag1Source : public MessageSource {
   }
 
   void open_chunk(const Rosbag1Fields& fields, std::string_view data, bool whole) {
-    met_in_chunk_.clear();
-    chunk_lost_ = true;
+    lost_.begin_chunk();
     const auto packing = packing_named(fields.text("compression"));
     const std::uint32_t size = fields.word("size");
     if (!packing) return lose_chunk("its compression is not known");
@@ -214,12 +210,11 @@ class Rosbag1Source : public MessageSource {
       lose_chunk("the file ends in it; what stands before is read");
     else if (!sound)
       lose_chunk("it cannot be unpacked to its end; its messages were left out");
-    else
-      chunk_lost_ = false;
     chunk_doubtful_ = whole && !sound;
   }
 
   void lose_chunk(const char* why) {
+    lost_.lose();
     issues_.add({"chunk_damaged", "", Severity::severe,
                  fmt::format("the chunk at byte {}: {}", window_.position(), why)});
   }
@@ -227,8 +222,7 @@ class Rosbag1Source : public MessageSource {
   bool next_inside(Message& message) {
     const Rosbag1Record record = rosbag1_record(inside_);
     if (record.size == 0 || !record.fields.has_op()) {
-      if (!chunk_lost_) lose_chunk("the records in it are damaged; what stands before is read");
-      chunk_lost_ = true;
+      if (!lost_.is_lossy()) lose_chunk("the records in it are damaged; what stands before is read");
       inside_ = {};
       return false;
     }
@@ -241,13 +235,11 @@ class Rosbag1Source : public MessageSource {
   /// The index behind a damaged chunk tells how many messages it had.
   void count_lost(const Rosbag1Fields& fields) {
     const auto topic = topic_of_.find(fields.word("conn"));
-    if (!chunk_lost_ || topic == topic_of_.end()) return;
-    std::size_t& met = met_in_chunk_[topic->first];
+    if (topic == topic_of_.end()) return;
     // Entries take 12 bytes each in the data, which was read with the record.
     constexpr std::size_t kEntry = 12;
-    const std::size_t told = std::min<std::size_t>(fields.word("count"), record_size_ / kEntry);
-    if (next_lost_ == lost_.size()) lost_.clear(), next_lost_ = 0;
-    for (; met < told; ++met) lost_.push_back(topic->second);
+    lost_.told(topic->first, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry),
+               topic->second);
   }
 
   void end() {
@@ -261,14 +253,11 @@ class Rosbag1Source : public MessageSource {
   std::vector<Topic> topics_;
   std::map<std::uint32_t, int> topic_of_;  ///< by connection
   Issues issues_;
-  std::uint64_t record_size_ = 0;                      ///< of the present record; passed at the next one
-  std::string unpacked_;                               ///< the open chunk, where it was compressed
-  std::string_view inside_;                            ///< what is left of the open chunk
-  std::map<std::uint32_t, std::size_t> met_in_chunk_;  ///< messages by connection
-  bool chunk_lost_ = false;                            ///< some of its messages are missing
-  bool chunk_doubtful_ = false;                        ///< its bytes may be wrong
-  std::vector<int> lost_;                              ///< topics of messages that are missing
-  std::size_t next_lost_ = 0;
+  std::uint64_t record_size_ = 0;  ///< of the present record; passed at the next one
+  std::string unpacked_;           ///< the open chunk, where it was compressed
+  std::string_view inside_;        ///< what is left of the open chunk
+  bool chunk_doubtful_ = false;    ///< its bytes may be wrong
+  LostMessages lost_;
   bool given_ = false, at_end_ = false;
 };
 

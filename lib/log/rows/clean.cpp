@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lib/log/log_channels.hpp"
+#include "lib/log/rows/keep_rows.hpp"
 
 namespace faultline {
 namespace {
@@ -128,13 +129,7 @@ void blank_implausible(std::vector<double>& values, Channel channel, const std::
   }
 }
 
-void keep_rows(std::vector<double>& values, const std::vector<int>& kept) {
-  if (values.empty()) return;
-  for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
-  values.resize(kept.size());
-}
-
-void keep_rows(Log& log, const std::vector<int>& kept) {
+void keep_log_rows(Log& log, const std::vector<int>& kept) {
   for_each_joint_channel(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
   for (ExtraChannel& extra : log.extra) keep_rows(extra.values, kept);
   keep_rows(log.time, kept);
@@ -168,7 +163,7 @@ Log clean(Log& segment, std::int64_t first_row, bool at_end, CleanState& state, 
   for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
     blank_implausible(values, channel, segment.time, first_row, issues);
   });
-  if (!in_order && static_cast<int>(judged.kept.size()) < segment.rows()) keep_rows(segment, judged.kept);
+  if (!in_order && static_cast<int>(judged.kept.size()) < segment.rows()) keep_log_rows(segment, judged.kept);
   return waiting;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lib/log/log_channels.hpp"
+#include "lib/log/rows/keep_rows.hpp"
 
 namespace faultline {
 namespace {
@@ -27,12 +28,6 @@ std::vector<int> rows_with_position(const Log& log) {
   return rows;
 }
 
-void keep(std::vector<double>& values, const std::vector<int>& rows) {
-  if (values.empty()) return;
-  for (std::size_t k = 0; k < rows.size(); ++k) values[k] = values[rows[k]];
-  values.resize(rows.size());
-}
-
 }  // namespace
 
 void SparseRows::gather(Log& segment, Issues& issues) {
@@ -44,9 +39,9 @@ void SparseRows::gather(Log& segment, Issues& issues) {
   held_.resize(channels.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     hold(*channels[c], held_[c]);
-    keep(*channels[c], rows);
+    keep_rows(*channels[c], rows);
   }
-  keep(segment.time, rows);
+  keep_rows(segment.time, rows);
   if (lost > 0)
     issues.add(
         {"row_of_other_signals", "", Severity::note,
