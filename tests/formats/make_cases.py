@@ -346,6 +346,13 @@ def mcap_cases():
     at = unchunked.index(plain(20)) - 22 - 8
     unchunked[at : at + 8] = struct.pack("<Q", 1 << 60)
     case("length_of_an_exbibyte", bytes(unchunked), rows=49, issues={"records_damaged": 1})
+    mixed = Mcap([STATES], chunked=False, summary=False)
+    whole = mixed.bytes(messages()[20:])
+    at = whole.index(mixed.definitions()) + len(mixed.definitions())
+    damaged = bytearray(mixed.one_chunk(messages()[:20], False, 0))
+    damaged[damaged.index(plain(5)) + 80] ^= 1
+    case("messages_behind_a_damaged_chunk", whole[:at] + bytes(damaged) + whole[at:], rows=30, read=50, first=row(20),
+         issues={"chunk_damaged": 1, "messages_lost": 20})
     bomb = Mcap([STATES], "zstd").bytes(messages())
     at = bomb.index(b"zstd") - 4 - 4 - 8
     bomb = bomb[:at] + struct.pack("<Q", 1 << 60) + bomb[at + 8 :]
