@@ -30,5 +30,7 @@ void add_diagnose(CLI::App& app, Program& program);
 void add_batch(CLI::App& app, Program& program);
 void add_golden(CLI::App& app, Program& program);
 void add_reproduce(CLI::App& app, Program& program);
+void add_help(CLI::App& app, Program& program);
+void add_completion(CLI::App& app, Program& program);
 
 }  // namespace faultline

@@ -16,7 +16,7 @@ void add_log_selection(CLI::App& command, LogSelection& parts) {
   command
       .add_option("--join-by", parts.by,
                   "How rows belong together: time, row, or auto (by time where both have one)")
-      ->transform(CLI::CheckedTransformer(ways))
+      ->transform(CLI::CheckedTransformer(ways).description("{auto,row,time}"))
       ->type_name("HOW");
   command.add_option("--then", parts.then, "A file in which the log goes on; may be given several times")
       ->type_name("FILE")

@@ -3,8 +3,11 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
+#include "apps/manual/help_text.hpp"
+#include "apps/manual/unknown_word.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/removed_on_signal.hpp"
+#include "lib/core/version.hpp"
 
 namespace faultline {
 namespace {
@@ -15,7 +18,7 @@ ColorChoice color_choice_from(const std::string& when) {
 }
 
 void add_global_options(CLI::App& app, Program& program) {
-  app.set_version_flag("--version", "faultline " FAULTLINE_VERSION);
+  app.set_version_flag("--version", std::string("faultline ") + program_version());
   app.add_option_function<std::string>(
          "--color", [&program](const std::string& when) { program.color = color_choice_from(when); },
          "Colours: auto (default), always or never; NO_COLOR is respected")
@@ -40,11 +43,26 @@ void add_commands(CLI::App& app, Program& program) {
   add_batch(app, program);
   add_golden(app, program);
   add_reproduce(app, program);
+  add_help(app, program);
+  add_completion(app, program);
 }
 
-std::string selected_name(const CLI::App& app) {
-  const auto selected = app.get_subcommands();
-  return selected.empty() ? "faultline" : "faultline " + selected.front()->get_name();
+/// The innermost command that was named, with the words before it.
+CommandDescription selected_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  std::string prefix;
+  while (!command->get_subcommands().empty()) {
+    prefix += command->get_name() + " ";
+    command = command->get_subcommands().back();
+  }
+  return describe_command(*command, prefix);
+}
+
+/// What the library says of a command line, but of a word that is unknown, what was probably meant.
+std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
+                              const std::vector<std::string>& words) {
+  const std::string unknown = about_unknown_word(describe_command(app), words);
+  return (unknown.empty() ? error.what() : unknown) + "; see '" + selected_command(app).name + " --help'";
 }
 
 int run(int argc, char** argv) {
@@ -55,14 +73,13 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    print(app.help());
+    print(help_text(selected_command(app)));
     return kNothingFound;
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");
     return kNothingFound;
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::usage, "command line",
-                std::string(error.what()) + "; see '" + selected_name(app) + " --help'");
+    throw Error(ErrorCode::usage, "command line", about_parse_error(app, error, {argv + 1, argv + argc}));
   }
   return program.run();
 }

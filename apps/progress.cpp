@@ -11,16 +11,16 @@
 namespace faultline {
 namespace {
 
-constexpr int kWidth = 30;
+constexpr int kProgressWidth = 30;
 constexpr auto kRefresh = std::chrono::milliseconds(100);
 
 std::string bar(double share, bool color) {
   const double known = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
-  const int full = static_cast<int>(known * kWidth);
+  const int full = static_cast<int>(known * kProgressWidth);
   char percent[8];
   std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(known * 100));
-  return "[" + painted(std::string(full, '='), Paint::green, color) + std::string(kWidth - full, ' ') + "] " +
-         percent;
+  return "[" + painted(std::string(full, '='), Paint::green, color) +
+         std::string(kProgressWidth - full, ' ') + "] " + percent;
 }
 
 }  // namespace

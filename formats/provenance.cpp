@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "faultline/provenance/1";
+constexpr const char* kProvenanceSchema = "faultline/provenance/1";
 constexpr std::size_t kMostText = 300;  // characters of a message that are repeated
 constexpr std::size_t kMostIssues = 8;  // one a kind and channel
 
@@ -52,7 +52,7 @@ std::string provenance_of(const LogSource& source) {
     if (is_loss(issue) && losses.size() < kMostIssues) losses.push_back(loss_json(issue));
   if (losses.empty()) return "";
   const LogIdentity& log = source.identity();
-  const Json json{{"schema", kSchema},
+  const Json json{{"schema", kProvenanceSchema},
                   {"source", std::filesystem::path(log.path).filename().string()},
                   {"sha256", log.sha256.empty() ? sha256_of_file(log.path) : log.sha256},
                   {"rows_read", log.rows_read},

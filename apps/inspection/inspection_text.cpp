@@ -14,7 +14,7 @@ namespace {
 
 /// Extra channels shown before the rest is only counted.
 constexpr std::size_t kShownExtra = 12;
-constexpr std::size_t kShownGaps = 20;
+constexpr std::size_t kInspectionShownGaps = 20;
 /// Of the values at a limit, from which on it is told.
 constexpr double kToldShare = 0.01;
 
@@ -46,12 +46,13 @@ std::string time_line(const Inspection& inspection) {
 std::string gap_lines(const Inspection& inspection) {
   std::string text;
   const auto& gaps = inspection.quality.time.listed_gaps;
-  for (std::size_t i = 0; i < gaps.size() && i < kShownGaps; ++i)
+  for (std::size_t i = 0; i < gaps.size() && i < kInspectionShownGaps; ++i)
     text += fmt::format("  gap       after row {} at {:.10g} s, {:.4g} s long\n", gaps[i].row,
                         gaps[i].start_s, gaps[i].length_s);
-  if (inspection.quality.time.gaps > static_cast<std::int64_t>(kShownGaps))
+  if (inspection.quality.time.gaps > static_cast<std::int64_t>(kInspectionShownGaps))
     text += fmt::format("  and {} more gaps (--json lists {})\n",
-                        inspection.quality.time.gaps - static_cast<std::int64_t>(kShownGaps), kListedGaps);
+                        inspection.quality.time.gaps - static_cast<std::int64_t>(kInspectionShownGaps),
+                        kListedGaps);
   return text;
 }
 

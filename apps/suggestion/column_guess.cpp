@@ -23,7 +23,7 @@ constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tried
 constexpr double kDerivative = 0.95;     // correlation of a velocity with its position's change
 constexpr double kInOrder = 0.999;       // share of steps of a time that are forward
 constexpr double kSmallSteps = 0.1;      // of steps to the deviation, squared
-constexpr std::size_t kFewestRows = 20;
+constexpr std::size_t kGuessFewestRows = 20;
 constexpr std::size_t kFewestPairedRows = 200;
 constexpr std::ptrdiff_t kReach = 3;  // rows, of a change of position, to both sides
 
@@ -64,7 +64,7 @@ int rising_column(const RawExcerpt& excerpt) {
   double steadiest = 1.0;
   for (std::size_t c = 0; c < excerpt.values.size(); ++c) {
     const auto& values = excerpt.values[c];
-    if (values.size() < kFewestRows) continue;
+    if (values.size() < kGuessFewestRows) continue;
     double forward = 0.0;
     for (std::size_t i = 1; i < values.size(); ++i) forward += values[i] > values[i - 1] ? 1.0 : 0.0;
     const double steps = static_cast<double>(values.size() - 1), mean = (values.back() - values[0]) / steps;

@@ -12,12 +12,12 @@
 namespace faultline {
 namespace {
 
-constexpr std::ptrdiff_t kReach = 5;      // rows, of a change of position
-constexpr double kNear = 0.15;            // relative, for a ratio to be the one that units give
-constexpr double kAlike = 0.8;            // correlation of changes and velocities that can be compared
-constexpr double kMostRadians = 13.0;     // two turns
-constexpr double kFastestRadians = 20.0;  // rad/s
-constexpr double kRanAway = 4.0;          // times as far and fast
+constexpr std::ptrdiff_t kGuessReach = 5;  // rows, of a change of position
+constexpr double kNear = 0.15;             // relative, for a ratio to be the one that units give
+constexpr double kAlike = 0.8;             // correlation of changes and velocities that can be compared
+constexpr double kMostRadians = 13.0;      // two turns
+constexpr double kFastestRadians = 20.0;   // rad/s
+constexpr double kRanAway = 4.0;           // times as far and fast
 constexpr double kMostMetres = 3.0;
 constexpr double kLeastDegrees = 2.0;                     // span of a joint that moves
 constexpr double kCarries = 2.0;                          // mean torque to its deviation
@@ -92,12 +92,12 @@ JointNumbers joint_numbers(const std::vector<double>& time, const std::vector<do
     joint.path += std::abs(value - turn);
     turn = value;
   }
-  for (std::ptrdiff_t i = kReach; i < std::ssize(dq); ++i) {
+  for (std::ptrdiff_t i = kGuessReach; i < std::ssize(dq); ++i) {
     double integral = 0.0;
-    for (std::ptrdiff_t k = i - kReach + 1; k <= i; ++k)
+    for (std::ptrdiff_t k = i - kGuessReach + 1; k <= i; ++k)
       integral += 0.5 * (dq[k] + dq[k - 1]) * (time[k] - time[k - 1]);
-    const double change = q[i] - q[i - kReach];
-    if (std::isnan(change) || std::isnan(integral) || !(time[i] > time[i - kReach])) continue;
+    const double change = q[i] - q[i - kGuessReach];
+    if (std::isnan(change) || std::isnan(integral) || !(time[i] > time[i - kGuessReach])) continue;
     xx += integral * integral, xy += integral * change, yy += change * change;
   }
   if (xx > 0.0 && yy > 0.0 && std::abs(xy) > kAlike * std::sqrt(xx * yy)) joint.ratio = xy / xx;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <vector>
 
 #include "formats/arrays/array_notes.hpp"
@@ -14,12 +13,12 @@
 #include "formats/byte_window.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Of a slab, the rows that are read at once: 4 MiB whatever the columns, so that caches hold it.
 constexpr std::int64_t kSlabValues = 1 << 19;
 constexpr std::int64_t kMostSlabRows = 1 << 16;

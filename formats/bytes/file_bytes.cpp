@@ -14,9 +14,9 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kHeadBytes = 1 << 16;
+constexpr std::size_t kBytesHeadBytes = 1 << 16;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
+[[noreturn]] void fail_file(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::input, path, what);
 }
 
@@ -28,7 +28,7 @@ FileBytes::FileBytes(std::string path, bool hashed) : path_(std::move(path)) {
   if (hashed) hash_.emplace();
   open();
   try {
-    read_head(kHeadBytes);
+    read_head(kBytesHeadBytes);
   } catch (...) {
     close();
     throw;
@@ -40,13 +40,13 @@ FileBytes::~FileBytes() { close(); }
 
 void FileBytes::open() {
   file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file_ < 0 && errno == ENOENT) fail(path_, "no such file; check the path");
-  if (file_ < 0) fail(path_, "cannot be opened for reading (" + reason() + ")");
+  if (file_ < 0 && errno == ENOENT) fail_file(path_, "no such file; check the path");
+  if (file_ < 0) fail_file(path_, "cannot be opened for reading (" + reason() + ")");
   struct stat facts {};
   if (::fstat(file_, &facts) != 0) return;
   if (S_ISDIR(facts.st_mode)) {
     close();
-    fail(path_, "is a directory, a log file was expected");
+    fail_file(path_, "is a directory, a log file was expected");
   }
   regular_ = S_ISREG(facts.st_mode);
   stamp_ = {facts.st_dev, facts.st_ino, facts.st_size};
@@ -58,11 +58,11 @@ void FileBytes::open_again() {
   open();
   if (!(stamp_ == before)) {
     close();
-    fail(path_, "was replaced or changed while it was read; run again when it is complete");
+    fail_file(path_, "was replaced or changed while it was read; run again when it is complete");
   }
   const auto read_so_far = std::max(static_cast<std::int64_t>(head_.size()), position_);
   if (::lseek(file_, static_cast<off_t>(read_so_far), SEEK_SET) < 0)
-    fail(path_, "cannot be read to its end (" + reason() + ")");
+    fail_file(path_, "cannot be read to its end (" + reason() + ")");
 }
 
 void FileBytes::pause() {
@@ -95,7 +95,7 @@ std::size_t FileBytes::read_some(char* to, std::size_t size) {
   while (true) {
     const ssize_t got = ::read(file_, to, size);
     if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) fail(path_, "cannot be read to its end (" + reason() + ")");
+    if (errno != EINTR) fail_file(path_, "cannot be read to its end (" + reason() + ")");
   }
 }
 
@@ -125,7 +125,7 @@ void FileBytes::rewind() {
   if (regular_)
     close();
   else if (::lseek(file_, static_cast<off_t>(head_.size()), SEEK_SET) < 0)
-    fail(path_, "cannot be read a second time (" + reason() + "); give a file, not a pipe");
+    fail_file(path_, "cannot be read a second time (" + reason() + "); give a file, not a pipe");
   at_end_ = false;
   head_given_ = 0;
   position_ = 0;

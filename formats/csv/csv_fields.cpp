@@ -4,15 +4,14 @@
 #include <fast_float/fast_float.h>
 
 #include <cctype>
-#include <limits>
 #include <string>
 
 #include "formats/csv/clock_cell.hpp"
+#include "lib/core/missing.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kBlanks = " \t\r";
 
 bool equals_ignoring_case(std::string_view text, std::string_view lower) {

@@ -3,15 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "formats/provenance.hpp"
+#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string words(const CsvPlace& place) {
   return fmt::format("row {} (line {})", place.row + 1, place.line + 1);

@@ -5,17 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_header.hpp"
 #include "formats/csv/csv_provenance.hpp"
+#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characters that are shown
 
 }  // namespace

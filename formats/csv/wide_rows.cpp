@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kBlock = 64;  ///< bytes whose ends are one word of bits
+constexpr int kWideBlock = 64;  ///< bytes whose ends are one word of bits
 
 /// A bit for each of 64 bytes that ends a field.
 FAULTLINE_AVX2_INLINE std::uint64_t end_bits(const char* p, __m256i separator, __m256i newline) {
@@ -46,9 +46,9 @@ FAULTLINE_AVX2 int WideRows::find_ends(const char* text, int size) {
   constexpr int kAtOnce = 4;  // written without asking how many there are
   const __m256i separator = _mm256_set1_epi8(separator_), newline = _mm256_set1_epi8('\n');
   std::uint32_t* out = ends_.data();
-  for (int at = 0; at < size; at += kBlock) {
+  for (int at = 0; at < size; at += kWideBlock) {
     std::uint64_t bits = end_bits(text + at, separator, newline);
-    if (size - at < kBlock) bits = _bzhi_u64(bits, static_cast<unsigned>(size - at));
+    if (size - at < kWideBlock) bits = _bzhi_u64(bits, static_cast<unsigned>(size - at));
     const int count = static_cast<int>(_mm_popcnt_u64(bits));
     for (int i = 0; i < count; i += kAtOnce) {
       for (int k = 0; k < kAtOnce; ++k, bits = _blsr_u64(bits))

@@ -7,9 +7,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kMostExpansion = 1100.0;  ///< of what a filter compresses
-constexpr double kLeastChunk = 1 << 20;    ///< bytes that a chunk may take in any file
-constexpr hsize_t kMostListed = 4096;      ///< chunks of which each is looked at
+constexpr double kStorageMostExpansion = 1100.0;  ///< of what a filter compresses
+constexpr double kLeastChunk = 1 << 20;           ///< bytes that a chunk may take in any file
+constexpr hsize_t kMostListed = 4096;             ///< chunks of which each is looked at
 constexpr hsize_t kMostPlaces = hsize_t{1} << 40;
 
 /// Those that bear damaged input.
@@ -66,7 +66,7 @@ std::optional<Hdf5Storage> chunk_storage(hid_t dataset, hid_t creation, const Hd
   }
   double bytes = static_cast<double>(H5Tget_size(type)), chunks = 1.0;
   for (const hsize_t size : chunk) bytes *= static_cast<double>(size);
-  if (bytes > kMostExpansion * file_bytes + kLeastChunk) {
+  if (bytes > kStorageMostExpansion * file_bytes + kLeastChunk) {
     why = "its chunks are larger than the file could hold";
     return std::nullopt;
   }

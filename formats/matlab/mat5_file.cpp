@@ -27,8 +27,8 @@ constexpr std::uint32_t kComplex = 0x0800;
 constexpr std::int64_t kTagBytes = 8, kSmallData = 4;
 constexpr std::size_t kMostDimensions = 32;
 constexpr std::int64_t kLongestText = 1 << 24;
-constexpr std::int64_t kMostElements = std::int64_t{1} << 48;
-constexpr int kDeepest = 16;
+constexpr std::int64_t kMat5MostElements = std::int64_t{1} << 48;
+constexpr int kMat5Deepest = 16;
 constexpr std::size_t kMostArrays = 1 << 14;
 
 std::optional<ElementType> number_of(std::uint32_t type) {
@@ -74,7 +74,7 @@ struct MatrixHead {
 std::int64_t count_of(const std::vector<std::int64_t>& shape) {
   std::int64_t count = 1;
   for (const std::int64_t size : shape)
-    count = size > 0 && count > kMostElements / size ? kMostElements : count * size;
+    count = size > 0 && count > kMat5MostElements / size ? kMat5MostElements : count * size;
   return count;
 }
 
@@ -101,7 +101,7 @@ class MatrixParser {
     if (element.type != kMatrix) return false;
     if (element.bytes == 0) return true;
     const auto head = head_of(element);
-    if (!head || depth > kDeepest) return false;
+    if (!head || depth > kMat5Deepest) return false;
     const std::string name = path.empty() ? head->name : path;
     if (head->kind == kStruct) return read_struct(*head, name, depth);
     if (head->kind == kChar) return read_text(*head, name, depth);

@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::string_view kHeaderText = "MATLAB 5.0 MAT-file, written by faultline";
 constexpr std::size_t kTextBytes = 116, kFree = 8;  ///< of the header
-constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kMatrix = 14, kUtf8 = 16;
+constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kWriterMatrix = 14, kUtf8 = 16;
 constexpr std::uint32_t kCharClass = 4, kDoubleClass = 6;
 constexpr std::size_t kStep = 8;  ///< elements begin at multiples of it
-constexpr std::size_t kMostBytes = (std::size_t{1} << 31) - 4096;
+constexpr std::size_t kWriterMostBytes = (std::size_t{1} << 31) - 4096;
 
 void put(std::string& bytes, std::uint32_t number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -42,7 +42,7 @@ std::string matrix_head(std::uint32_t kind, std::size_t rows, std::size_t column
   put(head, data_type);
   put(head, static_cast<std::uint32_t>(data_bytes));
   std::string all;
-  put(all, kMatrix);
+  put(all, kWriterMatrix);
   put(all, static_cast<std::uint32_t>(head.size() + (data_bytes + kStep - 1) / kStep * kStep));
   return all + head;
 }
@@ -69,7 +69,7 @@ class MatlabWriter : public LogWriter {
   void write_array(const WrittenArray& array) {
     const auto rows = static_cast<std::size_t>(arrays_.rows()), width = static_cast<std::size_t>(array.width);
     const std::size_t bytes = rows * width * sizeof(double);
-    if (bytes > kMostBytes)
+    if (bytes > kWriterMostBytes)
       throw Error(ErrorCode::output, path_,
                   "cannot hold \"" + array.name +
                       "\", as such a file holds 2 GiB an array; write .h5, which MATLAB "

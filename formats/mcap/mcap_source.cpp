@@ -25,7 +25,7 @@ struct ChunkedMessage {
   std::string_view content;  ///< of its record
 };
 
-std::optional<BlockPacking> packing_named(std::string_view name) {
+std::optional<BlockPacking> mcap_packing(std::string_view name) {
   if (name.empty()) return BlockPacking::none;
   if (name == "lz4") return BlockPacking::lz4_frame;
   if (name == "zstd") return BlockPacking::zstd;
@@ -146,7 +146,7 @@ class McapSource : public MessageSource {
     chunk.take<std::uint64_t>();
     const auto size = chunk.take<std::uint64_t>();
     const auto checksum = chunk.take<std::uint32_t>();
-    const auto packing = packing_named(chunk.text());
+    const auto packing = mcap_packing(chunk.text());
     chunk.take<std::uint64_t>();
     in_chunk_.clear();
     next_in_chunk_ = 0;

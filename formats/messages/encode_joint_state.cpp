@@ -11,7 +11,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kLittleEndian{"\0\1\0\0", 4};
 constexpr std::size_t kStamp = 8;
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kStateSecond = 1'000'000'000;
 
 /// Pads to a multiple of `to` behind byte `begin`.
 void align(std::string& out, std::size_t begin, std::size_t to) {
@@ -55,8 +55,8 @@ JointStateEncoder::JointStateEncoder(const std::vector<std::string>& names) {
 void JointStateEncoder::append(std::int64_t stamp_ns, const JointRow& row, std::string& out) const {
   out.append(kLittleEndian);
   const std::size_t begin = out.size();
-  append_word(out, static_cast<std::uint32_t>(stamp_ns / kSecond));
-  append_word(out, static_cast<std::uint32_t>(stamp_ns % kSecond));
+  append_word(out, static_cast<std::uint32_t>(stamp_ns / kStateSecond));
+  append_word(out, static_cast<std::uint32_t>(stamp_ns % kStateSecond));
   out.append(names_);
   append_numbers(out, begin, row.position);
   append_numbers(out, begin, row.velocity);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "formats/messages/joint_state_json.hpp"
 
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "lib/core/missing.hpp"
 
 namespace faultline {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
+constexpr std::int64_t kStateNanoseconds = 1'000'000'000;
 /// Of a stamp; more would not fit 64 bits of nanoseconds.
-constexpr double kMostSeconds = 9e9;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStateMostSeconds = 9e9;
 
 /// The first of the members that is a number; 0 for none.
 double number_of(const json& object, std::initializer_list<const char*> names) {
@@ -29,9 +29,10 @@ std::int64_t stamp_of(const json& message) {
   if (stamp == header->end() || !stamp->is_object()) return 0;
   const double seconds = number_of(*stamp, {"sec", "secs"});
   const double nanoseconds = number_of(*stamp, {"nsec", "nanosec", "nsecs"});
-  if (!(seconds >= 0.0 && seconds < kMostSeconds && nanoseconds >= 0.0 && nanoseconds < kMostSeconds))
+  if (!(seconds >= 0.0 && seconds < kStateMostSeconds && nanoseconds >= 0.0 &&
+        nanoseconds < kStateMostSeconds))
     return 0;
-  return static_cast<std::int64_t>(seconds) * kNanoseconds + static_cast<std::int64_t>(nanoseconds);
+  return static_cast<std::int64_t>(seconds) * kStateNanoseconds + static_cast<std::int64_t>(nanoseconds);
 }
 
 /// A member that is an array of numbers; what is no number in it (such as null) is NaN.

@@ -4,17 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/receipt_gap.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Joint states that are looked at to find the joints, and bytes of messages of any kind.
 constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "formats/provenance.hpp"
+#include "lib/core/missing.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kHeaderBytes = sizeof(NativeChunkHeader);
 /// Damaged blocks are searched for the next header while those before hold no more than so many bytes and the
 /// file up to there; else nested ones would take time with the square of their number.

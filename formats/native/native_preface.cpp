@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostTries = 4;               ///< places where the second copy could begin
 constexpr std::size_t kFarthestShift = 64;  ///< bytes by which damage may have moved it back
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
+[[noreturn]] void fail_preface(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::input, path, what);
 }
 
@@ -57,27 +57,28 @@ std::size_t second_copy(ByteWindow& bytes) {
 
 [[noreturn]] void refuse(ByteWindow& bytes, const std::string& path) {
   if (bytes.view().size() < sizeof(NativePreface))
-    fail(path, "is cut inside its header; nothing can be read from it");
+    fail_preface(path, "is cut inside its header; nothing can be read from it");
   const NativePreface preface = first_fields(bytes.view());
   if (preface.version > kNativeVersion)
-    fail(path, fmt::format("is of format version {}, this program reads up to {}; use a newer faultline",
-                           preface.version, kNativeVersion));
-  fail(path, "has a damaged header (its checksum does not match); nothing can be read from it");
+    fail_preface(path,
+                 fmt::format("is of format version {}, this program reads up to {}; use a newer faultline",
+                             preface.version, kNativeVersion));
+  fail_preface(path, "has a damaged header (its checksum does not match); nothing can be read from it");
 }
 
 std::vector<RawColumn> columns_of(std::string_view list, const std::string& path) {
   std::vector<RawColumn> columns;
   const auto count = static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n'));
   if (count > kMostChannels)
-    fail(path, fmt::format("promises {} channels, at most {} are read", count, kMostChannels));
+    fail_preface(path, fmt::format("promises {} channels, at most {} are read", count, kMostChannels));
   for (std::size_t begin = 0; begin < list.size();) {
     const auto tab = list.find('\t', begin), end = list.find('\n', begin);
-    if (tab >= end || end == std::string::npos) fail(path, "has a channel list that cannot be read");
+    if (tab >= end || end == std::string::npos) fail_preface(path, "has a channel list that cannot be read");
     columns.push_back(
         {std::string(list.substr(begin, tab - begin)), std::string(list.substr(tab + 1, end - tab - 1))});
     begin = end + 1;
   }
-  if (columns.empty()) fail(path, "has an empty channel list");
+  if (columns.empty()) fail_preface(path, "has an empty channel list");
   return columns;
 }
 

@@ -16,13 +16,13 @@
 namespace faultline {
 namespace {
 
-using Json = nlohmann::json;
+using NpyJson = nlohmann::json;
 using Shape = std::vector<std::int64_t>;
 
 constexpr std::size_t kMagicBytes = 8;  ///< with the version
 constexpr std::uint32_t kLongestHeader = 1 << 22;
-constexpr std::int64_t kMostBytes = std::int64_t{1} << 53;
-constexpr std::size_t kMostDimensions = 32;
+constexpr std::int64_t kHeaderMostBytes = std::int64_t{1} << 53;
+constexpr std::size_t kHeaderMostDimensions = 32;
 constexpr std::int64_t kUnicodeBytes = 4;  ///< of a character
 
 /// One type of numpy, such as "<f8"; no number when its elements are none that a log has.
@@ -60,11 +60,11 @@ std::optional<NumpyType> type_of(const std::string& text) {
   return type;
 }
 
-std::optional<Shape> shape_of(const Json& json) {
+std::optional<Shape> shape_of(const NpyJson& json) {
   if (json.is_number_integer()) return Shape{json.get<std::int64_t>()};
-  if (!json.is_array() || json.size() > kMostDimensions) return std::nullopt;
+  if (!json.is_array() || json.size() > kHeaderMostDimensions) return std::nullopt;
   Shape shape;
-  for (const Json& size : json) {
+  for (const NpyJson& size : json) {
     if (!size.is_number_integer()) return std::nullopt;
     shape.push_back(size.get<std::int64_t>());
   }
@@ -75,7 +75,7 @@ std::optional<Shape> shape_of(const Json& json) {
 std::optional<std::int64_t> bytes_of(const Shape& shape, std::int64_t item) {
   std::int64_t bytes = std::max<std::int64_t>(item, 1);
   for (const std::int64_t size : shape) {
-    if (size > 0 && bytes > kMostBytes / size) return std::nullopt;
+    if (size > 0 && bytes > kHeaderMostBytes / size) return std::nullopt;
     bytes *= std::max<std::int64_t>(size, 1);
   }
   return std::count(shape.begin(), shape.end(), 0) > 0 ? 0 : bytes;
@@ -87,10 +87,10 @@ class RecordFields {
   explicit RecordFields(std::string prefix) : prefix_(std::move(prefix)) {}
 
   /// Bytes of a record; nullopt when it cannot be read.
-  std::optional<std::int64_t> read(const Json& descr, const std::string& path) {
-    for (const Json& field : descr) {
+  std::optional<std::int64_t> read(const NpyJson& descr, const std::string& path) {
+    for (const NpyJson& field : descr) {
       if (!field.is_array() || field.size() < 2) return std::nullopt;
-      const Json& given = field[0].is_array() && field[0].size() == 2 ? field[0][1] : field[0];
+      const NpyJson& given = field[0].is_array() && field[0].size() == 2 ? field[0][1] : field[0];
       if (!given.is_string()) return std::nullopt;
       const auto shape = field.size() > 2 ? shape_of(field[2]) : Shape{};
       if (!shape || !read_field(field[1], path + given.get<std::string>(), *shape)) return std::nullopt;
@@ -101,7 +101,7 @@ class RecordFields {
   std::vector<StoredArray> arrays;
 
  private:
-  bool read_field(const Json& descr, const std::string& name, const Shape& shape) {
+  bool read_field(const NpyJson& descr, const std::string& name, const Shape& shape) {
     const std::int64_t begin = bytes_;
     if (descr.is_array()) {
       const std::size_t before = arrays.size();
@@ -117,7 +117,7 @@ class RecordFields {
 
   bool advance(std::int64_t begin, const Shape& shape, std::int64_t item) {
     const auto bytes = bytes_of(shape, item);
-    if (!bytes || *bytes > kMostBytes - begin) return false;
+    if (!bytes || *bytes > kHeaderMostBytes - begin) return false;
     bytes_ = begin + (item == 0 ? 0 : *bytes);
     return true;
   }
@@ -153,7 +153,7 @@ void spread(std::vector<StoredArray>& fields, const Shape& shape, std::int64_t r
   }
 }
 
-std::optional<Json> header_json(ContentStream& stream, std::int64_t& header_bytes) {
+std::optional<NpyJson> header_json(ContentStream& stream, std::int64_t& header_bytes) {
   std::array<char, kMagicBytes + 4> start{};
   if (stream.read(0, start.data(), start.size()) < start.size()) return std::nullopt;
   const int version = start[6];
@@ -179,8 +179,8 @@ std::optional<NpyArray> read_npy_header(ContentStream& stream, const std::string
   if (!json || !json->is_object() || !json->contains("descr") || !json->contains("shape"))
     return std::nullopt;
   const auto shape = shape_of((*json)["shape"]);
-  const bool fortran_order = json->value("fortran_order", Json(false)) == true;
-  const Json& descr = (*json)["descr"];
+  const bool fortran_order = json->value("fortran_order", NpyJson(false)) == true;
+  const NpyJson& descr = (*json)["descr"];
   if (!shape) return std::nullopt;
   NpyArray result;
   RecordFields fields(descr.is_array() && !name.empty() ? name + "." : name);
@@ -189,7 +189,8 @@ std::optional<NpyArray> read_npy_header(ContentStream& stream, const std::string
          Severity::note);
     return result;
   }
-  const auto record = fields.read(descr.is_array() ? descr : Json::array({Json::array({"", descr})}), "");
+  const auto record =
+      fields.read(descr.is_array() ? descr : NpyJson::array({NpyJson::array({"", descr})}), "");
   const auto bytes = record ? bytes_of(*shape, *record) : std::nullopt;
   if (!bytes) return std::nullopt;
   spread(fields.arrays, *shape, *record, fortran_order);

@@ -10,21 +10,21 @@
 namespace faultline {
 namespace {
 
-using Json = nlohmann::json;
+using NpyJson = nlohmann::json;
 
-constexpr int kDeepest = 16;
+constexpr int kLiteralDeepest = 16;
 
 class PythonParser {
  public:
   explicit PythonParser(std::string_view text) : text_(text) {}
 
-  std::optional<Json> run() {
-    Json value = read(0);
+  std::optional<NpyJson> run() {
+    NpyJson value = read(0);
     return failed_ ? std::nullopt : std::optional(value);
   }
 
  private:
-  Json fail() {
+  NpyJson fail() {
     failed_ = true;
     return {};
   }
@@ -41,8 +41,8 @@ class PythonParser {
     return true;
   }
 
-  Json read(int depth) {
-    if (depth > kDeepest) return fail();
+  NpyJson read(int depth) {
+    if (depth > kLiteralDeepest) return fail();
     const char c = peek();
     if (c == '{') return read_dictionary(depth);
     if (c == '[') return read_list(depth, ']');
@@ -59,11 +59,11 @@ class PythonParser {
     return read_number();
   }
 
-  Json read_dictionary(int depth) {
-    Json all = Json::object();
+  NpyJson read_dictionary(int depth) {
+    NpyJson all = NpyJson::object();
     ++at_;
     while (!failed_ && !take("}")) {
-      const Json key = read(depth + 1);
+      const NpyJson key = read(depth + 1);
       if (!key.is_string() || !take(":")) return fail();
       all[key.get<std::string>()] = read(depth + 1);
       if (!take(",") && peek() != '}') return fail();
@@ -71,8 +71,8 @@ class PythonParser {
     return all;
   }
 
-  Json read_list(int depth, char close) {
-    Json all = Json::array();
+  NpyJson read_list(int depth, char close) {
+    NpyJson all = NpyJson::array();
     ++at_;
     while (!failed_ && !take(std::string_view(&close, 1))) {
       all.push_back(read(depth + 1));
@@ -81,7 +81,7 @@ class PythonParser {
     return all;
   }
 
-  Json read_string() {
+  NpyJson read_string() {
     const char quote = text_[at_++];
     std::string text;
     for (; at_ < text_.size() && text_[at_] != quote; ++at_) {
@@ -93,7 +93,7 @@ class PythonParser {
     return text;
   }
 
-  Json read_number() {
+  NpyJson read_number() {
     std::int64_t value = 0;
     const std::size_t before = at_;
     for (; at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])); ++at_) {

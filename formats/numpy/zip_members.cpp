@@ -22,7 +22,7 @@ constexpr std::size_t kLocalBytes = 30, kCentralBytes = 46, kEndBytes = 22, kEnd
 constexpr std::size_t kLongestComment = 1 << 16;
 constexpr std::size_t kMostDirectory = 1 << 24;
 constexpr std::size_t kMostMembers = 1 << 14;
-constexpr std::uint32_t kIn64 = 0xffffffff;  ///< the number stands in the extra field
+constexpr std::uint32_t kMembersIn64 = 0xffffffff;  ///< the number stands in the extra field
 constexpr std::uint16_t kExtra64 = 1;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kEncrypted = 1, kSizesBehind = 8;  ///< flags
@@ -60,7 +60,7 @@ void read_extra(const std::string& extra, ZipMember& member) {
     if (id == kExtra64) {
       std::size_t next = at;
       for (std::uint64_t* number : {&member.unpacked, &member.packed, &member.local})
-        if (*number == kIn64) *number = number_at<std::uint64_t>(extra, next), next += 8;
+        if (*number == kMembersIn64) *number = number_at<std::uint64_t>(extra, next), next += 8;
     }
     at += size;
   }
@@ -78,7 +78,7 @@ std::optional<Directory> find_directory(const RandomFile& file) {
     if (number_at<std::uint32_t>(tail, i) != kEnd) continue;
     Directory found{number_at<std::uint32_t>(tail, i + 16), number_at<std::uint32_t>(tail, i + 12),
                     number_at<std::uint16_t>(tail, i + 10)};
-    if (found.at != kIn64 && found.bytes != kIn64) return found;
+    if (found.at != kMembersIn64 && found.bytes != kMembersIn64) return found;
     if (i < kLocatorBytes) return std::nullopt;
     const auto end64 = number_at<std::uint64_t>(tail, i - kLocatorBytes + 8);
     const std::string end =

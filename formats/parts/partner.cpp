@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "lib/core/missing.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kRowsAtOnce = 4096;
+constexpr int kPartnerRowsAtOnce = 4096;
 /// Rows further apart than so many usual steps are not interpolated between.
 constexpr double kWidestGap = 5.0;
 
@@ -33,7 +33,7 @@ void Partner::rewind() {
 bool Partner::next_row() {
   if (++at_ < block_.rows) return true;
   at_ = 0;
-  if (!ended_) ended_ = !reader_->next(block_, kRowsAtOnce);
+  if (!ended_) ended_ = !reader_->next(block_, kPartnerRowsAtOnce);
   if (ended_) block_.rows = 0;
   return !ended_;
 }

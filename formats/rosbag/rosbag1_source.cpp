@@ -20,11 +20,11 @@ namespace faultline {
 namespace {
 
 /// Of a record's header; its fields are few and short.
-constexpr std::uint32_t kLongestHeader = 1 << 20;
-constexpr std::size_t kSearchedAtOnce = 1 << 16;
+constexpr std::uint32_t kSourceLongestHeader = 1 << 20;
+constexpr std::size_t kSourceSearchedAtOnce = 1 << 16;
 constexpr std::size_t kLeastRecord = 8;  ///< two lengths
 
-std::optional<BlockPacking> packing_named(std::string_view name) {
+std::optional<BlockPacking> bag_packing(std::string_view name) {
   if (name == "none") return BlockPacking::none;
   if (name == "lz4") return BlockPacking::lz4_frame;
   if (name == "bz2") return BlockPacking::bz2;
@@ -83,7 +83,7 @@ class Rosbag1Source : public MessageSource {
   std::uint64_t likely_size() {
     if (!window_.fill(sizeof(std::uint32_t))) return 0;
     const auto header = ByteCursor(window_.view()).take<std::uint32_t>();
-    if (header > kLongestHeader || !window_.fill(header + kLeastRecord)) return 0;
+    if (header > kSourceLongestHeader || !window_.fill(header + kLeastRecord)) return 0;
     if (!Rosbag1Fields(window_.view().substr(sizeof header, header)).has_op()) return 0;
     const std::uint64_t size = rosbag1_record_size(window_.view());
     return size <= kLargestBlock ? size : 0;
@@ -118,13 +118,13 @@ class Rosbag1Source : public MessageSource {
     bool found = false;
     do {
       window_.advance(std::min<std::size_t>(1, window_.view().size()));
-      window_.fill(kSearchedAtOnce);
+      window_.fill(kSourceSearchedAtOnce);
       const std::string_view view = window_.view();
       const auto at = view.find("op=");
       constexpr std::size_t kBefore = 2 * sizeof(std::uint32_t);
       // Headers that this program looks for begin with their operation or have it soon.
       if (at == std::string_view::npos) {
-        window_.advance(view.size() > kSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
+        window_.advance(view.size() > kSourceSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
         continue;
       }
       found = step_to_header(at);
@@ -197,7 +197,7 @@ class Rosbag1Source : public MessageSource {
 
   void open_chunk(const Rosbag1Fields& fields, std::string_view data, bool whole) {
     lost_.begin_chunk();
-    const auto packing = packing_named(fields.text("compression"));
+    const auto packing = bag_packing(fields.text("compression"));
     const std::uint32_t size = fields.word("size");
     if (!packing) return lose_chunk("its compression is not known");
     bool sound = data.size() == size;

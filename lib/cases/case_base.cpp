@@ -15,15 +15,17 @@ namespace {
 constexpr double kLargestNumber = 1e15;
 constexpr int kMostJoints = 64;
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::input, "case base", message); }
+[[noreturn]] void refuse_base(const std::string& message) {
+  throw Error(ErrorCode::input, "case base", message);
+}
 
 void check_features(const std::vector<Feature>& features) {
   std::set<std::string> names;
   for (const Feature& f : features) {
-    if (f.name.empty()) refuse("a feature has no name");
-    if (!names.insert(f.name).second) refuse("feature \"" + f.name + "\" is there twice");
+    if (f.name.empty()) refuse_base("a feature has no name");
+    if (!names.insert(f.name).second) refuse_base("feature \"" + f.name + "\" is there twice");
     if (!(f.scale > 0.0 && f.scale <= kLargestNumber && f.weight >= 0.0 && f.weight <= 1.0))
-      refuse("feature \"" + f.name + "\" needs a scale above 0 and a weight of 0 to 1");
+      refuse_base("feature \"" + f.name + "\" needs a scale above 0 and a weight of 0 to 1");
   }
 }
 
@@ -52,10 +54,11 @@ CaseBase::CaseBase(const std::vector<std::string>& feature_names) {
 CaseBase::CaseBase(Metric metric, std::vector<Case> cases)
     : metric_(std::move(metric)), cases_(std::move(cases)) {
   check_features(metric_.features);
-  if (!is_share(metric_.near_similarity)) refuse("the similarity that counts as near must be 0 to 1");
+  if (!is_share(metric_.near_similarity)) refuse_base("the similarity that counts as near must be 0 to 1");
   std::int64_t last = 0;
   for (Case& c : cases_) {
-    if (c.id <= last) refuse("case ids must be above 0 and ascend; " + std::to_string(c.id) + " does not");
+    if (c.id <= last)
+      refuse_base("case ids must be above 0 and ascend; " + std::to_string(c.id) + " does not");
     last = c.id;
     check(c);
     mend_texts(c);
@@ -71,18 +74,21 @@ std::vector<std::string> CaseBase::feature_names() const {
 void CaseBase::check(const Case& c) const {
   const std::string which = "case " + std::to_string(c.id);
   if (c.episode.features.size() != metric_.features.size())
-    refuse(which + " has " + std::to_string(c.episode.features.size()) + " features, this base compares " +
-           std::to_string(metric_.features.size()) + "; it comes from another robot or program version");
+    refuse_base(which + " has " + std::to_string(c.episode.features.size()) +
+                " features, this base compares " + std::to_string(metric_.features.size()) +
+                "; it comes from another robot or program version");
   for (std::size_t i = 0; i < metric_.features.size(); ++i)
     if (!is_sane(c.episode.features[i]))
-      refuse(which + ": feature \"" + metric_.features[i].name + "\" is infinite or beyond any measurement");
+      refuse_base(which + ": feature \"" + metric_.features[i].name +
+                  "\" is infinite or beyond any measurement");
   if (!is_share(c.episode.mlp.confidence) || !is_share(c.episode.rbfn.confidence))
-    refuse(which + ": the confidence of an opinion must be 0 to 1");
-  if (!is_sane(c.episode.evidence)) refuse(which + ": the evidence is infinite or beyond any measurement");
-  if (!is_sane(c.onset_s)) refuse(which + ": the onset is infinite or beyond any measurement");
+    refuse_base(which + ": the confidence of an opinion must be 0 to 1");
+  if (!is_sane(c.episode.evidence))
+    refuse_base(which + ": the evidence is infinite or beyond any measurement");
+  if (!is_sane(c.onset_s)) refuse_base(which + ": the onset is infinite or beyond any measurement");
   for (const FaultLabel& label : {c.decision, c.label, c.episode.mlp.label, c.episode.rbfn.label})
     if (label.joint < 0 || label.joint > kMostJoints)
-      refuse(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");
+      refuse_base(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");
 }
 
 const Case& CaseBase::at(std::int64_t id) const {

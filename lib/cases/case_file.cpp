@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kCopyAttempts = 5;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& message) {
+[[noreturn]] void refuse_file(const std::string& path, const std::string& message) {
   throw Error(ErrorCode::input, path, message);
 }
 
@@ -24,32 +24,32 @@ void check_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
-    refuse(path,
-           "there is no such case base; learn writes one beside the model as " + case_base_path("MODEL"));
+    refuse_file(
+        path, "there is no such case base; learn writes one beside the model as " + case_base_path("MODEL"));
   if (status.type() == std::filesystem::file_type::directory)
-    refuse(path, "is a directory, a case base file was expected");
+    refuse_file(path, "is a directory, a case base file was expected");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse(path, "is a device or pipe, a case base file was expected");
+    refuse_file(path, "is a device or pipe, a case base file was expected");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
-    refuse(path, "is empty, a case base was expected; restore it from a copy or run learn again");
+    refuse_file(path, "is empty, a case base was expected; restore it from a copy or run learn again");
 }
 
 void check_whole(SqliteFile& file, const std::string& path, std::int64_t version) {
   const std::string check = file.text("PRAGMA quick_check(1)");
   if (check != "ok")
-    refuse(path, "is a damaged or truncated case base (" + check + "); restore it from a copy");
+    refuse_file(path, "is a damaged or truncated case base (" + check + "); restore it from a copy");
   if (version > 1 && file.text("SELECT digest FROM identity") != case_tables_digest(file, version))
-    refuse(path,
-           "is damaged, or was changed by another program: its content does not fit the digest that it "
-           "carries; restore it from a copy or run learn again");
+    refuse_file(path,
+                "is damaged, or was changed by another program: its content does not fit the digest that it "
+                "carries; restore it from a copy or run learn again");
 }
 
 void check_counts(SqliteFile& file, const std::string& path, const CaseBase& base) {
   const auto features = file.number("SELECT features FROM counts"),
              cases = file.number("SELECT cases FROM counts");
   if (features != std::ssize(base.metric().features) || cases != std::ssize(base.cases()))
-    refuse(path, "is incomplete: it should hold " + std::to_string(cases) + " cases and holds " +
-                     std::to_string(base.cases().size()));
+    refuse_file(path, "is incomplete: it should hold " + std::to_string(cases) + " cases and holds " +
+                          std::to_string(base.cases().size()));
 }
 
 CaseBase read_content(SqliteFile& file, const std::string& path) try {
@@ -63,7 +63,7 @@ CaseBase read_content(SqliteFile& file, const std::string& path) try {
   return base;
 } catch (const Error& error) {
   if (error.where() == path) throw;
-  refuse(path, "is a damaged case base: " + std::string(error.what()));
+  refuse_file(path, "is a damaged case base: " + std::string(error.what()));
 }
 
 /// Nothing when somebody changed the file meanwhile.

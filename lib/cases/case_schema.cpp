@@ -56,7 +56,7 @@ std::string expected_schema(std::int64_t version) {
   return schema_of(memory);
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& message) {
+[[noreturn]] void refuse_schema(const std::string& name, const std::string& message) {
   throw Error(ErrorCode::input, name, message);
 }
 
@@ -97,15 +97,16 @@ void drop_case_tables(SqliteFile& file, std::int64_t version) {
 std::int64_t checked_case_schema(SqliteFile& file, const std::string& name) {
   const std::int64_t application = file.number("PRAGMA application_id");
   if (application != kApplicationId)
-    refuse(name, "is an SQLite file of another program, not a case base of faultline");
+    refuse_schema(name, "is an SQLite file of another program, not a case base of faultline");
   const std::int64_t version = file.number("PRAGMA user_version");
   if (version > kCaseSchemaVersion)
-    refuse(name, "was written by a newer faultline (case base schema " + std::to_string(version) +
-                     ", this program knows " + std::to_string(kCaseSchemaVersion) + "); update the program");
-  if (version < 1) refuse(name, "has the unknown case base schema " + std::to_string(version));
+    refuse_schema(name, "was written by a newer faultline (case base schema " + std::to_string(version) +
+                            ", this program knows " + std::to_string(kCaseSchemaVersion) +
+                            "); update the program");
+  if (version < 1) refuse_schema(name, "has the unknown case base schema " + std::to_string(version));
   if (schema_of(file) != expected_schema(version))
-    refuse(name, "has other tables than a case base of faultline" + stranger_in(file) +
-                     ": it is damaged, or was changed by another program; restore it from a copy");
+    refuse_schema(name, "has other tables than a case base of faultline" + stranger_in(file) +
+                            ": it is damaged, or was changed by another program; restore it from a copy");
   return version;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kOfLabel = "behind ";        // begins a feature of each hypothesis
 constexpr const char* kOfJoint = "mlp residual ";  // begins a feature of each joint
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+[[noreturn]] void refuse_label(const std::string& where, const std::string& message) {
   throw Error(ErrorCode::usage, where, message);
 }
 
@@ -44,8 +44,8 @@ int joints_of(const CaseBase& base) {
 
 void check_joint(int joints, const FaultLabel& label, const std::string& where) {
   if (joints > 0 && label.joint > joints)
-    refuse(where, "is a fault of joint " + std::to_string(label.joint) + ", but the robot has " +
-                      counted(joints, "joint"));
+    refuse_label(where, "is a fault of joint " + std::to_string(label.joint) + ", but the robot has " +
+                            counted(joints, "joint"));
 }
 
 void check_place(int joints, const FaultLabel& label, const std::string& where) {
@@ -54,20 +54,22 @@ void check_place(int joints, const FaultLabel& label, const std::string& where) 
   const std::string kind = to_string(label.kind);
   const FaultPlace place = describe(label.kind).place;
   if (place == FaultPlace::nowhere && label.joint != 0)
-    refuse(where, "\"" + kind + "\" belongs to no joint; leave the joint out");
+    refuse_label(where, "\"" + kind + "\" belongs to no joint; leave the joint out");
   if (place == FaultPlace::joint && label.joint == 0)
-    refuse(where, "\"" + kind + "\" is a fault of a joint; tell which one, they count from 1");
+    refuse_label(where, "\"" + kind + "\" is a fault of a joint; tell which one, they count from 1");
   if (place == FaultPlace::tip && joints > 0 && label.joint != joints)
-    refuse(where, "\"" + kind + "\" belongs to the joint nearest the tip, joint " + std::to_string(joints));
+    refuse_label(where,
+                 "\"" + kind + "\" belongs to the joint nearest the tip, joint " + std::to_string(joints));
 }
 
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where) {
   check_place(joints_of(base), label, where);
   const bool is_fault = label.kind != FaultKind::none && label.kind != FaultKind::unknown;
   if (is_fault && !is_compared(base, label) && !has_case_of(base, label.kind))
-    refuse(where, "\"" + label_text(label) +
-                      "\" is no fault that the model of this case base looks for, by what the torque in this "
-                      "robot's logs means, and no labelled log showed one");
+    refuse_label(where,
+                 "\"" + label_text(label) +
+                     "\" is no fault that the model of this case base looks for, by what the torque in this "
+                     "robot's logs means, and no labelled log showed one");
 }
 
 FaultLabel with_tip(FaultLabel label, int joints) {

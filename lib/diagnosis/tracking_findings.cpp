@@ -14,9 +14,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kStill = 0.2;       // of the motion that should be there, or less
-constexpr double kExplains = 0.5;    // of the residual, by a velocity that is missing
-constexpr double kSameTime_s = 0.1;  // position and velocity show one thing so far apart
+constexpr double kStill = 0.2;               // of the motion that should be there, or less
+constexpr double kExplains = 0.5;            // of the residual, by a velocity that is missing
+constexpr double kFindingsSameTime_s = 0.1;  // position and velocity show one thing so far apart
 
 /// Of an episode or a relation.
 template <typename Tracked>
@@ -70,8 +70,8 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain<double
 }
 
 bool is_same(const FaultFinding& finding, const RelationEpisode& episode) {
-  return finding.label.joint == episode.joint + 1 && finding.onset_s <= episode.end_s + kSameTime_s &&
-         finding.end_s >= episode.onset_s - kSameTime_s;
+  return finding.label.joint == episode.joint + 1 && finding.onset_s <= episode.end_s + kFindingsSameTime_s &&
+         finding.end_s >= episode.onset_s - kFindingsSameTime_s;
 }
 
 /// The one that names a kind keeps its words.

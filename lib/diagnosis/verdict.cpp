@@ -17,7 +17,7 @@ constexpr double kLeastPower =
 constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
 constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
-constexpr double kPercent = 100.0;
+constexpr double kVerdictPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
 
@@ -61,7 +61,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
         "logs that resemble each other more",
-        kPercent * power);
+        kVerdictPercent * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
   const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);

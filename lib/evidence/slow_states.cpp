@@ -11,11 +11,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kColourShare = 0.01;     // of the largest torque, where matching starts
-constexpr double kFirstMemory_s = 0.05;   // likewise
-constexpr double kCarriedInPriors = 2.0;  // the payload's prior is half of what is carried
-constexpr double kDayPace = 0.05;         // of a day's spread: what wanders of it in a second (root of time)
-constexpr double kNearFloor = 0.25;       // of the least level: what the logs show of it keeps its time
+constexpr double kColourShare = 0.01;           // of the largest torque, where matching starts
+constexpr double kFirstMemory_s = 0.05;         // likewise
+constexpr double kStatesCarriedInPriors = 2.0;  // the payload's prior is half of what is carried
+constexpr double kDayPace = 0.05;    // of a day's spread: what wanders of it in a second (root of time)
+constexpr double kNearFloor = 0.25;  // of the least level: what the logs show of it keeps its time
 constexpr double kModelErrorMemory_s = 0.03;  // of ripple, springs and friction that is met again and again
 
 bool rubs(const Friction<double>& friction) { return friction.viscous != 0.0 || friction.coulomb != 0.0; }
@@ -39,7 +39,7 @@ std::vector<SlowState> slow_states(const MotionModel& model, const NormalRange& 
       add(SlowKind::torque_gain, j, normal.torque_constant, kDayPace * normal.torque_constant);
     states.push_back({SlowKind::coloured_torque, j, kColourShare * largest, 0.0, kFirstMemory_s});
   }
-  const double carried = kCarriedInPriors * model.priors.payload;
+  const double carried = kStatesCarriedInPriors * model.priors.payload;
   if (normal.tip_mass > 0.0 && carried > 0.0)
     add(SlowKind::tip_mass, n - 1, normal.tip_mass * carried, kDayPace * normal.tip_mass * carried);
   return states;

@@ -68,7 +68,7 @@ void compare_times(const Trace& expected, const Trace& actual, const std::vector
   comparison.lines.push_back({expected_text, actual_text, true});
 }
 
-std::string value(double number) { return digits_text(number, 6); }
+std::string trace_value(double number) { return digits_text(number, 6); }
 
 }  // namespace
 
@@ -90,9 +90,10 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     if (found.count == 0) continue;
     const auto [i, j] = points[found.first];
     const double wanted = expected.values[c][i], got = there[j], time = expected.time[i];
-    comparison.differences.push_back({channel, time, value(wanted), value(got), tolerance.allowed(wanted)});
+    comparison.differences.push_back(
+        {channel, time, trace_value(wanted), trace_value(got), tolerance.allowed(wanted)});
     const auto line = [&, i = i](double number) {
-      return fmt::format("{} predicted {} at {} s", channel, value(number), expected.time[i]);
+      return fmt::format("{} predicted {} at {} s", channel, trace_value(number), expected.time[i]);
     };
     comparison.lines.push_back(
         {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), found.count, points.size()),

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-std::string value(double number) { return digits_text(number, 6); }
+std::string brief_value(double number) { return digits_text(number, 6); }
 
 void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
                    Comparison& comparison) {
@@ -35,14 +35,15 @@ bool compare_number(const std::string& channel, const std::string& family, doubl
                     double time, const ToleranceChain& tolerances, Comparison& comparison) {
   const Tolerance tolerance = tolerance_of(tolerances, channel, family);
   if (tolerance.agree(wanted, got)) return false;
-  comparison.differences.push_back({channel, time, value(wanted), value(got), tolerance.allowed(wanted)});
+  comparison.differences.push_back(
+      {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
   return true;
 }
 
 std::string line_of(const JointResidual& r) {
   return fmt::format("residual of joint {}: velocity_rms {}, velocity_peak {} at {} s, position_rms {}",
-                     r.joint, value(r.velocity_rms), value(r.velocity_peak), value(r.velocity_peak_s),
-                     value(r.position_rms));
+                     r.joint, brief_value(r.velocity_rms), brief_value(r.velocity_peak),
+                     brief_value(r.velocity_peak_s), brief_value(r.position_rms));
 }
 
 bool compare_residual(const JointResidual& expected, const JointResidual& actual,
@@ -73,12 +74,13 @@ void compare_residuals(const Observation& expected, const Observation& actual,
 }
 
 std::string value_line(const ParameterValue& p) {
-  return fmt::format("{} {} {}", p.name, value(p.value), p.unit);
+  return fmt::format("{} {} {}", p.name, brief_value(p.value), p.unit);
 }
 
 std::string line_of(const ParameterValue& p) {
-  if (std::isnan(p.std)) return fmt::format("{} {} {} (not identifiable)", p.name, value(p.value), p.unit);
-  return fmt::format("{} {} {}, std {}", p.name, value(p.value), p.unit, value(p.std));
+  if (std::isnan(p.std))
+    return fmt::format("{} {} {} (not identifiable)", p.name, brief_value(p.value), p.unit);
+  return fmt::format("{} {} {}, std {}", p.name, brief_value(p.value), p.unit, brief_value(p.std));
 }
 
 /// "threshold" of "threshold_locked_2".
@@ -87,7 +89,7 @@ std::string family_of_value(const std::string& name) { return name.substr(0, nam
 void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
   if (!actual) {
-    comparison.differences.push_back({expected.name, kNoNumber, value(expected.value), "", kNoNumber});
+    comparison.differences.push_back({expected.name, kNoNumber, brief_value(expected.value), "", kNoNumber});
     comparison.lines.push_back({line_of(expected), "", true});
     return;
   }
@@ -114,7 +116,7 @@ void compare_new(const std::vector<ParameterValue>& expected, const std::vector<
                  Comparison& comparison) {
   for (const ParameterValue& p : actual) {
     if (find_value(expected, p.name)) continue;
-    comparison.differences.push_back({p.name, kNoNumber, "", value(p.value), kNoNumber});
+    comparison.differences.push_back({p.name, kNoNumber, "", brief_value(p.value), kNoNumber});
     comparison.lines.push_back({"", line_of(p), true});
   }
 }

@@ -14,8 +14,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kRounding = 1e-12;  // kg m^2 or kg
-constexpr int kProbes = 40;
+constexpr double kSpaceRounding = 1e-12;  // kg m^2 or kg
+constexpr int kSpaceProbes = 40;
 constexpr double kIndependent = 1e-7;  ///< share of a column that the columns before it must leave
 
 JointVector<double> draw(Random& random, int n, double scale) {
@@ -28,9 +28,9 @@ JointVector<double> draw(Random& random, int n, double scale) {
 Eigen::MatrixXd probe(const Chain<double>& chain) {
   const int n = chain.joints();
   Random random(20260101);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(kProbes * n, n * (kLinkParameters + 1));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(kSpaceProbes * n, n * (kLinkParameters + 1));
   LinkRegressor y;
-  for (int k = 0; k < kProbes; ++k) {
+  for (int k = 0; k < kSpaceProbes; ++k) {
     const auto q = draw(random, n, 2.0), dq = draw(random, n, 2.0), ddq = draw(random, n, 5.0);
     torque_regressor(chain, q, dq, ddq, y);
     all.block(k * n, 0, n, n * kLinkParameters) = y;
@@ -200,7 +200,7 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
   const Eigen::VectorXd torque = probe(chain) * numbers;
   p.head(space.rigid()) = (probe(space.chain) * space.lift).colPivHouseholderQr().solve(torque);
   for (int k = 0; k < space.rigid(); ++k)  // solved for, so zero comes out as rounding
-    if (space.base[k].is_rotor && std::abs(p[k]) < kRounding) p[k] = 0.0;
+    if (space.base[k].is_rotor && std::abs(p[k]) < kSpaceRounding) p[k] = 0.0;
   for (int i = 0; i < n; ++i) {
     p[space.viscous(i)] = chain.friction[i].viscous;
     p[space.coulomb(i)] = chain.friction[i].coulomb;

@@ -19,8 +19,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kRank = 1e-7;   ///< of the largest singular value of the relative Jacobian
-constexpr double kMoves = 1e-4;  ///< part of a parameter in a direction that changes no torque
+constexpr double kPhysicalRank = 1e-7;  ///< of the largest singular value of the relative Jacobian
+constexpr double kMoves = 1e-4;         ///< part of a parameter in a direction that changes no torque
 constexpr double kShortest_m = 0.02, kLongest_m = 10.0;
 constexpr int kStarts = 12;
 constexpr int kIterations = 200;
@@ -80,7 +80,7 @@ Eigen::VectorXd freedom(const Eigen::MatrixXd& rows) {
   padded.topRows(rows.rows()) = rows;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(padded, Eigen::ComputeFullV);
   for (Eigen::Index k = 0; k < n; ++k)
-    if (svd.singularValues()[k] <= kRank * std::max(svd.singularValues()[0], 1e-300))
+    if (svd.singularValues()[k] <= kPhysicalRank * std::max(svd.singularValues()[0], 1e-300))
       out += svd.matrixV().col(k).cwiseAbs2();
   return out.cwiseSqrt();
 }

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestRows = 8;
+constexpr int kVelocityFewestRows = 8;
 constexpr std::size_t kEnoughRows = 1000;  // in motion
 constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q
 constexpr double kMostRows = 0.8;   // share of the rows that have to agree: where rows were lost, some do not
@@ -61,7 +61,7 @@ double usual_period(std::span<const double> time) {
 }  // namespace
 
 bool is_difference(std::span<const double> time, std::span<const double> q, std::span<const double> dq) {
-  if (dq.size() != q.size() || q.size() < kFewestRows) return false;
+  if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return false;
   const Joint joint{time, q, dq, usual_period(time)};
   if (!(joint.period > 0.0)) return false;
   const double close = kSameAsDifference * difference_noise(joint);

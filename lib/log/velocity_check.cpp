@@ -16,7 +16,7 @@ constexpr double kAboveNoise = 10.0;
 constexpr double kLeastMotion = 1e-4;
 constexpr double kFactorTolerance = 1.25;
 constexpr double kLowestCorrelation = 0.5;
-constexpr double kGapSteps = 5.0;  // a longer step is a gap
+constexpr double kCheckGapSteps = 5.0;  // a longer step is a gap
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void VelocityCheck::add_sample(double t, double q, double dq) {
     return;
   }
   const double since = t - last_.t;
-  if (run_ > 0 && usual_step_ > 0.0 && since > kGapSteps * usual_step_)
+  if (run_ > 0 && usual_step_ > 0.0 && since > kCheckGapSteps * usual_step_)
     run_ = window_samples_ = 0;  // nothing is known of the motion across a gap
   else if (run_ > 0)
     usual_step_ = usual_step_ > 0.0 ? usual_step_ + 0.05 * (since - usual_step_) : since;

@@ -17,7 +17,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kFirst = 0.6;  // share of the work that is done before logs are doubted
+constexpr double kRobotFirst = 0.6;  // share of the work that is done before logs are doubted
 // Nats that a fault may explain of a healthy log before it is worth the time of a robot of its own; the most
 // suspicious log is tried whatever they are.
 constexpr double kHint = 20.0;
@@ -48,9 +48,9 @@ struct Contradiction {
 };
 
 /// Logs given to learn from, by their index from 0, and the robot that those in use make.
-class Trial {
+class LogTrial {
  public:
-  Trial(std::span<LogSource* const> logs, const Robot& robot, const WatchedRobotOptions& options)
+  LogTrial(std::span<LogSource* const> logs, const Robot& robot, const WatchedRobotOptions& options)
       : logs_(logs), robot_(robot), options_(options), in_use_(logs.size()) {
     std::iota(in_use_.begin(), in_use_.end(), 0);
   }
@@ -103,7 +103,7 @@ class Trial {
   }
 
   std::optional<WatchedRobot> learned_without(int log, const Progress& progress) const {
-    if (progress) progress("judging " + given_[log].path + " by the other logs", kFirst);
+    if (progress) progress("judging " + given_[log].path + " by the other logs", kRobotFirst);
     std::vector<LogSource*> others;
     for (const int other : in_use_)
       if (other != log) others.push_back(logs_[other]);
@@ -172,8 +172,8 @@ class Trial {
 
 TrustedRobot trusted_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const WatchedRobotOptions& options, const Progress& progress) {
-  Trial trial(logs, robot, options);
-  trial.learn(part_of(progress, 0.0, kFirst));
+  LogTrial trial(logs, robot, options);
+  trial.learn(part_of(progress, 0.0, kRobotFirst));
   if (trial.keeps_all())
     trial.doubt(progress);
   else

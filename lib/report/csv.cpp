@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-std::string row(const std::vector<std::string>& cells) {
+std::string csv_row(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csv_cell(cells[i]);
   return line + "\n";
@@ -22,23 +22,24 @@ std::string alternatives(const FaultFinding& fault) {
   return text;
 }
 
-std::string similar_cases(const FaultFinding& fault) {
+std::string similar_cases_cell(const FaultFinding& fault) {
   std::string text;
   for (const Precedent& p : fault.precedents) text += (text.empty() ? "" : ";") + precedent_code(p);
   return text;
 }
 
 std::string fault_row(const Diagnosis& d, const FaultFinding& f) {
-  return row({d.log.path, to_string(f.label.kind), csv_joint(f.label.joint), csv_cell(f.onset_s),
-              csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence), to_string(f.decided_by),
-              to_string(f.mlp.label.kind), csv_joint(f.mlp.label.joint), csv_cell(f.mlp.confidence),
-              to_string(f.rbfn.label.kind), csv_joint(f.rbfn.label.joint), csv_cell(f.rbfn.confidence),
-              alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256, similar_cases(f)});
+  return csv_row({d.log.path, to_string(f.label.kind), csv_joint(f.label.joint), csv_cell(f.onset_s),
+                  csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence), to_string(f.decided_by),
+                  to_string(f.mlp.label.kind), csv_joint(f.mlp.label.joint), csv_cell(f.mlp.confidence),
+                  to_string(f.rbfn.label.kind), csv_joint(f.rbfn.label.joint), csv_cell(f.rbfn.confidence),
+                  alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256,
+                  similar_cases_cell(f)});
 }
 
 std::string healthy_row(const Diagnosis& d) {
-  return row({d.log.path, "none", "", "", "", "", "", "", "", "", "", "", "", "", "", to_string(d.verdict),
-              d.log.sha256, d.model.sha256, ""});
+  return csv_row({d.log.path, "none", "", "", "", "", "", "", "", "", "", "", "", "", "",
+                  to_string(d.verdict), d.log.sha256, d.model.sha256, ""});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr double kSeemsToPay = 0.98;  // of the residual without a term: less lo
 
 constexpr double kHardlyTold = 0.03;  // share of a parameter's column that is its own
 
-std::string row(const ParameterEstimate& e) {
+std::string parameter_row(const ParameterEstimate& e) {
   if (!e.identifiable) return fmt::format("  {:<9} not identifiable: {}\n", e.name, e.why_not);
   if (e.std == 0.0)
     return fmt::format("  {:<9} {:>12.6g}                              {} (given)\n", e.name, e.value,
@@ -133,9 +133,9 @@ std::string identification_text(const Identification& id) {
   std::string text = fmt::format("{}: {} by {}; {}\n", shortened(id.robot.name, kLongestName),
                                  to_string(id.status), to_string(id.method), id.reason);
   text += "base parameters and friction [95 % interval]\n";
-  for (const auto& e : id.base_parameters) text += row(e);
+  for (const auto& e : id.base_parameters) text += parameter_row(e);
   text += "masses and lengths\n";
-  for (const auto& e : id.physical_parameters) text += row(e);
+  for (const auto& e : id.physical_parameters) text += parameter_row(e);
   text += fit_text(id) + pattern_text(id) + motion_text(id);
   if (const std::vector<std::string> lines = trend_lines(id); !lines.empty()) {
     text += "from log to log\n";

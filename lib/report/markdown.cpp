@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShownFeatures = 3;
 
-std::string row(const std::vector<std::string>& cells) {
+std::string markdown_row(const std::vector<std::string>& cells) {
   std::string text = "|";
   for (const std::string& cell : cells) text += " " + escaped_markdown(cell) + " |";
   return text + "\n";
@@ -26,10 +26,10 @@ std::string row(const std::vector<std::string>& cells) {
 
 std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
   if (rows.empty()) return "";
-  std::string text = row(head) + "|";
+  std::string text = markdown_row(head) + "|";
   for (std::size_t i = 0; i < head.size(); ++i) text += " --- |";
   text += "\n";
-  for (const auto& cells : rows) text += row(cells);
+  for (const auto& cells : rows) text += markdown_row(cells);
   return text + "\n";
 }
 
@@ -52,7 +52,7 @@ std::string fault_table(const Diagnosis& d) {
   return table({"fault", "what", "onset", "alarm", "end", "confidence", "decided by"}, rows);
 }
 
-std::string similar_cases(const FaultFinding& f) {
+std::string similar_cases_table(const FaultFinding& f) {
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> why;
   for (const Precedent& p : f.precedents) {
@@ -74,7 +74,7 @@ std::string finding(const FaultFinding& f) {
   for (const Alternative& a : f.could_also_be) others.push_back(plain_words(a.label) + ": " + a.why);
   for (const EvidenceItem& item : f.evidence) evidence.push_back(evidence_line(item));
   text += list("It could also be", others);
-  text += similar_cases(f);
+  text += similar_cases_table(f);
   if (was_asked(f.mlp) || was_asked(f.rbfn))
     text += table({"network", "says", "confidence"},
                   {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
@@ -82,7 +82,7 @@ std::string finding(const FaultFinding& f) {
   return text + list("Evidence", evidence);
 }
 
-std::string residuals(const Diagnosis& d) {
+std::string residuals_table(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
   for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
@@ -134,7 +134,7 @@ std::string render_markdown(const Diagnosis& d) {
   for (const FaultFinding& f : d.faults) text += finding(f);
   const FactTable condition = condition_table(d);
   if (!condition.rows.empty()) text += "**" + condition.title + "**\n\n";
-  text += table(condition.head, condition.rows) + residuals(d);
+  text += table(condition.head, condition.rows) + residuals_table(d);
   std::vector<std::string> issues;
   for (const Issue& issue : d.log.issues.all()) issues.push_back(issue_line(issue));
   text += list("What to know of the model", d.model.notes);

@@ -17,7 +17,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kShownPrecedents = 3, kShownFeatures = 2;
+constexpr std::size_t kShownPrecedents = 3, kTextShownFeatures = 2;
 
 std::string sentence(const std::string& text) {
   std::string s = printable(text);
@@ -104,7 +104,7 @@ class FaultBlock {
     const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
     return item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
                 known + done) +
-           more(likeness_words(p, kShownFeatures));
+           more(likeness_words(p, kTextShownFeatures));
   }
 
   std::string precedents() const {
@@ -131,7 +131,7 @@ class FaultBlock {
   const TimelineOptions& options_;
 };
 
-std::string residuals(const Diagnosis& d) {
+std::string residuals_text(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   std::string text = "Residuals against the regenerated fault-free motion (1 = as in the healthy logs)\n";
   text += "  joint  velocity rms  largest  at            position rms\n";
@@ -180,7 +180,7 @@ std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
   const std::string timeline = judged ? render_timeline(d, options) : "";
   if (!timeline.empty()) text += timeline + "\n";
   for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
-  text += condition(d) + residuals(d) + log_issues(d, options.width);
+  text += condition(d) + residuals_text(d) + log_issues(d, options.width);
   text += bullets("What this log and model cannot show", d.cannot_see, options.width);
   if (text.ends_with("\n\n")) text.pop_back();
   return text;

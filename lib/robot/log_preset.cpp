@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lib/robot/log_preset.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
 
 #include "lib/core/atomic_file.hpp"
+#include "lib/robot/known_presets.hpp"
 
 namespace faultline {
 namespace {
@@ -15,25 +18,22 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".toml";
 
-std::vector<fs::path> preset_folders() {
-  std::vector<fs::path> folders;
-  if (const char* own = std::getenv("FAULTLINE_PRESETS")) folders.emplace_back(own);
-  folders.emplace_back(FAULTLINE_PRESET_FOLDER);
-  return folders;
+/// The folder of the user's own; empty when there is none.
+fs::path own_folder() {
+  const char* own = std::getenv("FAULTLINE_PRESETS");
+  return own ? own : "";
 }
 
 /// Names of all presets, sorted.
 std::string presets_there_are() {
   std::vector<std::string> names;
+  for (const KnownPreset& preset : known_presets()) names.push_back(preset.name);
   std::error_code none;
-  for (const fs::path& folder : preset_folders())
-    for (const auto& entry : fs::directory_iterator(folder, none))
-      if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+  for (const auto& entry : fs::directory_iterator(own_folder(), none))
+    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -41,12 +41,12 @@ std::string presets_there_are() {
 TomlTable load_log_preset(const TomlTable& table, const std::string& key) {
   const std::string name = table.text(key);
   if (name.ends_with(kExtension)) return TomlTable::parse(read_file(name), name);
+  const fs::path own = own_folder() / (name + kExtension);
   std::error_code none;
-  for (const fs::path& folder : preset_folders()) {
-    const fs::path path = folder / (name + kExtension);
-    if (name.find('/') == std::string::npos && fs::exists(path, none))
-      return TomlTable::parse(read_file(path.string()), path.string());
-  }
+  if (!own_folder().empty() && name.find('/') == std::string::npos && fs::exists(own, none))
+    return TomlTable::parse(read_file(own.string()), own.string());
+  for (const KnownPreset& preset : known_presets())
+    if (preset.name == name) return TomlTable::parse(preset.text, "preset " + name);
   table.fail(key, "there is no preset \"" + name + "\"; there are " + presets_there_are() +
                       ", and a path that ends in .toml is a file of your own");
 }

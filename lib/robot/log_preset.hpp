@@ -9,7 +9,7 @@ namespace faultline {
 
 /// The file of a preset that `table` names under `key`: what the columns of a common recorder mean. A name
 /// such as "ur-rtde" is looked for in the folder that the environment variable FAULTLINE_PRESETS names, then
-/// among those that come along; a text that ends in .toml is a path. Throws Error(usage) naming those there
+/// among those that are built in; a text that ends in .toml is a path. Throws Error(usage) naming those there
 /// are.
 TomlTable load_log_preset(const TomlTable& table, const std::string& key);
 

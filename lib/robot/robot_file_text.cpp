@@ -27,7 +27,7 @@ std::string by_joint_text(const char* key, const std::vector<double>& values) {
                          values.data(), static_cast<Eigen::Index>(values.size()))));
 }
 
-std::string joint_text(const Robot& robot, int i) {
+std::string toml_joint(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
   const Friction<double>& f = robot.chain.friction[i];
   std::string text = "\n[[joint]]\n";
@@ -41,7 +41,7 @@ std::string joint_text(const Robot& robot, int i) {
   return text + fmt::format("rotor_inertia = {}\n", toml_number(robot.chain.rotor_inertia[i]));
 }
 
-std::string link_text(const Robot& robot, int i) {
+std::string toml_link(const Robot& robot, int i) {
   const LinkInertia<double>& link = robot.chain.links[i];
   const LinkShape shape = robot.shapes[i];
   std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", to_string(shape));
@@ -129,8 +129,8 @@ std::string robot_file_text(const Robot& robot) {
   std::string text = fmt::format("name = {}\n", toml_quoted(robot.name));
   if (!robot.axes.empty()) text += fmt::format("axes = {}\n", toml_quoted(robot.axes));
   text += fmt::format("gravity = {}\n", toml_numbers(robot.chain.gravity));
-  for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i);
-  for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
+  for (int i = 0; i < robot.joints(); ++i) text += toml_joint(robot, i);
+  for (int i = 0; i < robot.joints(); ++i) text += toml_link(robot, i);
   if (!robot.identified) text += extra_torque_text(robot.chain, "");
   text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
   if (robot.identified) text += identified_text(robot);

@@ -11,38 +11,41 @@
 namespace faultline {
 namespace {
 
-[[noreturn]] void bad(const char* key, const std::string& message) {
+[[noreturn]] void bad_fault(const char* key, const std::string& message) {
   throw Error(ErrorCode::usage, std::string("fault.") + key, message);
 }
 
 void check_size(const Robot& robot, const SimulatedFault& fault) {
-  if (!std::isfinite(fault.size) || !std::isfinite(fault.viscous)) bad("size", "expected a finite number");
+  if (!std::isfinite(fault.size) || !std::isfinite(fault.viscous))
+    bad_fault("size", "expected a finite number");
   if (fault.kind == FaultKind::torque_loss && !(fault.size > 0.0 && fault.size <= 1.0))
-    bad("size",
-        fmt::format("expected the share of torque lost, above 0 and at most 1, found {}", fault.size));
+    bad_fault("size",
+              fmt::format("expected the share of torque lost, above 0 and at most 1, found {}", fault.size));
   if (fault.kind == FaultKind::friction_increase &&
       (fault.size < 0.0 || fault.viscous < 0.0 || fault.size + fault.viscous == 0.0))
-    bad("size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
+    bad_fault("size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
   if (describe(fault.kind).size_count == 1 && fault.size == 0.0)
-    bad("size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
+    bad_fault("size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
   if (fault.kind == FaultKind::payload_change && robot.chain.links.back().mass + fault.size <= 0.0)
-    bad("size",
-        fmt::format("takes {} kg from a last link of {} kg", -fault.size, robot.chain.links.back().mass));
+    bad_fault("size", fmt::format("takes {} kg from a last link of {} kg", -fault.size,
+                                  robot.chain.links.back().mass));
 }
 
 }  // namespace
 
 void check_fault(const Robot& robot, const SimulatedFault& fault) {
   if (fault.kind == FaultKind::none) return;
-  if (fault.kind == FaultKind::unknown) bad("kind", "\"unknown\" cannot be simulated; name a kind");
+  if (fault.kind == FaultKind::unknown) bad_fault("kind", "\"unknown\" cannot be simulated; name a kind");
   if (describe(fault.kind).place != FaultPlace::tip && (fault.joint < 1 || fault.joint > robot.joints()))
-    bad("joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
+    bad_fault("joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
   if (!(fault.onset_s >= 0.0 && std::isfinite(fault.onset_s)))
-    bad("onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
+    bad_fault("onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
   if (!(fault.end_s > fault.onset_s))
-    bad("end_s", fmt::format("expected a time after onset_s = {}, found {}", fault.onset_s, fault.end_s));
+    bad_fault("end_s",
+              fmt::format("expected a time after onset_s = {}, found {}", fault.onset_s, fault.end_s));
   if (describe(fault.kind).passes && !std::isfinite(fault.end_s))
-    bad("end_s", fmt::format("a {} is a pulse and needs an end_s (or a duration)", to_string(fault.kind)));
+    bad_fault("end_s",
+              fmt::format("a {} is a pulse and needs an end_s (or a duration)", to_string(fault.kind)));
   check_size(robot, fault);
 }
 

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-[[noreturn]] void bad(const char* key, const std::string& message) {
+[[noreturn]] void bad_gears(const char* key, const std::string& message) {
   throw Error(ErrorCode::usage, std::string("gears.") + key, message);
 }
 
@@ -28,7 +28,8 @@ void check_links(const Chain<double>& chain, const Gears& gears) {
   const JointMatrix<double> mobility = inertia.inverse();
   for (int j = 0; j < chain.joints(); ++j)
     if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
-      bad("stiffness",
+      bad_gears(
+          "stiffness",
           fmt::format("without its motor joint {} moves no inertia; expected 0 for it, or a link with one",
                       j + 1));
 }
@@ -56,18 +57,19 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
     if (!(value_of(spec.stiffness, j) > 0.0)) {
       const bool plays = value_of(spec.play, j) > 0.0;
       if (plays || value_of(spec.damping, j) > 0.0)
-        bad(plays ? "play" : "damping",
-            fmt::format("the gear of joint {} is rigid; expected 0, or a stiffness", j + 1));
+        bad_gears(plays ? "play" : "damping",
+                  fmt::format("the gear of joint {} is rigid; expected 0, or a stiffness", j + 1));
       continue;
     }
     if (!(value_of(chain.rotor_inertia, j) > 0.0))
-      bad("motor_inertia",
+      bad_gears(
+          "motor_inertia",
           fmt::format("the gear of joint {0} is a spring; expected the inertia of the motor behind it, here "
                       "or as jr{0} of the robot",
                       j + 1));
     for (const SharedDrive& drive : chain.shared_drives)
       if (drive.along[j] != 0.0)
-        bad("stiffness", fmt::format("a shared drive turns joint {}; expected 0 for it", j + 1));
+        bad_gears("stiffness", fmt::format("a shared drive turns joint {}; expected 0 for it", j + 1));
   }
   check_links(chain, Gears(chain, spec));
 }

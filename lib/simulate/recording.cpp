@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastGap = 0.01;  // of the sample period, between two stamps
 
-[[noreturn]] void bad(const char* key, const std::string& message) {
+[[noreturn]] void bad_recording(const char* key, const std::string& message) {
   throw Error(ErrorCode::usage, std::string("recording.") + key, message);
 }
 
@@ -70,14 +70,15 @@ Log thinned(const Log& log, double lost, Random& random) {
 
 void check_recording(int joints, double sample_period_s, const RecordingSpec& spec) {
   if (!(spec.jitter_s >= 0.0 && std::isfinite(spec.jitter_s)))
-    bad("jitter_s", fmt::format("expected a time that is not negative, found {}", spec.jitter_s));
+    bad_recording("jitter_s", fmt::format("expected a time that is not negative, found {}", spec.jitter_s));
   if (!(spec.stamp_resolution_s >= 0.0 && spec.stamp_resolution_s <= sample_period_s))
-    bad("stamp_resolution_s", fmt::format("expected 0 to the sample period of {} s, found {}",
-                                          sample_period_s, spec.stamp_resolution_s));
+    bad_recording("stamp_resolution_s", fmt::format("expected 0 to the sample period of {} s, found {}",
+                                                    sample_period_s, spec.stamp_resolution_s));
   if (!(spec.lost >= 0.0 && spec.lost < 1.0))
-    bad("lost", fmt::format("expected a share of the rows, 0 to below 1, found {}", spec.lost));
+    bad_recording("lost", fmt::format("expected a share of the rows, 0 to below 1, found {}", spec.lost));
   if (spec.torque_late_rows < 0)
-    bad("torque_late_rows", fmt::format("expected rows, 0 or more, found {}", spec.torque_late_rows));
+    bad_recording("torque_late_rows",
+                  fmt::format("expected rows, 0 or more, found {}", spec.torque_late_rows));
   check_not_negative(joints, spec.torque_resolution, "recording.torque_resolution");
 }
 

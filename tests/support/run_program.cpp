@@ -36,29 +36,35 @@ void redirect(int descriptor, const std::string& path) {
   ::close(file);
 }
 
-[[noreturn]] void become_program(const std::vector<std::string>& arguments, const RunOptions& options,
+[[noreturn]] void become_program(const std::vector<std::string>& words, const RunOptions& options,
                                  const std::string& out, const std::string& err) {
   redirect(1, out);
   redirect(2, err);
   limit(RLIMIT_FSIZE, options.file_size_limit);
   limit(RLIMIT_AS, options.memory_limit);
   for (const std::string& setting : options.environment) ::putenv(const_cast<char*>(setting.c_str()));
-  std::vector<char*> argv{const_cast<char*>(FAULTLINE_PROGRAM)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  ::execv(FAULTLINE_PROGRAM, argv.data());
+  ::execvp(argv.front(), argv.data());
   ::_exit(127);
 }
 
 }  // namespace
 
 ProgramRun run_program(const std::vector<std::string>& arguments, const RunOptions& options) {
+  std::vector<std::string> words{FAULTLINE_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_command(words, options);
+}
+
+ProgramRun run_command(const std::vector<std::string>& words, const RunOptions& options) {
   const TemporaryFolder folder;
   const std::string captured = folder.file("stdout"), err = folder.file("stderr");
   const std::string out = options.stdout_path.empty() ? captured : options.stdout_path;
   std::fflush(nullptr);
   const pid_t child = ::fork();
-  if (child == 0) become_program(arguments, options, out, err);
+  if (child == 0) become_program(words, options, out, err);
   int state = 0;
   ::waitpid(child, &state, 0);
   ProgramRun run;

@@ -24,4 +24,7 @@ struct RunOptions {
 /// Runs the built program `faultline` with these arguments and waits for its end.
 ProgramRun run_program(const std::vector<std::string>& arguments, const RunOptions& options = {});
 
+/// The same of any program that the shell would find; status 127 when there is none.
+ProgramRun run_command(const std::vector<std::string>& words, const RunOptions& options = {});
+
 }  // namespace faultline

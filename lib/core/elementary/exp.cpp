@@ -8,15 +8,15 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kPlain = 707.0;      // up to there either way e^x is an ordinary number
-constexpr double kAllAbove = 710.0;   // e^x is infinite
-constexpr double kAllBelow = -746.0;  // e^x is zero
+constexpr double kPlain = 707.0;        // up to there either way e^x is an ordinary number
+constexpr double kExpAllAbove = 710.0;  // e^x is infinite
+constexpr double kAllBelow = -746.0;    // e^x is zero
 
 }  // namespace
 
 double exp(double x) {
   if (std::abs(x) < kPlain) return scaled_exp(x).value_of_normal();
-  if (x > kAllAbove) return std::numeric_limits<double>::infinity();
+  if (x > kExpAllAbove) return std::numeric_limits<double>::infinity();
   if (x < kAllBelow) return 0.0;
   return x == x ? scaled_exp(x).value() : x;
 }

@@ -7,7 +7,7 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kFar = 0x1p60;  // a length beyond it leaves the other one no say
+constexpr double kHypotFar = 0x1p60;  // a length beyond it leaves the other one no say
 constexpr double kLargest = 0x1p500,
                  kSmallest = 0x1p-400;  // between them squares neither over- nor underflow
 
@@ -32,7 +32,7 @@ double hypot(double x, double y) {
   if (std::isinf(x) || std::isinf(y)) return std::numeric_limits<double>::infinity();
   if (x != x || y != y) return x + y;
   const double a = std::fmax(std::abs(x), std::abs(y)), b = std::fmin(std::abs(x), std::abs(y));
-  if (b <= a / kFar) return a + b;
+  if (b <= a / kHypotFar) return a + b;
   if (a > kLargest) return root_of_squares(a * 0x1p-600, b * 0x1p-600) * 0x1p600;
   if (b < kSmallest) return root_of_squares(a * 0x1p600, b * 0x1p600) * 0x1p-600;
   return root_of_squares(a, b);

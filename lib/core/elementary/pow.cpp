@@ -9,8 +9,8 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kAllAbove = 710.0, kAllBelow = -746.0;  // of the exponent: infinite, zero
+constexpr double kPowInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPowAllAbove = 710.0, kPowAllBelow = -746.0;  // of the exponent: infinite, zero
 
 bool is_whole(double y) { return std::trunc(y) == y; }
 bool is_odd(double y) { return is_whole(y) && !is_whole(0.5 * y); }
@@ -19,8 +19,8 @@ bool is_odd(double y) { return is_whole(y) && !is_whole(0.5 * y); }
 double power_of_positive(double x, double y) {
   const DoubleDouble log = precise_log(x);
   const double about = y * log.high;
-  if (about > kAllAbove) return kInfinity;
-  if (about < kAllBelow) return 0.0;
+  if (about > kPowAllAbove) return kPowInfinity;
+  if (about < kPowAllBelow) return 0.0;
   const DoubleDouble product = product_of(y, log.high);
   const DoubleDouble exponent = sum_of_ordered(product.high, product.low + y * log.low);
   return scaled_exp(exponent.high, exponent.low).value();
@@ -30,9 +30,9 @@ double power_of_positive(double x, double y) {
 double power_at_limits(double x, double y) {
   if (std::isinf(y)) {
     if (x == 1.0) return 1.0;
-    return (x > 1.0) == (y > 0.0) ? kInfinity : 0.0;
+    return (x > 1.0) == (y > 0.0) ? kPowInfinity : 0.0;
   }
-  return (x == 0.0) == (y > 0.0) ? 0.0 : kInfinity;
+  return (x == 0.0) == (y > 0.0) ? 0.0 : kPowInfinity;
 }
 
 }  // namespace

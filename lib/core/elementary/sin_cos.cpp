@@ -10,7 +10,7 @@ namespace faultline::elementary {
 namespace {
 
 constexpr double kHalfRightAngle = 0x1.921fb54442d18p-1;
-constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kCosLargest = std::numeric_limits<double>::max();
 constexpr double kMedium = 1e6;  // up to there the parts of a right angle below times the quadrant are exact
 constexpr double kTiny = 0x1p-27;  // the sine rounds to x below it
 constexpr double kClose =
@@ -60,7 +60,7 @@ double of_other(double x) { return x - x; }
 double sin(double x) {
   const double size = std::abs(x);
   if (size <= kHalfRightAngle) return size < kTiny ? x : sine_of(x, 0.0);
-  if (!(size <= kLargest)) return of_other(x);
+  if (!(size <= kCosLargest)) return of_other(x);
   const RightAngles a = reduced(x);
   const double value = a.quadrant & 1 ? cosine_of(a.high, a.low) : sine_of(a.high, a.low);
   return a.quadrant & 2 ? -value : value;
@@ -69,7 +69,7 @@ double sin(double x) {
 double cos(double x) {
   const double size = std::abs(x);
   if (size <= kHalfRightAngle) return cosine_of(x, 0.0);
-  if (!(size <= kLargest)) return of_other(x);
+  if (!(size <= kCosLargest)) return of_other(x);
   const RightAngles a = reduced(x);
   const double value = a.quadrant & 1 ? sine_of(a.high, a.low) : cosine_of(a.high, a.low);
   return (a.quadrant + 1) & 2 ? -value : value;
@@ -78,7 +78,7 @@ double cos(double x) {
 SinCos<double> sin_cos(double x) {
   const double size = std::abs(x);
   if (size <= kHalfRightAngle) return {size < kTiny ? x : sine_of(x, 0.0), cosine_of(x, 0.0)};
-  if (!(size <= kLargest)) return {of_other(x), of_other(x)};
+  if (!(size <= kCosLargest)) return {of_other(x), of_other(x)};
   const RightAngles a = reduced(x);
   const double s = sine_of(a.high, a.low), c = cosine_of(a.high, a.low);
   const double sine = a.quadrant & 1 ? c : s, cosine = a.quadrant & 1 ? s : c;

@@ -7,9 +7,9 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kTiny = 0x1p-28;  // tanh rounds to x below it
-constexpr double kSmall = 0.55;    // tanh is half of the largest there
-constexpr double kOne = 20.0;      // beyond it tanh rounds to 1
+constexpr double kTanhTiny = 0x1p-28;  // tanh rounds to x below it
+constexpr double kSmall = 0.55;        // tanh is half of the largest there
+constexpr double kOne = 20.0;          // beyond it tanh rounds to 1
 
 /// (tanh(x) - x) / x^3 of z = x^2, |x| up to kSmall.
 double odd_tail(double z) {
@@ -28,7 +28,7 @@ double odd_tail(double z) {
 double tanh(double x) {
   const double a = std::abs(x);
   if (a < kSmall) {
-    if (a < kTiny) return x;
+    if (a < kTanhTiny) return x;
     const double z = x * x;
     return x + x * z * odd_tail(z);
   }

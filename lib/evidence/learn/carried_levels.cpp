@@ -114,7 +114,7 @@ double parting(std::vector<double> kg) {
   return 0.5 * (kg[best - 1] + kg[best]);
 }
 
-struct Group {
+struct LevelGroup {
   std::vector<double> kg;
   std::array<double, kMaxJoints> forward{};  ///< motions in which the joint went that way
 
@@ -131,7 +131,7 @@ struct Group {
 };
 
 /// Whether the way that one joint goes tells nearly all motions of one group from those of the other.
-bool differ_by_direction(const Group& a, const Group& b) {
+bool differ_by_direction(const LevelGroup& a, const LevelGroup& b) {
   const auto all = static_cast<double>(a.kg.size() + b.kg.size());
   return std::any_of(a.forward.begin(), a.forward.end(), [&, j = 0](double forward) mutable {
     const double told = (forward + static_cast<double>(b.kg.size()) - b.forward[j++]) / all;
@@ -155,7 +155,7 @@ ShownPiece piece_that_comes_and_goes(const std::vector<std::vector<CarriedLevel>
     for (const CarriedLevel& level : log) kg.push_back(level.kg);
   if (static_cast<int>(kg.size()) < kFewestMotions) return piece;
   piece.border_kg = parting(kg);
-  Group low, high;
+  LevelGroup low, high;
   for (const auto& log : levels)
     for (const CarriedLevel& level : log) (level.kg > piece.border_kg ? high : low).add(level);
   int changes = 0;

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kSettlingRows = 10;  // at the start of a log, which the filter needs to forget its guess
+constexpr int kNoiseSettlingRows = 10;  // at the start of a log, which the filter needs to forget its guess
 // Factors of the search: each round takes the square root of the one before, but by no less than the last,
 // for likelihood is flat within it.
 constexpr double kCoarseFactor = 4.0, kFineFactor = 2.0, kLastFactor = 1.2;
@@ -32,14 +32,15 @@ constexpr double kWorstClock_s = 0.1;
 
 constexpr double kWobble = 0.01;  // of a period
 
-constexpr double kOneCode = 0.05;        // of the changes: the least are by one code of a coarse sensor
-constexpr double kUniformSpread = 12.0;  // an error that is uniform over a code has this share of its square
+constexpr double kOneCode = 0.05;  // of the changes: the least are by one code of a coarse sensor
+constexpr double kNoiseUniformSpread =
+    12.0;  // an error that is uniform over a code has this share of its square
 
 double log_likelihood_of(const HealthyExcerpt& excerpt, const MotionModel& model) {
   double sum = 0.0;
   int rows = 0;
   follow_excerpt(excerpt, model, [&](const FollowedSample& sample, bool) {
-    if (rows++ > kSettlingRows) sum += sample.total_log_likelihood;
+    if (rows++ > kNoiseSettlingRows) sum += sample.total_log_likelihood;
   });
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::max();
 }
@@ -75,7 +76,7 @@ std::vector<HealthyExcerpt> spread(const std::vector<HealthyExcerpt>& excerpts, 
 }
 
 /// Numbers that the search moves together, by factors, between bounds.
-struct Group {
+struct NumberGroup {
   std::vector<double*> numbers;
   double low = 0.0;
   double high = std::numeric_limits<double>::infinity();
@@ -91,20 +92,20 @@ struct Group {
 };
 
 /// Each value alone: sensors and drives of different joints have nothing in common.
-void add_each(std::vector<double>& values, const std::vector<double>& low, std::vector<Group>& groups) {
+void add_each(std::vector<double>& values, const std::vector<double>& low, std::vector<NumberGroup>& groups) {
   for (std::size_t j = 0; j < values.size(); ++j)
     groups.push_back({{&values[j]}, j < low.size() ? low[j] : 0.0});
 }
 
 /// Of the velocities that are measured.
-void add_measured(MotionModel& model, const std::vector<double>& low, std::vector<Group>& groups) {
+void add_measured(MotionModel& model, const std::vector<double>& low, std::vector<NumberGroup>& groups) {
   for (std::size_t j = 0; j < model.dq_std.size(); ++j)
     if (model.dq_is_difference.empty() || !model.dq_is_difference[j])
       groups.push_back({{&model.dq_std[j]}, low[j]});
 }
 
-void add_slow_groups(MotionModel& model, std::vector<Group>& groups) {
-  Group memory{{}, kShortestMemory_s, kLongestMemory_s}, friction{{}, 0.0, kFastestFriction};
+void add_slow_groups(MotionModel& model, std::vector<NumberGroup>& groups) {
+  NumberGroup memory{{}, kShortestMemory_s, kLongestMemory_s}, friction{{}, 0.0, kFastestFriction};
   for (SlowState& slow : model.slow) {
     switch (slow.kind) {
       case SlowKind::friction:
@@ -135,7 +136,7 @@ double code_std(const std::vector<HealthyExcerpt>& logs, int joint, bool velocit
     for (std::size_t k = 1; k < x.size(); ++k)
       if (x[k] != x[k - 1] && std::isfinite(x[k] - x[k - 1])) steps.push_back(std::abs(x[k] - x[k - 1]));
   }
-  return steps.empty() ? 0.0 : lower_quantile(steps, kOneCode) / std::sqrt(kUniformSpread);
+  return steps.empty() ? 0.0 : lower_quantile(steps, kOneCode) / std::sqrt(kNoiseUniformSpread);
 }
 
 std::vector<double> code_stds(const std::vector<HealthyExcerpt>& logs, int joints, bool velocity) {
@@ -145,8 +146,9 @@ std::vector<double> code_stds(const std::vector<HealthyExcerpt>& logs, int joint
 }
 
 /// What the search moves.
-std::vector<Group> free_numbers(MotionModel& model, const std::vector<HealthyExcerpt>& logs, bool held) {
-  std::vector<Group> groups = {{{&model.noise.torque_share}}, {{&model.noise.rest_share}}};
+std::vector<NumberGroup> free_numbers(MotionModel& model, const std::vector<HealthyExcerpt>& logs,
+                                      bool held) {
+  std::vector<NumberGroup> groups = {{{&model.noise.torque_share}}, {{&model.noise.rest_share}}};
   add_each(model.noise.floor, {}, groups);
   add_each(model.q_std, code_stds(logs, model.joints(), false), groups);
   add_measured(model, code_stds(logs, model.joints(), true), groups);
@@ -159,14 +161,14 @@ std::vector<Group> free_numbers(MotionModel& model, const std::vector<HealthyExc
 /// Coordinate search by factors of the likelihood of the pieces: one round a factor.
 class Search {
  public:
-  Search(MotionModel& model, const std::vector<HealthyExcerpt>& pieces, std::vector<Group>& groups,
+  Search(MotionModel& model, const std::vector<HealthyExcerpt>& pieces, std::vector<NumberGroup>& groups,
          int threads)
       : model_(model), pieces_(pieces), groups_(groups), threads_(threads) {
     best_ = log_likelihood(pieces_, model_, threads_);
   }
 
   void round(double factor) {
-    for (Group& group : groups_) {
+    for (NumberGroup& group : groups_) {
       if (group.settled_at <= factor) continue;
       const bool up = group.last_up;
       const bool moved = move(group, up ? factor : 1.0 / factor) || move(group, up ? 1.0 / factor : factor);
@@ -175,7 +177,7 @@ class Search {
   }
 
  private:
-  bool move(Group& group, double by) {
+  bool move(NumberGroup& group, double by) {
     if (!group.scale(by)) return false;
     const double moved = log_likelihood(pieces_, model_, threads_);
     if (moved > best_ + kGain * std::abs(best_)) {
@@ -189,17 +191,17 @@ class Search {
 
   MotionModel& model_;
   const std::vector<HealthyExcerpt>& pieces_;
-  std::vector<Group>& groups_;
+  std::vector<NumberGroup>& groups_;
   int threads_;
   double best_ = 0.0;
 };
 
 /// Coarsely on few rows, then finely on all.
 void search(MotionModel& model, const std::vector<HealthyExcerpt>& logs, const MatchOptions& options) {
-  std::vector<Group> groups = free_numbers(model, logs, options.held);
+  std::vector<NumberGroup> groups = free_numbers(model, logs, options.held);
   auto rounds = [&](int count, double factor, const std::vector<HealthyExcerpt>& pieces) {
     Search on_pieces(model, pieces, groups, options.threads);
-    for (Group& group : groups) group.settled_at = std::numeric_limits<double>::infinity();
+    for (NumberGroup& group : groups) group.settled_at = std::numeric_limits<double>::infinity();
     for (int round = 0; round < count; ++round) {
       on_pieces.round(factor);
       factor = std::max(std::sqrt(factor), kLastFactor);

@@ -15,15 +15,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestChanges = 3;   // fewer are no habit
-constexpr double kSameMass = 0.25;  // share by which most changes may differ from the usual one
-constexpr double kMostAlike = 0.6;  // share of the changes that must be that alike
+constexpr int kPiecesFewestChanges = 3;  // fewer are no habit
+constexpr double kSameMass = 0.25;       // share by which most changes may differ from the usual one
+constexpr double kMostAlike = 0.6;       // share of the changes that must be that alike
 // Standard deviation of a work piece's mass, share of it: from single changes, from levels at the least, and
 // while levels are to tell it.
 constexpr double kDoubtOfChanges = 0.15, kDoubtOfLevels = 0.03, kAnyMass = 0.5;
-constexpr double kStdOfMedian = 1.4826;   // standard deviation over median of the absolute errors
-constexpr double kAtFirst = 0.6;          // of a work piece: doubt of what is carried when a log begins
-constexpr double kLeastOfCarried = 0.05;  // of the prior of a payload: less is no work piece
+constexpr double kPiecesStdOfMedian = 1.4826;  // standard deviation over median of the absolute errors
+constexpr double kAtFirst = 0.6;               // of a work piece: doubt of what is carried when a log begins
+constexpr double kLeastOfCarried = 0.05;       // of the prior of a payload: less is no work piece
 
 /// What a jump of the load may be: a mass, a push on one joint, or a row read wrong.
 std::vector<Hypothesis> explanations(int joints, const std::vector<double>& work_pieces) {
@@ -51,7 +51,7 @@ std::vector<double> mass_changes(const MotionModel& model, const HealthyExcerpt&
 
 /// The mass that most changes share; 0 for none.
 double usual_mass(const std::vector<double>& changes, double least) {
-  if (static_cast<int>(changes.size()) < kFewestChanges) return 0.0;
+  if (static_cast<int>(changes.size()) < kPiecesFewestChanges) return 0.0;
   const double mass = upper_median(changes);
   const auto alike = std::count_if(changes.begin(), changes.end(),
                                    [&](double change) { return std::abs(change - mass) < kSameMass * mass; });
@@ -107,11 +107,11 @@ void take_levels(MotionModel& model, const std::vector<HealthyExcerpt>& excerpts
                [&](int i) { found[i] = level_changes(model, excerpts[i]); });
   std::vector<double> changes, errors;
   for (const std::vector<double>& part : found) changes.insert(changes.end(), part.begin(), part.end());
-  if (static_cast<int>(changes.size()) < kFewestChanges) return;
+  if (static_cast<int>(changes.size()) < kPiecesFewestChanges) return;
   const double mass = upper_median(changes);
   for (const double change : changes) errors.push_back(std::abs(change - mass));
   model.work_pieces_kg = {mass};
-  model.work_piece_doubt = std::max(kStdOfMedian * upper_median(errors) / mass, kDoubtOfLevels);
+  model.work_piece_doubt = std::max(kPiecesStdOfMedian * upper_median(errors) / mass, kDoubtOfLevels);
 }
 
 double tip_mass(const std::vector<SlowEstimate>& estimates) {

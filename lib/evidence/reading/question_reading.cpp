@@ -19,13 +19,13 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 4000;         // of an excerpt
-constexpr int kExcerpts = 25;       // looked at for a moment that fits
-constexpr int kFewExcerpts = 3;     // after which a joint that never moved is passed over
-constexpr double kFits = 0.35;      // of a joint's varying torque left: as the model means it
-constexpr double kExplains = 0.2;   // left in the best moments by a reading that is right
-constexpr double kFitsWell = 0.06;  // one such moment is enough
-constexpr double kNeverNear = 0.5;  // left in the best moments: another robot
+constexpr int kRows = 4000;            // of an excerpt
+constexpr int kExcerpts = 25;          // looked at for a moment that fits
+constexpr int kFewExcerpts = 3;        // after which a joint that never moved is passed over
+constexpr double kReadingFits = 0.35;  // of a joint's varying torque left: as the model means it
+constexpr double kExplains = 0.2;      // left in the best moments by a reading that is right
+constexpr double kFitsWell = 0.06;     // one such moment is enough
+constexpr double kNeverNear = 0.5;     // left in the best moments: another robot
 constexpr double kClearlyLess = 0.5;
 constexpr double kLeastRange = 0.05;  // of the healthy one: less motion is none
 constexpr double kOtherUnit = 1.5;    // times the torque needed, or that much less, at every joint
@@ -127,7 +127,7 @@ void take(const Fit& now, Beginning& beginning) {
     ever.insert(ever.end(), now.misfits[j].begin(), now.misfits[j].end());
     if (ever.empty()) continue;
     any = true;
-    all = all && beginning.velocity_fits[j] && best_misfit(ever) < kFits;
+    all = all && beginning.velocity_fits[j] && best_misfit(ever) < kReadingFits;
   }
   beginning.fitted = any && all;
 }
@@ -197,8 +197,8 @@ void try_readings(const Beginning& beginning, const MotionModel& model,
     if (shrinks_motion(beginning.rows, rows, model)) continue;
     const Fit fit = fit_of(rows, model);
     const Score then = score_of(fit);
-    if (!tells_as_much(fit, beginning.fit) || then.worst > kExplains || (usually && then.usual > kFits) ||
-        then.log_mean >= best.log_mean)
+    if (!tells_as_much(fit, beginning.fit) || then.worst > kExplains ||
+        (usually && then.usual > kReadingFits) || then.log_mean >= best.log_mean)
       continue;
     best = {{reading.what, reading.cure}, then.log_mean};
   }
@@ -213,7 +213,7 @@ ReadingDoubt other_torque(const Fit& fit, bool all) {
     const TorqueRatio& torque = fit.ratio[j];
     if (!fit.is_told(j) || torque.ratio == 0.0) continue;
     ++told;
-    if (torque.left > kFits || torque.ratio < 0.0) {
+    if (torque.left > kReadingFits || torque.ratio < 0.0) {
       ++poor;
       continue;
     }
@@ -264,7 +264,7 @@ ReadingDoubt question_reading(LogSource& log, const MotionModel& model, double s
   Best best;
   best.log_mean = as_read.log_mean + elementary::log(kClearlyLess);
   try_readings(beginning, model, clock_readings(clock, sample_period_s), false, best);
-  if (beginning.fitted || as_read.worst < kFits)
+  if (beginning.fitted || as_read.worst < kReadingFits)
     return best.doubt.is_empty() ? other_torque(beginning.fit, true) : best.doubt;
   try_readings(beginning, model, common_readings(model.chain), false, best);
   try_readings(beginning, model, column_readings(model.chain), false, best);

@@ -20,13 +20,13 @@ constexpr double kWindow_s = 0.1;
 constexpr int kFewestSteps = 3;    // of a window
 constexpr std::size_t kBlock = 6;  // windows
 constexpr std::size_t kFewestOfBlock = 4;
-constexpr double kFastest = 3.0;                         // times the root mean square of the healthy speed
-constexpr double kOneQuantity = 0.98, kOtherUnit = 1.4;  // correlation and factor of two units
-constexpr double kMoves = 0.05;                          // of the joint's largest speed
-constexpr double kLeastRatioShare = 0.05;                // of the largest healthy torque, over all windows
-constexpr double kLeastShare = 0.1;                      // of the same, in a block: less says nothing
-constexpr double kLeastHeld = 0.3;                       // of the same, of a torque that holds a weight
-constexpr double kLeastFriction = 0.5, kMostFriction = 2.0;
+constexpr double kFastest = 3.0;  // times the root mean square of the healthy speed
+constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // correlation and factor of two units
+constexpr double kMoves = 0.05;                                 // of the joint's largest speed
+constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque, over all windows
+constexpr double kLeastShare = 0.1;        // of the same, in a block: less says nothing
+constexpr double kLeastHeld = 0.3;         // of the same, of a torque that holds a weight
+constexpr double kBalanceLeastFriction = 0.5, kMostFriction = 2.0;
 constexpr double kMostOffset = 0.3;  // of the largest healthy torque
 
 /// Rows of a stretch with what the robot needs in each.
@@ -86,7 +86,7 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
   const Eigen::ArrayXd rest = logged - body, varying = braking - braking.mean();
   const double spread = varying.square().sum();
   const double friction =
-      spread > 0.0 ? std::clamp((rest * varying).sum() / spread, kLeastFriction, kMostFriction) : 1.0;
+      spread > 0.0 ? std::clamp((rest * varying).sum() / spread, kBalanceLeastFriction, kMostFriction) : 1.0;
   const Eigen::ArrayXd left = rest - friction * braking;
   const double most = kMostOffset * torque_scale;
   const double varies = std::max(variation(logged), variation(body + braking));
@@ -100,7 +100,8 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
 /// A position that jumps (a sensor's bias) makes of both what is nearly one quantity.
 bool is_other_quantity(const DerivativeAgreement& velocity) {
   return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
-         (velocity.factor < 0.0 || std::abs(elementary::log(velocity.factor)) > elementary::log(kOtherUnit));
+         (velocity.factor < 0.0 ||
+          std::abs(elementary::log(velocity.factor)) > elementary::log(kBalanceOtherUnit));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kMoves = 0.1;  // of the usual speed: slower rows say nothing of torques
+constexpr double kStretchesMoves = 0.1;  // of the usual speed: slower rows say nothing of torques
 
 }  // namespace
 
@@ -18,8 +18,8 @@ std::vector<int> first_moving(const Log& rows, const MotionModel& model) {
     bool moves = false;
     for (int j = 0; j < model.joints() && end - begin > 1; ++j) {
       const auto [low, high] = std::minmax_element(rows.q[j].begin() + begin, rows.q[j].begin() + end);
-      moves =
-          moves || *high - *low > kMoves * model.velocity_scale[j] * (rows.time[end - 1] - rows.time[begin]);
+      moves = moves || *high - *low > kStretchesMoves * model.velocity_scale[j] *
+                                          (rows.time[end - 1] - rows.time[begin]);
     }
     if (moves) moving.push_back(s);
   }

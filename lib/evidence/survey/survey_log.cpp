@@ -17,9 +17,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kSurveyedRows = 4000;     // enough calm blocks at any rate
-constexpr int kSettlingRows = 10;       // which the filter needs to forget its guess
-constexpr double kWellExplained = 1.2;  // mean chi-square of a number: nothing is tried below
+constexpr int kSurveyedRows = 4000;      // enough calm blocks at any rate
+constexpr int kSurveySettlingRows = 10;  // which the filter needs to forget its guess
+constexpr double kWellExplained = 1.2;   // mean chi-square of a number: nothing is tried below
 constexpr int kPeriodRows = 32;
 constexpr double kLostRow = 0.75;      // periods more than those rows take
 constexpr double kLeastGain = 10.0;    // nats, in one of the first two stretches that move
@@ -64,7 +64,7 @@ Explained explained(const Log& rows, const MotionModel& model, const LogNoise& n
   std::array<long long, kStretches> numbers{};
   for (int k = 0; k < rows.rows(); ++k) {
     follower.follow(rows, k, sample);
-    if (k < kSettlingRows) continue;
+    if (k < kSurveySettlingRows) continue;
     const std::size_t stretch = stretch_of(k, rows.rows());
     out.log_likelihood[stretch] += sample.total_log_likelihood;
     for (int j = 0; j < model.joints(); ++j) {

@@ -21,7 +21,7 @@ constexpr double kDefinite = 1e-4;      // least eigenvalue of the inertia matri
 constexpr double kFrictionDoubt = 4.0;  // standard deviations below zero that are no doubt any more
 constexpr double kPrior = 0.01;  // worth of the robot's own bodies, against residuals in standard deviations
 constexpr double kLeastFriction = 1e-6;  // N m s/rad, N m, N s/m or N
-constexpr double kLeastScale = 1e-4;
+constexpr double kFeasibleLeastScale = 1e-4;
 constexpr double kRounding = 1e-9;  // kg or kg m^2: not negative
 
 bool positive_definite(const Chain<double>& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
@@ -81,7 +81,8 @@ void scale_bodies(const Eigen::MatrixXd& a, const Eigen::VectorXd& y, FeasibleUn
   const double factor = few.colPivHouseholderQr().solve(y)[0];
   if (!std::isfinite(factor)) return;
   for (DefiniteBlock& block : unknowns.blocks)
-    if (block.first < unknowns.bodies) block.nominal *= std::clamp(factor, kLeastScale, 1.0 / kLeastScale);
+    if (block.first < unknowns.bodies)
+      block.nominal *= std::clamp(factor, kFeasibleLeastScale, 1.0 / kFeasibleLeastScale);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr double kFirstBandwidth = 0.05;  // of the sample rate: where the searc
 constexpr double kFirstStep = 2.0;        // in the logarithm of a level
 constexpr double kLastStep = 0.25;        // an eighth of the noise is near enough
 constexpr double kGain = 1e-3;            // of the log likelihood: less is no progress
-constexpr int kMostRounds = 40;
+constexpr int kSmootherMostRounds = 40;
 constexpr double kRelativeFloor = 1e-9;  // of the range: rounding of a double that was printed
 
 Matrix3d transition(double h) {
@@ -177,7 +177,7 @@ MotionNoise fit_motion_noise(const JointMotion& measured) {
   if (has_dq) level[2] = std::max(dq_floor, elementary::log(std::max(rough_std(m.dq), 1e-300)));
   double best = log_likelihood(m, noise_at(level, has_dq));
   double step = kFirstStep;
-  for (int round = 0; round < kMostRounds && step >= kLastStep; ++round) {
+  for (int round = 0; round < kSmootherMostRounds && step >= kLastStep; ++round) {
     bool moved = false;
     for (int i = 0; i < (has_dq ? 3 : 2); ++i)
       for (const double by : {step, -step}) {

@@ -20,10 +20,10 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 3000;         // of the beginning of a log
-constexpr std::size_t kLogs = 2;    // looked at
-constexpr double kWindow_s = 0.16;  // long enough for any noise
-constexpr int kWindows = 2000;
+constexpr int kRows = 3000;                   // of the beginning of a log
+constexpr std::size_t kLogs = 2;              // looked at
+constexpr double kMisreadingWindow_s = 0.16;  // long enough for any noise
+constexpr int kMisreadingWindows = 2000;
 constexpr double kRight = 0.8;         // share of each joint's torque that the right reading must explain
 constexpr double kSurelyRight = 0.95;  // the same where what is read now fits no robot that can be
 constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, by joint in the mean
@@ -71,7 +71,7 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
   try {
     Identification id;
     id.space = parameter_space(robot);
-    Gathered gathered = gather(pointers, kWindow_s, kWindows, {}, id);
+    Gathered gathered = gather(pointers, kMisreadingWindow_s, kMisreadingWindows, {}, id);
     const int n = robot.joints();
     const std::vector<int> still = still_joints(gathered.measurements, id.space);
     gathered.leave_out_joints(still);

@@ -16,7 +16,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kSettled = 0.03;  ///< relative change of a noise level below which rounds end
+constexpr double kShootingSettled = 0.03;  ///< relative change of a noise level below which rounds end
 
 ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evaluation, int max_iterations,
                              bool last) {
@@ -119,7 +119,7 @@ ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& 
     const Eigen::VectorXd next = measure_noise(residuals, problem.excerpts, fit.noise, problem.floor,
                                                static_cast<int>(problem.free.size()));
     const bool was_settled = settled;
-    settled = ((next - fit.noise).array().abs() <= kSettled * fit.noise.array()).all();
+    settled = ((next - fit.noise).array().abs() <= kShootingSettled * fit.noise.array()).all();
     fit.noise = next;
     fit.correlation = neighbour_correlation(residuals, next.size());
     if (was_settled) break;

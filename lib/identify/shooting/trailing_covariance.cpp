@@ -26,7 +26,7 @@ struct SparseRows {
 };
 
 /// Leading columns that rows have in common, and these rows.
-struct Group {
+struct RowGroup {
   std::map<int, int> place;  ///< of each leading column among those of the group
   Rows rows;
 };
@@ -37,7 +37,7 @@ int root_of(std::vector<int>& parent, int column) {
 }
 
 /// Groups without a common leading column; first the rows that have none at all.
-std::vector<Group> groups_of(const SparseRows& s) {
+std::vector<RowGroup> groups_of(const SparseRows& s) {
   std::vector<int> parent(s.first), of_row(s.j.num_rows, -1);
   std::iota(parent.begin(), parent.end(), 0);
   for (int row = 0; row < s.j.num_rows; ++row)
@@ -46,7 +46,7 @@ std::vector<Group> groups_of(const SparseRows& s) {
       if (of_row[row] < 0) of_row[row] = s.column(at);
       parent[root_of(parent, s.column(at))] = root_of(parent, of_row[row]);
     }
-  std::vector<Group> groups(1);
+  std::vector<RowGroup> groups(1);
   std::vector<int> group_of(s.first, -1);
   for (int column = 0; column < s.first; ++column) {
     int& group = group_of[root_of(parent, column)];
@@ -63,7 +63,7 @@ std::vector<Group> groups_of(const SparseRows& s) {
 }
 
 /// Leading columns of the group first, the trailing ones behind.
-Matrix dense_rows(const SparseRows& s, const Group& group) {
+Matrix dense_rows(const SparseRows& s, const RowGroup& group) {
   const auto leading = static_cast<Eigen::Index>(group.place.size());
   Matrix out = Matrix::Zero(static_cast<Eigen::Index>(group.rows.size()), leading + s.j.num_cols - s.first);
   for (std::size_t k = 0; k < group.rows.size(); ++k)
@@ -103,7 +103,7 @@ bool trailing_covariance(const ceres::CRSMatrix& jacobian, int first, Eigen::Mat
   const double tolerance = tolerance_of(jacobian);
   Matrix kept =
       Matrix::Zero(0, trailing);  // what is left of all rows once the leading columns are eliminated
-  for (const Group& group : groups_of(rows)) {
+  for (const RowGroup& group : groups_of(rows)) {
     const auto leading = static_cast<Eigen::Index>(group.place.size());
     const Matrix r = triangle_of(dense_rows(rows, group));
     if (!has_full_rank(r, leading, tolerance)) return false;

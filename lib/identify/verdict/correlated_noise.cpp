@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr double kLongest_s = 1.0;   // over which residuals may be alike
-constexpr double kGap = 1.5;         // times as long as so many windows should last is a gap
+constexpr double kNoiseGap = 1.5;    // times as long as so many windows should last is a gap
 constexpr double kFullWeight = 0.5;  // of the largest: less is an outlier or a joint at rest
 
 double usual_step(const ResidualRun& run) {
@@ -36,7 +36,7 @@ std::vector<double> autocovariance(const std::vector<const ResidualRun*>& runs) 
     for (std::size_t k = 0; k < rows; ++k)
       for (std::size_t lag = 0; lag <= lags && k + lag < rows; ++lag) {
         const double apart_s = run->time_s[k + lag] - run->time_s[k];
-        if (apart_s > kGap * step_s * static_cast<double>(lag)) break;
+        if (apart_s > kNoiseGap * step_s * static_cast<double>(lag)) break;
         if (!(run->weight[k] > least && run->weight[k + lag] > least)) continue;
         sum[lag] += run->residual[k] * run->residual[k + lag];
         count[lag] += 1.0;
@@ -57,7 +57,7 @@ Eigen::MatrixXd covariance_of_sum(const ResidualRun& run, const std::vector<doub
     for (std::size_t lag = 1; lag < autocovariance.size() && k + static_cast<Eigen::Index>(lag) < u.rows();
          ++lag) {
       const auto other = k + static_cast<Eigen::Index>(lag);
-      if (run.time_s[other] - run.time_s[k] > kGap * step_s * static_cast<double>(lag)) break;
+      if (run.time_s[other] - run.time_s[k] > kNoiseGap * step_s * static_cast<double>(lag)) break;
       ahead.row(k) += autocovariance[lag] * u.row(other);
     }
   const Eigen::MatrixXd half = u.transpose() * ahead;

@@ -18,8 +18,8 @@ constexpr double kWellExplained = 0.95;                // of a joint's torque
 constexpr double kLightOfRotor = 0.01;                 // a mass that gravity does not feel comes out as rotor
 constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg, of what hangs on a sliding axis
 
-/// Sums over the rows of one joint (and log) that count.
-struct Sums {
+/// RowSums over the rows of one joint (and log) that count.
+struct RowSums {
   double rows = 0.0, left = 0.0, torque = 0.0, square = 0.0;
 
   void add(double y, double residual) {
@@ -144,19 +144,19 @@ void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathere
                const std::vector<int>& still, const std::vector<int>& undriven, Identification& id) {
   const WeakSystem& s = torque.system;
   const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
-  std::vector<Sums> joints(s.joints);
-  std::vector<std::vector<Sums>> by_log(id.logs.size(), std::vector<Sums>(s.joints));
+  std::vector<RowSums> joints(s.joints);
+  std::vector<std::vector<RowSums>> by_log(id.logs.size(), std::vector<RowSums>(s.joints));
   for (Eigen::Index k = 0; k < s.y.size(); ++k) {
     if (s.use[k] == 0.0) continue;
     joints[s.joint[k]].add(s.y[k], residual[k]);
     by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
   }
-  for (const Sums& sums : joints) {
+  for (const RowSums& sums : joints) {
     id.residual_rms.push_back(sums.rms());
     id.fit_r2.push_back(sums.r2());
   }
   for (std::size_t i = 0; i < by_log.size(); ++i)
-    for (const Sums& sums : by_log[i]) id.logs[i].fit_r2.push_back(sums.r2());
+    for (const RowSums& sums : by_log[i]) id.logs[i].fit_r2.push_back(sums.r2());
   id.held_out_r2 = choice.held_out_r2;
   id.terms = choice.terms;
   tell_delays(choice, gathered, id);

@@ -14,14 +14,14 @@ constexpr double kScatters =
     0.05;  // chance below which logs scatter about the line, not by their own std alone
 
 /// Weighted sums over the logs of one parameter.
-struct Sums {
+struct TrendSums {
   double weight = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
 };
 
 double weight_of(const LogValue& v) { return 1.0 / (v.std * v.std); }
 
-Sums sums_of(const std::vector<LogValue>& values) {
-  Sums s;
+TrendSums sums_of(const std::vector<LogValue>& values) {
+  TrendSums s;
   for (const LogValue& v : values) s.weight += weight_of(v);
   for (const LogValue& v : values) {
     s.x += weight_of(v) * v.log / s.weight;
@@ -35,7 +35,7 @@ Sums sums_of(const std::vector<LogValue>& values) {
 }
 
 void test(ParameterTrend& t) {
-  const Sums s = sums_of(t.by_log);
+  const TrendSums s = sums_of(t.by_log);
   const int logs = static_cast<int>(t.by_log.size());
   t.mean = s.y;
   t.slope = s.xy / s.xx;

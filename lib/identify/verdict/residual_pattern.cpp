@@ -13,10 +13,10 @@ namespace faultline {
 namespace {
 
 constexpr int kBins = 24;
-constexpr std::size_t kFewest = 200;    // windows
-constexpr double kHalf_s = 2.0;         // stretches of time that take turns
-constexpr double kSameWindow = 1e-6;    // of a window's length
-constexpr double kLatestWindows = 2.0;  // lengths of a window before which nothing is "previous"
+constexpr std::size_t kPatternFewest = 200;  // windows
+constexpr double kHalf_s = 2.0;              // stretches of time that take turns
+constexpr double kSameWindow = 1e-6;         // of a window's length
+constexpr double kLatestWindows = 2.0;       // lengths of a window before which nothing is "previous"
 
 struct Sample {
   double key = 0.0, value = 0.0;
@@ -60,7 +60,7 @@ double told_by(const JointFit& fit, const std::vector<double>& key) {
   for (std::size_t k = 0; k < fit.size(); ++k)
     if (fit.moving[k])
       samples.push_back({key[k], fit.residual(k), static_cast<int>(std::floor(fit.time_s[k] / kHalf_s)) & 1});
-  return samples.size() < kFewest ? std::numeric_limits<double>::quiet_NaN() : share_told(samples);
+  return samples.size() < kPatternFewest ? std::numeric_limits<double>::quiet_NaN() : share_told(samples);
 }
 
 /// Squared correlation with the value one window earlier in the same log.
@@ -79,7 +79,8 @@ double told_by_previous(const JointFit& fit) {
     xx += x * x, xy += x * y, yy += y * y;
     ++pairs;
   }
-  return pairs < kFewest || !(xx * yy > 0.0) ? std::numeric_limits<double>::quiet_NaN() : xy * xy / (xx * yy);
+  return pairs < kPatternFewest || !(xx * yy > 0.0) ? std::numeric_limits<double>::quiet_NaN()
+                                                    : xy * xy / (xx * yy);
 }
 
 }  // namespace

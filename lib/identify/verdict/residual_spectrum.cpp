@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kSegment = 256;  // windows that one spectrum is made of; each half over the last
 constexpr std::size_t kShortest = 64;  // of a log that has fewer: this many at least
-constexpr double kGap = 1.5;           // times the usual step between windows is a gap
+constexpr double kSpectrumGap = 1.5;   // times the usual step between windows is a gap
 
 /// Usual time from one window to the next in the same log.
 double usual_step(const JointFit& fit) {
@@ -28,8 +28,8 @@ double usual_step(const JointFit& fit) {
 std::vector<std::pair<std::size_t, std::size_t>> runs_of(const JointFit& fit, double step_s) {
   std::vector<std::pair<std::size_t, std::size_t>> runs;
   for (std::size_t begin = 0, k = 1; k <= fit.size(); ++k) {
-    const bool same =
-        k < fit.size() && fit.log[k] == fit.log[begin] && fit.time_s[k] - fit.time_s[k - 1] < kGap * step_s;
+    const bool same = k < fit.size() && fit.log[k] == fit.log[begin] &&
+                      fit.time_s[k] - fit.time_s[k - 1] < kSpectrumGap * step_s;
     if (same) continue;
     runs.emplace_back(begin, k);
     begin = k;

@@ -14,7 +14,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kFewestLogs = 3;
+constexpr std::size_t kFitsFewestLogs = 3;
 
 /// One log's rows of the system, where its windows began, and the fit to them.
 struct SingleLog {
@@ -78,7 +78,7 @@ std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const Identifica
   for (std::size_t k = 0; k < torque.system.log.size(); ++k)
     rows[torque.system.log[k]].push_back(static_cast<int>(k));
   std::vector<SingleLog> singles;
-  if (rows.size() < kFewestLogs) return singles;
+  if (rows.size() < kFitsFewestLogs) return singles;
   for (const auto& [log, of_log] : rows) {
     SingleLog& s = singles.emplace_back();
     s.log = log;
@@ -136,7 +136,7 @@ std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Iden
       trends[p].by_log.push_back({s.log, value, std, {value - kNormal95 * std, value + kNormal95 * std}});
     }
   }
-  std::erase_if(trends, [](const ParameterTrend& t) { return t.by_log.size() < kFewestLogs; });
+  std::erase_if(trends, [](const ParameterTrend& t) { return t.by_log.size() < kFitsFewestLogs; });
   test_trends(trends);
   return trends;
 }

@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr int kScaleRounds = 4;
-constexpr double kLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
+constexpr double kChooserLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
 
 bool revolute(const ParameterSpace& space, int joint) {
   return space.chain.geometry[joint].kind == AxisKind::revolute;
@@ -31,7 +31,7 @@ Eigen::VectorXd bounded(const ParameterSpace& space, const Eigen::VectorXd& rms,
   Eigen::VectorXd out(rms.size());
   for (int j = 0; j < space.joints(); ++j) {
     const bool driven = torque[j] > kUndrivenShare * largest_alike(space, torque, j);
-    out[j] = std::max({rms[j], (driven ? kLeastScale : 1.0) * largest_alike(space, rms, j), 1e-12});
+    out[j] = std::max({rms[j], (driven ? kChooserLeastScale : 1.0) * largest_alike(space, rms, j), 1e-12});
   }
   return out;
 }

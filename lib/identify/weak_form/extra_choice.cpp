@@ -19,13 +19,13 @@ constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
 // What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain is a wrong mass.
-constexpr Worth kGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
+constexpr Worth kChoiceGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
 constexpr double kMostGain = 2.0;  // or half
 constexpr int kGainSteps = 14;     // between the two, at first
 constexpr int kGainRefinements = 12;
 
 /// Terms that are tried together.
-struct Group {
+struct TermGroup {
   std::vector<int> parameters;
   std::vector<int> joints;  ///< that they act on
   Worth worth{};
@@ -45,8 +45,8 @@ std::vector<int> joints_of(const ParameterSpace& space, const ExtraTerm& term) {
   return joints;
 }
 
-std::vector<Group> groups_of(const ParameterSpace& space, const std::vector<bool>& asked) {
-  std::vector<Group> groups;
+std::vector<TermGroup> groups_of(const ParameterSpace& space, const std::vector<bool>& asked) {
+  std::vector<TermGroup> groups;
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const ExtraTerm& term = space.extra_at(p);
     if (!asked[p]) continue;
@@ -64,13 +64,13 @@ std::vector<Group> groups_of(const ParameterSpace& space, const std::vector<bool
   return groups;
 }
 
-std::vector<bool> with_group(std::vector<bool> wanted, const Group& group) {
+std::vector<bool> with_group(std::vector<bool> wanted, const TermGroup& group) {
   for (const int p : group.parameters) wanted[p] = true;
   return wanted;
 }
 
 /// What the group is worth next to the choice as it stands.
-void judge(const Chooser& chooser, const ModelChoice& c, Group& group) {
+void judge(const Chooser& chooser, const ModelChoice& c, TermGroup& group) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const auto error = [&](const std::vector<bool>& wanted) {
     return group.quick ? chooser.quick_error(c.weak, wanted, scale) : chooser.error(c.weak, wanted, scale);
@@ -85,7 +85,8 @@ void judge(const Chooser& chooser, const ModelChoice& c, Group& group) {
 
 /// Whether the fit with a group of a single term makes something of it that a robot can have; parts of others
 /// may vanish.
-bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c, const Group& group) {
+bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
+            const TermGroup& group) {
   if (group.parameters.size() > 1) return true;
   const std::vector<bool> wanted = with_group(c.wanted, group);
   const int p = group.parameters.front();
@@ -117,12 +118,12 @@ double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
 
 void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
                   ModelChoice& c) {
-  std::vector<Group> groups = groups_of(space, asked);
-  for (Group& group : groups) judge(chooser, c, group);
+  std::vector<TermGroup> groups = groups_of(space, asked);
+  for (TermGroup& group : groups) judge(chooser, c, group);
   std::stable_sort(groups.begin(), groups.end(),
-                   [](const Group& a, const Group& b) { return a.promise > b.promise; });
+                   [](const TermGroup& a, const TermGroup& b) { return a.promise > b.promise; });
   bool changed = false;
-  for (Group& group : groups) {
+  for (TermGroup& group : groups) {
     if (changed) judge(chooser, c, group);
     const int j = group.joint;
     bool kept = pays(group.without, group.with, j, chooser.torque(c.weak)[j], group.worth);
@@ -152,8 +153,8 @@ void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, Model
     bool kept = false, harms = false;
     for (int k = 0; k < n; ++k) {
       if (!counts[k]) continue;
-      kept = kept || pays(without, with, k, torque[k], kGain);
-      harms = harms || pays(with, without, k, torque[k], kGain);
+      kept = kept || pays(without, with, k, torque[k], kChoiceGain);
+      harms = harms || pays(with, without, k, torque[k], kChoiceGain);
       if (gain_of(without, with, k).mean > gain_of(without, with, best).mean) best = k;
     }
     kept = kept && !harms;

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kLongestStep_s = 0.012;  ///< longer samples are integrated over by interpolation
+constexpr double kTermsLongestStep_s = 0.012;  ///< longer samples are integrated over by interpolation
 
 /// Momentum and force of the base parameters and the friction terms at one state.
 struct StateTerms {
@@ -57,7 +57,7 @@ void interpolate(const Stretch& s, int k, double x, Eigen::VectorXd& q, Eigen::V
 
 /// Means over one sample of the terms that are integrated, from those at its ends and, on slow logs, within.
 void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& mean) {
-  const int pieces = static_cast<int>(std::ceil((s.time[k + 1] - s.time[k]) / kLongestStep_s));
+  const int pieces = static_cast<int>(std::ceil((s.time[k + 1] - s.time[k]) / kTermsLongestStep_s));
   if (pieces < 2) return;
   Eigen::VectorXd q, dq;
   StateTerms inside;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRounds = 8;
 constexpr double kOutlierStd = 8.0;
-constexpr double kSettled = 1e-9;  // relative change of the residual's scales below which rounds end
+constexpr double kFormSettled = 1e-9;  // relative change of the residual's scales below which rounds end
 
 /// 1.4826 times the median absolute value of a joint's used rows; at least 1e-9 and rounding of its torque.
 Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
@@ -107,7 +107,7 @@ WeakFit fit_weak_form(const WeakSystem& s, const ParameterSpace& space, const Ei
     for (std::size_t i = 0; i < selection.columns.size(); ++i) fit.parameters[selection.columns[i]] = x[i];
     fit.residual = s.y - s.a * fit.parameters.head(linear);
     const Eigen::VectorXd next = robust_scales(s, fit.residual);
-    const bool settled = ((next - scale).array().abs() <= kSettled * scale.array()).all();
+    const bool settled = ((next - scale).array().abs() <= kFormSettled * scale.array()).all();
     scale = next;
     for (Eigen::Index k = 0; k < s.y.size(); ++k)
       robust[k] = s.use[k] * outlier_weight(fit.residual[k] / scale[s.joint[k]]);

@@ -20,7 +20,7 @@ constexpr int kBlocksAFold = 4;        // shorter ones where there would be fewe
 constexpr double kLeastBlock_s = 0.2;  // but not shorter than this
 constexpr double kYardstick_s = 0.16;  // the window length nearest to it judges
 constexpr int kOthers = 3;             // columns behind the base: viscous, offset, skew
-constexpr double kRank = 1e-8;         // of the largest eigenvalue of the scaled moments
+constexpr double kMomentsRank = 1e-8;  // of the largest eigenvalue of the scaled moments
 
 int log_count(const WeakWindows& windows) {
   int count = 0;
@@ -60,7 +60,7 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r)
   if (r.size() == 0) return r;
   const Eigen::VectorXd scale = n.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * n * scale.asDiagonal());
-  const double least = kRank * std::max(eigen.eigenvalues().maxCoeff(), 1e-300);
+  const double least = kMomentsRank * std::max(eigen.eigenvalues().maxCoeff(), 1e-300);
   Eigen::VectorXd part = eigen.eigenvectors().transpose() * scale.cwiseProduct(r);
   for (Eigen::Index i = 0; i < part.size(); ++i)
     part[i] = eigen.eigenvalues()[i] > least ? part[i] / eigen.eigenvalues()[i] : 0.0;

@@ -10,8 +10,8 @@ namespace {
 constexpr int kLengths = 4;      // each twice the one before
 constexpr int kMostShifts = 24;  // samples, but no more than
 constexpr double kLongestShift_s = 0.25;
-constexpr double kSlow_s = 0.02;  // at longer periods only the neighbouring samples are tried
-constexpr int kShapedSteps = 4;   // fewer samples are weighted alike
+constexpr double kWindowsSlow_s = 0.02;  // at longer periods only the neighbouring samples are tried
+constexpr int kShapedSteps = 4;          // fewer samples are weighted alike
 
 /// Smooth bump over (0, 1), zero with its slope at both ends.
 double bump(double x) {
@@ -112,7 +112,7 @@ std::vector<double> window_lengths(double shortest_s, double period_s) {
 }
 
 ShiftRange shift_range(double period_s) {
-  if (period_s > kSlow_s) return {-1, 1};
+  if (period_s > kWindowsSlow_s) return {-1, 1};
   const int most = std::clamp(static_cast<int>(kLongestShift_s / period_s), 1, kMostShifts);
   return {-most, most};
 }

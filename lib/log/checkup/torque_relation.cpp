@@ -14,7 +14,7 @@ constexpr double kSmoothing_s = 0.015;
 constexpr std::size_t kMostHalf = 200;  // rows
 constexpr std::int64_t kFewestRows = 100;
 constexpr double kFriction = 0.02;  // rad/s or m/s over which friction changes its sign
-constexpr double kGapSteps = 3.0;
+constexpr double kRelationGapSteps = 3.0;
 constexpr double kRidge = 1e-10;
 constexpr double kTells = 0.6;       // partial correlation from which on a delay is told
 constexpr double kExplained = 0.9;   // share of the torque, likewise
@@ -80,7 +80,7 @@ void TorqueRelation::restart() {
 
 void TorqueRelation::add(double t, const std::vector<std::vector<double>>& q,
                          const std::vector<std::vector<double>>& tau, std::size_t row) {
-  bool whole = run_ == 0 || t - t_ <= kGapSteps * period_s_;
+  bool whole = run_ == 0 || t - t_ <= kRelationGapSteps * period_s_;
   t_ = t;
   if (!whole) restart();
   for (int j = 0; j < joints_; ++j) whole = whole && !std::isnan(q[j][row]) && !std::isnan(tau[j][row]);

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kMostChanges = 4096;
+constexpr std::size_t kStepMostChanges = 4096;
 constexpr std::size_t kFewestChanges = 30;
 constexpr double kSingle = 1.5;  // changes below so many times the least one are a single step
 constexpr std::ptrdiff_t kFewestSingle = 3;
@@ -19,7 +19,7 @@ constexpr double kMultiplesShare = 0.98;
 }  // namespace
 
 void ValueStep::add_change(double change) {
-  if (change != 0.0 && changes_.size() < kMostChanges) changes_.push_back(std::abs(change));
+  if (change != 0.0 && changes_.size() < kStepMostChanges) changes_.push_back(std::abs(change));
 }
 
 std::optional<double> ValueStep::result() const {

@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kFewestRows = 100;
+constexpr std::int64_t kRelationFewestRows = 100;
 constexpr double kLeastRms = 1e-3;        // rad/s or m/s; below it the joint rests
 constexpr double kRoughest = 0.2;         // share of the slopes that is noise, squared, of a joint that moves
 constexpr double kSameNoise = 0.04;       // of the slopes' roughness, squared, that a difference may be off
@@ -73,7 +73,7 @@ bool VelocityRelation::is_of_steps() const {
 
 VelocityRelated VelocityRelation::result() const {
   VelocityRelated related;
-  if (count_ < kFewestRows) return related;
+  if (count_ < kRelationFewestRows) return related;
   related.rms = std::sqrt(velocity_squares_ / static_cast<double>(count_));
   const double slope_rms = std::sqrt(slope_squares_ / static_cast<double>(count_));
   const bool moves = slope_rms > kLeastRms && roughness_ < kRoughest * slope_squares_;

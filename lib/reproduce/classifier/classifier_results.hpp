@@ -12,8 +12,6 @@
 
 namespace faultline {
 
-inline constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
-
 /// "900 clean", or with its noise.
 std::string training_set(const ClassifierRecipe& recipe);
 

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double kStep = 1e-4;      // of the finite differences, in half ranges
 constexpr double kRounding = 1e-6;  // half ranges: what integration and linear model leave at least
-constexpr double kLinearTorque = 0.5;
+constexpr double kPosteriorLinearTorque = 0.5;
 
 VectorXd half_of_state(const HalfRanges& ranges) {
   VectorXd half(ranges.q.size() + ranges.dq.size());
@@ -35,7 +35,7 @@ Sample sample(const Transitions& transitions, int i) {
   s.state << transitions.q.col(i), transitions.dq.col(i);
   s.later << transitions.next_q.col(i), transitions.next_dq.col(i);
   s.tau = transitions.tau.col(i);
-  s.next_tau = s.tau + (transitions.mean_tau.col(i) - s.tau) / kLinearTorque;
+  s.next_tau = s.tau + (transitions.mean_tau.col(i) - s.tau) / kPosteriorLinearTorque;
   return s;
 }
 

@@ -12,8 +12,6 @@
 namespace faultline {
 namespace {
 
-constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
-
 template <class Pick>
 std::optional<Measured> by_seed(const GeneratorMeasurements& all, int candidate, int controller,
                                 const Pick& pick) {

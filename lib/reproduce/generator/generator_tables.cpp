@@ -11,7 +11,6 @@ namespace {
 
 constexpr GeneratorTest kTests[] = {GeneratorTest::clean, GeneratorTest::noise_01, GeneratorTest::noise_1,
                                     GeneratorTest::clean_runs};
-constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
 
 std::vector<FigureColumn> columns_of_tests() {
   return {{"clean"}, {"sigma 0.01"}, {"sigma 0.1"}, {"clean, runs of moves"}};

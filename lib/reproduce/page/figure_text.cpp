@@ -11,7 +11,7 @@ namespace faultline {
 namespace {
 
 /// 3.4e-3 rather than 3.4e-03.
-std::string scientific(double value) {
+std::string short_scientific(double value) {
   if (value == 0.0) return "0";
   const int power = static_cast<int>(std::floor(elementary::log10(std::abs(value)) + 1e-9));
   const std::string mantissa = fmt::format("{:.1f}", value / elementary::pow(10.0, power));
@@ -30,7 +30,7 @@ std::string figure_text(double value, FigureStyle style) {
     case FigureStyle::scientific:
       break;
   }
-  return scientific(value);
+  return short_scientific(value);
 }
 
 std::string figure_text(const Measured& measured, FigureStyle style) {

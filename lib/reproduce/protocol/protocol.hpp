@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -23,6 +24,7 @@ enum class ControllerReading {
 };
 inline constexpr ControllerReading kControllerReadings[] = {ControllerReading::held, ControllerReading::fast,
                                                             ControllerReading::pd};
+inline constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
 const char* to_string(ControllerReading controller);
 
 /// The paper's "variance = 0.01" has no unit. As a standard deviation in shares of half the range of each

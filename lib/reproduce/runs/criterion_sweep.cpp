@@ -20,10 +20,11 @@ struct OutputRun {
   int length = 0;
 };
 
-/// Sums of one threshold over the samples.
-class Sums {
+/// ThresholdSums of one threshold over the samples.
+class ThresholdSums {
  public:
-  Sums(double threshold, Index faults) : threshold_(threshold), sum_(Eigen::VectorXd::Zero(faults)) {}
+  ThresholdSums(double threshold, Index faults)
+      : threshold_(threshold), sum_(Eigen::VectorXd::Zero(faults)) {}
 
   void take(double time_s, const Eigen::Ref<const Eigen::VectorXd>& odds, const OutputMeaning& meaning) {
     if (open_) {
@@ -96,14 +97,14 @@ std::vector<Alarms> sweep_log_odds(const OutputMeaning& meaning, const Eigen::Ve
                                    const Eigen::MatrixXd& outputs, std::span<const double> thresholds,
                                    double sample_cap) {
   const Eigen::MatrixXd odds = sample_log_odds(meaning, outputs, sample_cap);
-  std::vector<Sums> sums;
+  std::vector<ThresholdSums> sums;
   for (const double threshold : thresholds) sums.emplace_back(threshold, odds.rows());
   for (Index i = 0; i < odds.cols(); ++i) {
     if (!outputs.col(i).allFinite()) continue;
-    for (Sums& sum : sums) sum.take(time[i], odds.col(i), meaning);
+    for (ThresholdSums& sum : sums) sum.take(time[i], odds.col(i), meaning);
   }
   std::vector<Alarms> alarms;
-  for (Sums& sum : sums) alarms.push_back(std::move(sum.alarms));
+  for (ThresholdSums& sum : sums) alarms.push_back(std::move(sum.alarms));
   return alarms;
 }
 

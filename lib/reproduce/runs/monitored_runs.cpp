@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 constexpr std::uint64_t kFaultFreeRuns = 1'000'000;  // their indices begin here
-constexpr std::uint64_t kNoise = 2'000'000;
+constexpr std::uint64_t kRunsNoise = 2'000'000;
 
 ExperimentRun faulty_run(const Experiment& experiment, const RunSet& set, int index, std::uint64_t seed) {
   Random random = Random::stream(seed, 3);
@@ -43,7 +43,7 @@ std::vector<ExperimentRun> monitored_runs(const Experiment& experiment, const Ru
 std::vector<ExperimentRun> with_noise(std::vector<ExperimentRun> runs, const Experiment& experiment,
                                       double sigma, SeedUse use) {
   for (std::size_t i = 0; i < runs.size(); ++i)
-    add_noise(runs[i].log, experiment.ranges, sigma, seed_of(experiment.seed, use, kNoise + i));
+    add_noise(runs[i].log, experiment.ranges, sigma, seed_of(experiment.seed, use, kRunsNoise + i));
   return runs;
 }
 

@@ -13,9 +13,10 @@ namespace {
 using Eigen::Index;
 
 /// The running sums of one network.
-class Sums {
+class RunningSums {
  public:
-  explicit Sums(Eigen::MatrixXd odds) : odds_(std::move(odds)), sum_(Eigen::VectorXd::Zero(odds_.rows())) {}
+  explicit RunningSums(Eigen::MatrixXd odds)
+      : odds_(std::move(odds)), sum_(Eigen::VectorXd::Zero(odds_.rows())) {}
 
   NetworkSum take(Index i) {
     sum_ = (sum_ + odds_.col(i)).cwiseMax(0.0);
@@ -50,8 +51,8 @@ bool continues(const Suspicion& earlier, const Suspicion& later) {
 std::vector<Suspicion> suspicions_of(const SampleClassifier& classifier, const SampleOutputs& outputs,
                                      double sample_cap, double least) {
   const OutputMeaning meaning{classifier.classes, classifier.prior};
-  Sums mlp(sample_log_odds(meaning, outputs.mlp, sample_cap));
-  Sums rbfn(sample_log_odds(meaning, outputs.rbfn, sample_cap));
+  RunningSums mlp(sample_log_odds(meaning, outputs.mlp, sample_cap));
+  RunningSums rbfn(sample_log_odds(meaning, outputs.rbfn, sample_cap));
   std::vector<Suspicion> suspicions;
   Suspicion now;
   for (Index i = 0; i < outputs.time.size(); ++i) {

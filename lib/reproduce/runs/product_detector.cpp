@@ -14,7 +14,7 @@ namespace faultline {
 namespace {
 
 constexpr int kHealthyLogs = 3;
-constexpr std::uint64_t kNoise = 100;
+constexpr std::uint64_t kDetectorNoise = 100;
 constexpr int kMatchedRows = 2000;
 constexpr int kHealthyRuns = 10;      // simulated to calibrate the threshold
 constexpr double kLeastSigma = 1e-5;  // a filter needs some measurement noise
@@ -51,7 +51,7 @@ HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double
   for (std::uint64_t i = 0; i < kHealthyLogs; ++i) {
     healthy.logs.push_back(
         run_of_moves(robot, controller, {duration_s}, seed_of(seed, SeedUse::learning_logs, i)));
-    add_noise(healthy.logs.back(), ranges, sigma, seed_of(seed, SeedUse::learning_logs, kNoise + i));
+    add_noise(healthy.logs.back(), ranges, sigma, seed_of(seed, SeedUse::learning_logs, kDetectorNoise + i));
   }
   healthy.robot = preset_robot(robot.axes);
   healthy.robot.name = robot.name;

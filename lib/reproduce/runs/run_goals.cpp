@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "lib/reproduce/runs/of_seeds.hpp"
 #include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
@@ -25,13 +26,6 @@ std::vector<const AlarmScore*> scores_of(const ControllerResults& results, doubl
       if (found) scores.push_back(&found->score);
     }
   return scores;
-}
-
-template <typename Figure>
-Measured of_seeds(const std::vector<const AlarmScore*>& scores, const Figure& figure) {
-  Measured measured;
-  for (const AlarmScore* score : scores) measured.by_seed.push_back(figure(*score));
-  return measured;
 }
 
 void add_row(std::vector<Goal>& goals, const Bounds& bounds, const char* detector, const char* decision,

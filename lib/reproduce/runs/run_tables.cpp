@@ -3,18 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "lib/reproduce/runs/of_seeds.hpp"
 #include "lib/reproduce/runs/run_texts.hpp"
 
 namespace faultline {
 namespace {
-
-/// The same figure of each seed's score.
-template <typename Figure>
-Measured of_seeds(const std::vector<const AlarmScore*>& scores, const Figure& figure) {
-  Measured measured;
-  for (const AlarmScore* score : scores) measured.by_seed.push_back(figure(*score));
-  return measured;
-}
 
 std::vector<FigureColumn> score_columns() {
   return {{"false alarms", "per h", FigureStyle::decimal},

@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kSamples = 10;  // a trajectory of table 1
+constexpr int kDetectorSamples = 10;  // a trajectory of table 1
 // Trajectories with a fault in joint 1, 2, 3 and without; every fifth of each validates, which leaves 20, 20,
 // 35 and 15 to train on.
 constexpr int kTrajectories[] = {25, 25, 43, 18};
@@ -27,7 +27,7 @@ SampleDetector train_paper_detector(const ResidualGenerator& generator, const Ex
     const FaultLabel fault = output < 3 ? FaultLabel{FaultKind::free_swinging, output + 1} : FaultLabel{};
     for (int i = 0; i < kTrajectories[output]; ++i) {
       const std::uint64_t own = seed_of(experiment.seed, SeedUse::classifier_training, 1000 * output + i);
-      const Log log = trajectory(experiment.robot, experiment.controller, kSamples, own, {fault});
+      const Log log = trajectory(experiment.robot, experiment.controller, kDetectorSamples, own, {fault});
       runs.push_back(residuals_of_log(generator, log, fault, 0.0));
     }
   }

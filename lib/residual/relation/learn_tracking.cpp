@@ -11,9 +11,9 @@ namespace faultline {
 namespace {
 
 constexpr double kMemories_s[] = {0.1, 0.4, 1.6};  // of position loops, from stiff to soft
-constexpr int kFewestLags = 2, kMostLags = 8;
-constexpr double kHelps = 0.75;         // times the straying without
-constexpr double kRateHelps = 0.5;      // the same, of a limit of the rate
+constexpr int kTrackingFewestLags = 2, kTrackingMostLags = 8;
+constexpr double kTrackingHelps = 0.75;  // times the straying without
+constexpr double kRateHelps = 0.5;       // the same, of a limit of the rate
 constexpr double kFollows = 0.5;        // share of the target's variance that its reference explains at least
 constexpr double kFollowsWell = 0.999;  // nothing limits it
 constexpr double kSlope_s = 0.1;        // over which rates are looked at
@@ -21,8 +21,8 @@ constexpr double kLeastRate = 0.5, kMostRate = 1.1;  // of the largest seen
 constexpr int kRounds = 9;
 
 void set_memory(SignalRelation& relation, double memory_s) {
-  const int rows = std::max(kFewestLags, static_cast<int>(std::ceil(memory_s / relation.period_s)));
-  relation.stride = (rows + kMostLags - 1) / kMostLags;
+  const int rows = std::max(kTrackingFewestLags, static_cast<int>(std::ceil(memory_s / relation.period_s)));
+  relation.stride = (rows + kTrackingMostLags - 1) / kTrackingMostLags;
   relation.lags = (rows + relation.stride - 1) / relation.stride;
 }
 
@@ -74,7 +74,7 @@ bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& fol
   for (const double memory_s : kMemories_s) {
     SignalRelation candidate = relation;
     set_memory(candidate, memory_s);
-    if (!is_better(candidate, kHelps)) continue;
+    if (!is_better(candidate, kTrackingHelps)) continue;
     best = std::move(candidate);
     fits = true;
   }

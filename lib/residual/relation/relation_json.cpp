@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kMostLags = 100, kMostStride = 10'000;
+constexpr int kRelationMostLags = 100, kMostStride = 10'000;
 constexpr std::size_t kMostWindows = 100;
 
 /// "tau_meas" of "tau_meas1".
@@ -34,7 +34,7 @@ bool all_finite(const std::vector<double>& values) {
 
 bool fits(const SignalRelation& relation, int joints) {
   const bool shape = relation.joint >= 0 && relation.joint < joints && !relation.inputs.empty() &&
-                     relation.lags >= 0 && relation.lags <= kMostLags && relation.stride >= 1 &&
+                     relation.lags >= 0 && relation.lags <= kRelationMostLags && relation.stride >= 1 &&
                      relation.stride <= kMostStride && relation.rate_limit >= 0.0 &&
                      static_cast<int>(relation.weights.size()) == relation.weights_needed() &&
                      relation.term_low.size() + 1 == relation.weights.size() &&

@@ -26,7 +26,7 @@ std::string each_joint(const Robot& robot, const char* key, Of of) {
   return fmt::format("{} = {}\n", key, toml_numbers(values));
 }
 
-std::string link_text(const Robot& robot, int i) {
+std::string more_link(const Robot& robot, int i) {
   const LinkInertia<double>& link = robot.chain.links[i];
   std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\nlength = {}\n", to_string(robot.shapes[i]),
                                  toml_number(robot.chain.length[i]));
@@ -79,7 +79,7 @@ void read_axes(Robot& robot, const TomlTable& table) {
 }
 
 /// Lengths and directions move a part of the joints' offsets into lengths; the joints stay where they are.
-void read_links(Robot& robot, const TomlTable& table) {
+void read_more_links(Robot& robot, const TomlTable& table) {
   const auto links = table.tables("link");
   if (static_cast<int>(links.size()) != robot.joints())
     table.fail("link",
@@ -141,7 +141,7 @@ std::string urdf_more_text(const Robot& robot) {
                   [](const Friction<double>& f) { return f.load != 0.0; }))
     text += each_joint(robot, "load", [&](int i) { return chain.friction[i].load; });
   text += extra_torque_text(chain, "");
-  for (int i = 0; i < robot.joints(); ++i) text += link_text(robot, i);
+  for (int i = 0; i < robot.joints(); ++i) text += more_link(robot, i);
   return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
 }
 
@@ -155,7 +155,7 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   read_drives(robot, table);
   if (table.has("torque_phi")) robot.torque_phi = table.number("torque_phi");
   read_axes(robot, table);
-  read_links(robot, table);
+  read_more_links(robot, table);
   const Chain<double> chain = robot.chain;
   read_known(robot, table);
   if (robot.identified) robot.chain = chain;  // what was identified stands above what was known

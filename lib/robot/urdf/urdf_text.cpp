@@ -33,7 +33,7 @@ std::string attribute(const std::string& text) {
 
 std::string triple(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
-std::string link_text(const Robot& robot, int i) {
+std::string urdf_link(const Robot& robot, int i) {
   const LinkInertia<double>& link = robot.chain.links[i];
   Eigen::Vector3d centre;
   Eigen::Matrix3d inertia;
@@ -51,7 +51,7 @@ std::string link_text(const Robot& robot, int i) {
 }
 
 /// URDF wants limits of a slide; none are known.
-std::string joint_text(const Robot& robot, int i) {
+std::string urdf_joint(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
   const Friction<double>& friction = robot.chain.friction[i];
   Eigen::Vector3d origin = joint.offset;
@@ -95,7 +95,7 @@ std::string urdf_text(const Robot& robot) {
       "<robot name=\"{}\">\n"
       "  <link name=\"base\"/>\n",
       attribute(printable(robot.name)));
-  for (int i = 0; i < robot.joints(); ++i) text += joint_text(robot, i) + link_text(robot, i);
+  for (int i = 0; i < robot.joints(); ++i) text += urdf_joint(robot, i) + urdf_link(robot, i);
   text += tip_text(robot);
   return text + "  <faultline>\n" + escaped(urdf_more_text(robot)) + "  </faultline>\n</robot>\n";
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/manual/all_commands.hpp"
+#include "apps/manual/completion.hpp"
+#include "apps/manual/help_text.hpp"
+#include "apps/manual/man_page.hpp"
+#include "apps/manual/unknown_word.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+struct HelpArguments {
+  std::vector<std::string> command;  ///< its words, without "faultline"
+  std::string man;                   ///< folder for the man pages
+};
+
+int write_man_pages(const CommandDescription& program, const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  for (const ManPage& page : man_pages(program))
+    write_file((std::filesystem::path(folder) / page.name).string(), page.text);
+  return kNothingFound;
+}
+
+int help(const CommandDescription& program, const HelpArguments& arguments) {
+  if (!arguments.man.empty()) return write_man_pages(program, arguments.man);
+  std::string name = program.name;
+  for (const std::string& word : arguments.command) name += " " + word;
+  for (const CommandDescription* command : all_commands(program))
+    if (command->name == name) {
+      print(help_text(*command));
+      return kNothingFound;
+    }
+  const std::string unknown = about_unknown_word(program, arguments.command);
+  throw Error(ErrorCode::usage, "command line", unknown.empty() ? name + " is no command" : unknown);
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<HelpArguments>();
+  CLI::App* command = app.add_subcommand("help", "Explain a command, its options and its exit status");
+  command->add_option("COMMAND", arguments->command, "The command, such as diagnose or golden check");
+  command->add_option("--man", arguments->man, "Write a man page of every command into this folder")
+      ->type_name("DIR");
+  command->footer("Example: faultline help golden check");
+  command->callback([arguments, &app, &program] {
+    program.run = [arguments, &app] { return help(describe_command(app), *arguments); };
+  });
+}
+
+void add_completion(CLI::App& app, Program& program) {
+  using Script = std::string (*)(const CommandDescription&);
+  static const std::vector<std::pair<std::string, Script>> shells{
+      {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+  auto shell = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands in a shell");
+  command->add_option("SHELL", *shell, "The shell")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->footer(
+      "Example: faultline completion bash > ~/.local/share/bash-completion/completions/faultline");
+  command->callback([shell, &app, &program] {
+    program.run = [shell, &app] {
+      for (const auto& [name, script] : shells)
+        if (name == *shell) print(script(describe_command(app)));
+      return kNothingFound;
+    };
+  });
+}
+
+}  // namespace faultline

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "apps/manual/all_commands.hpp"
+#include "apps/manual/completion.hpp"
+
+namespace faultline {
+namespace {
+
+/// Adds every command that has come to the path, so that options belong to the innermost.
+std::string bash_path_cases(const CommandDescription& program) {
+  std::string text;
+  for (const CommandDescription* command : all_commands(program))
+    if (command != &program)
+      text += fmt::format("      \"{}\") path=\"{}\" ;;\n", command->name, command->name);
+  return text;
+}
+
+/// What may follow: commands, or options once a hyphen was typed.
+std::string bash_word_cases(const CommandDescription& program) {
+  std::string text;
+  for (const CommandDescription* command : all_commands(program)) {
+    std::string commands, flags;
+    for (const CommandDescription& below : command->commands) commands += " " + below.own_name();
+    for (const ArgumentDescription& option : options_known_to(*command, program))
+      flags += fmt::format(" {}", fmt::join(option.flags, " "));
+    text += fmt::format("    \"{}\") commands=\"{}\" flags=\"{}\" ;;\n", command->name,
+                        commands.empty() ? "" : commands.substr(1), flags.empty() ? "" : flags.substr(1));
+  }
+  return text;
+}
+
+/// The values of options: words where there are few, else nothing, which leaves them to files.
+std::string bash_value_cases(const CommandDescription& program) {
+  std::string text;
+  for (const CommandDescription* command : all_commands(program))
+    for (const ArgumentDescription& option : options_known_to(*command, program)) {
+      if (option.value.empty()) continue;
+      for (const std::string& flag : option.flags)
+        text += fmt::format("    \"{} {}\") commands=\"{}\" flags=\"\" ;;\n", command->name, flag,
+                            fmt::join(option.choices, " "));
+    }
+  return text;
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandDescription& program) {
+  return "# bash completion of " + program.name + "\n_" + program.name +
+         "() {\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} path=" +
+         program.name +
+         " commands= flags= i\n"
+         "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
+         "    case \"$path ${COMP_WORDS[i]}\" in\n" +
+         bash_path_cases(program) +
+         "    esac\n"
+         "  done\n"
+         "  case \"$path\" in\n" +
+         bash_word_cases(program) +
+         "  esac\n"
+         "  case \"$path ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
+         bash_value_cases(program) +
+         "  esac\n"
+         "  [[ $current == -* ]] && commands=$flags\n"
+         "  COMPREPLY=($(compgen -W \"$commands\" -- \"$current\"))\n"
+         "}\n"
+         "complete -o default -F _" +
+         program.name + " " + program.name + "\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "apps/manual/command_description.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+namespace faultline {
+namespace {
+
+/// "{evidence,samples}" in "TEXT:{evidence,samples}" as words.
+std::vector<std::string> choices_in(const std::string& type) {
+  const auto begin = type.find('{'), end = type.rfind('}');
+  std::vector<std::string> choices;
+  if (begin == std::string::npos || end == std::string::npos) return choices;
+  std::istringstream words(type.substr(begin + 1, end - begin - 1));
+  for (std::string word; std::getline(words, word, ',');) choices.push_back(word);
+  return choices;
+}
+
+/// What an option takes, without the checks that the library appends behind a colon.
+std::string value_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::string name = type.substr(0, type.find(':'));
+  if (name == "INT" || name == "UINT") return "N";
+  return name == "FLOAT" ? "NUMBER" : name;
+}
+
+ArgumentDescription describe(const CLI::Option& option) {
+  ArgumentDescription argument;
+  for (const std::string& name : option.get_snames()) argument.flags.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) argument.flags.push_back("--" + name);
+  if (option.get_positional()) argument.value = option.get_name(true);
+  if (!option.get_positional() && option.get_items_expected_max() > 0) argument.value = value_of(option);
+  argument.choices = choices_in(option.get_type_name());
+  argument.preset = option.get_default_str();
+  argument.help = option.get_description();
+  argument.required = option.get_required();
+  argument.repeated = option.get_items_expected_max() > 1;
+  return argument;
+}
+
+}  // namespace
+
+std::string CommandDescription::own_name() const { return name.substr(name.rfind(' ') + 1); }
+
+CommandDescription describe_command(const CLI::App& command, const std::string& prefix) {
+  CommandDescription described;
+  described.name = prefix + command.get_name();
+  described.about = command.get_description();
+  described.footer = command.get_footer();
+  described.commands_required = command.get_require_subcommand_min() > 0;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      (option->get_positional() ? described.positionals : described.options).push_back(describe(*option));
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (!below->get_group().empty())
+      described.commands.push_back(describe_command(*below, described.name + " "));
+  return described;
+}
+
+}  // namespace faultline

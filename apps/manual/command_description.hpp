@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace faultline {
+
+/// An option or a positional argument of a command, as its help tells it.
+struct ArgumentDescription {
+  std::vector<std::string> flags{};    ///< "-o", "--output"; empty for a positional argument
+  std::string value{};                 ///< what it takes, such as "LOG" or "N"; empty for a switch
+  std::vector<std::string> choices{};  ///< the only values, where they are few words
+  std::string preset{};                ///< its value when it is not given; may be empty
+  std::string help{};
+  bool required = false;
+  bool repeated = false;  ///< takes any number of values
+};
+
+/// A command and those below it: what help, man pages and completions are made from.
+struct CommandDescription {
+  std::string name{};    ///< as it is typed: "faultline golden check"
+  std::string about{};   ///< what it does, in a line
+  std::string footer{};  ///< notes, exit status, example; a paragraph a line
+  std::vector<ArgumentDescription> positionals{};
+  std::vector<ArgumentDescription> options{};
+  std::vector<CommandDescription> commands{};
+  bool commands_required = false;  ///< does nothing by itself
+
+  /// The last word of the name: "check".
+  std::string own_name() const;
+};
+
+/// `prefix` are the words before the command's own name, each followed by a blank. Hidden options and
+/// commands (those of an empty group) are left out.
+CommandDescription describe_command(const CLI::App& command, const std::string& prefix = "");
+
+}  // namespace faultline

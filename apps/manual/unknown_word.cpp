@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "apps/manual/unknown_word.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/manual/nearest_name.hpp"
+
+namespace faultline {
+namespace {
+
+std::string did_you_mean(const std::string& nearest) {
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+std::vector<std::string> flags_of(const CommandDescription& command) {
+  std::vector<std::string> flags;
+  for (const ArgumentDescription& option : command.options)
+    flags.insert(flags.end(), option.flags.begin(), option.flags.end());
+  return flags;
+}
+
+const ArgumentDescription* option_named(const CommandDescription& command, const std::string& flag) {
+  for (const ArgumentDescription& option : command.options)
+    if (std::find(option.flags.begin(), option.flags.end(), flag) != option.flags.end()) return &option;
+  return nullptr;
+}
+
+std::string no_command(const CommandDescription& command, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CommandDescription& below : command.commands) names.push_back(below.own_name());
+  const std::string nearest = nearest_name(word, names);
+  if (!nearest.empty())
+    return fmt::format("{} {} is no command; did you mean {} {}?", command.name, word, command.name, nearest);
+  return fmt::format("{} {} is no command; there are {}", command.name, word, fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string about_unknown_word(const CommandDescription& program, const std::vector<std::string>& words) {
+  const CommandDescription* command = &program;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") return "";
+    if (word.size() > 1 && word.front() == '-') {
+      const std::string flag = word.substr(0, word.find('='));
+      const ArgumentDescription* option = option_named(*command, flag);
+      if (!option) option = option_named(program, flag);
+      const bool is_long = word[1] == '-';
+      if (!option && is_long)
+        return fmt::format("{} is no option of {}{}", flag, command->name,
+                           did_you_mean(nearest_name(flag, flags_of(*command))));
+      if (option && !option->value.empty() && flag == word) ++i;  // its value
+      continue;
+    }
+    const auto below = std::find_if(command->commands.begin(), command->commands.end(),
+                                    [&](const CommandDescription& c) { return c.own_name() == word; });
+    if (below != command->commands.end())
+      command = &*below;
+    else if (command->commands_required)
+      return no_command(*command, word);
+  }
+  return "";
+}
+
+}  // namespace faultline

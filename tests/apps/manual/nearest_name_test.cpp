@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "apps/manual/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace faultline {
+namespace {
+
+const std::vector<std::string> kNames{"diagnose", "learn", "golden", "help"};
+
+TEST(NearestName, ALetterLeftOutAddedChangedOrExchanged) {
+  for (const char* typed : {"diagnos", "diagnosee", "diagnoze", "daignose"})
+    EXPECT_EQ(nearest_name(typed, kNames), "diagnose") << typed;
+}
+
+TEST(NearestName, ABeginningIsNear) { EXPECT_EQ(nearest_name("diag", kNames), "diagnose"); }
+
+TEST(NearestName, WhatIsFarFromAllHasNone) {
+  EXPECT_EQ(nearest_name("convert", kNames), "");
+  EXPECT_EQ(nearest_name("x", kNames), "");
+}
+
+}  // namespace
+}  // namespace faultline
