@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that faultline needs and that are missing. Asks nothing; works as root or
 # with sudo; does nothing, quickly and without root, when all are there.
-# Usage: bash apps/install.sh [--tests]     --tests: what only the tests need, too
+# Usage: bash apps/install.sh [--tests|--release]     --tests: what only the tests need, too; --release: what
+# only apps/packaging/release.sh needs
 set -euo pipefail
 
 case ${1:-} in
-  "" | --tests) ;;
+  "" | --tests | --release) ;;
   *)
-    echo "install: $1 is unknown; usage: bash apps/install.sh [--tests]" >&2
+    echo "install: $1 is unknown; usage: bash apps/install.sh [--tests|--release]" >&2
     exit 2
     ;;
 esac
@@ -29,7 +30,12 @@ test_packages=(
   # CI checks the format of the sources
   clang-format
 )
-[ "${1:-}" = --tests ] && packages+=("${test_packages[@]}")
+release_packages=(
+  # Debian packages
+  dpkg-dev file git
+)
+[ "${1:-}" = --tests ] && packages+=("${test_packages[@]}" "${release_packages[@]}")
+[ "${1:-}" = --release ] && packages+=("${release_packages[@]}")
 
 if ! command -v apt-get >/dev/null; then
   echo "install: this is no Debian; install the packages of this list by other means: ${packages[*]}" >&2

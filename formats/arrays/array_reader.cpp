@@ -11,9 +11,9 @@
 #include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/byte_window.hpp"
+#include "formats/missing.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "formats/csv/clock_cell.hpp"
-#include "lib/core/missing.hpp"
+#include "formats/missing.hpp"
 
 namespace faultline {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "formats/missing.hpp"
 #include "formats/provenance.hpp"
-#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

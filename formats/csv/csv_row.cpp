@@ -9,7 +9,7 @@
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_header.hpp"
 #include "formats/csv/csv_provenance.hpp"
-#include "lib/core/missing.hpp"
+#include "formats/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

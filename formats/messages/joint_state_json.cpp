@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lib/core/missing.hpp"
+#include "formats/missing.hpp"
 
 namespace faultline {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/receipt_gap.hpp"
+#include "formats/missing.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/missing.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

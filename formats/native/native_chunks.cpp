@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/missing.hpp"
 #include "formats/provenance.hpp"
-#include "lib/core/missing.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lib/core/missing.hpp"
+#include "formats/missing.hpp"
 
 namespace faultline {
 namespace {

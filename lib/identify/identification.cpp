@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/identification.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "lib/core/matrix/decompositions.hpp"
 
 namespace faultline {
 
@@ -54,10 +55,10 @@ Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::V
 }
 
 Robot draw(const Identification& id, Random& random) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(id.covariance);
+  const SymmetricEigen eigen = symmetric_eigen(id.covariance);
   Eigen::VectorXd p = id.estimate;
   for (Eigen::Index k = 0; k < p.size(); ++k)
-    p += eigen.eigenvectors().col(k) * (std::sqrt(std::max(eigen.eigenvalues()[k], 0.0)) * random.normal());
+    p += eigen.vectors.col(k) * (std::sqrt(std::max(eigen.values[k], 0.0)) * random.normal());
   const ParameterSpace& space = id.space;
   for (int j = 0; j < space.joints(); ++j)
     for (int k : {space.viscous(j), space.coulomb(j)})

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/base_candidates.hpp"
 #include "lib/robot/axis_units.hpp"
@@ -43,7 +44,7 @@ Eigen::MatrixXd probe(const Chain<double>& chain) {
 double project(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column, Eigen::VectorXd& coefficients) {
   coefficients.resize(kept.cols());
   if (kept.cols() == 0) return 1.0;
-  coefficients = kept.colPivHouseholderQr().solve(column);
+  coefficients = least_squares(kept, column);
   return (column - kept * coefficients).norm() / column.norm();
 }
 
@@ -198,7 +199,7 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& 
     numbers[n * kLinkParameters + i] = rotor - space.chain.rotor_inertia[i];
   }
   const Eigen::VectorXd torque = probe(chain) * numbers;
-  p.head(space.rigid()) = (probe(space.chain) * space.lift).colPivHouseholderQr().solve(torque);
+  p.head(space.rigid()) = least_squares(probe(space.chain) * space.lift, torque);
   for (int k = 0; k < space.rigid(); ++k)  // solved for, so zero comes out as rounding
     if (space.base[k].is_rotor && std::abs(p[k]) < kSpaceRounding) p[k] = 0.0;
   for (int i = 0; i < n; ++i) {

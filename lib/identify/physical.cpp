@@ -13,6 +13,7 @@
 
 #include "lib/core/distributions.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/physical_equations.hpp"
 
@@ -34,7 +35,7 @@ double descend(const PhysicalEquations& equations, Eigen::VectorXd& x) {
   for (int i = 0; i < kIterations && cost > 1e-16; ++i) {
     Eigen::MatrixXd h = j.transpose() * j;
     h.diagonal() += damping * (h.diagonal().array() + 1e-12 * h.trace()).matrix();
-    const Eigen::VectorXd step = -h.ldlt().solve(j.transpose() * r);
+    const Eigen::VectorXd step = -solve_definite(h, j.transpose() * r);
     const Eigen::VectorXd next = x + step.cwiseMax(-1.0).cwiseMin(1.0);
     Eigen::VectorXd r_next;
     equations.evaluate(next, r_next, nullptr);

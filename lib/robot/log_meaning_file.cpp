@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/robot/log_preset.hpp"
@@ -52,7 +52,7 @@ Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
   Eigen::MatrixXd matrix(joints, joints);
   for (int i = 0; i < joints; ++i)
     for (int k = 0; k < joints; ++k) matrix(i, k) = rows[i][k];
-  const Eigen::VectorXd stretches = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
+  const Eigen::VectorXd stretches = singular_values(matrix);
   if (stretches[joints - 1] <= kSingular * stretches[0])
     log.fail(
         "coupling",

@@ -2,10 +2,10 @@
 #include "lib/evidence/filter/fault_dynamics.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/evidence/filter/small_inverse.hpp"
 #include "lib/robot/dynamics.hpp"
 
@@ -64,8 +64,7 @@ double least_payload_of(const RobotLoad& load) {
     const Eigen::MatrixXd more = loaded - inertia;
     const Eigen::MatrixXd half = factor.matrixL().solve(more);
     const Eigen::MatrixXd scaled = factor.matrixL().solve(half.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-    largest = std::max(largest, eigen.eigenvalues().maxCoeff());
+    largest = std::max(largest, symmetric_eigenvalues(scaled).maxCoeff());
   }
   return largest > 0.0 ? -kMostTakenOff / largest : 0.0;
 }

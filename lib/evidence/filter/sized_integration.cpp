@@ -61,7 +61,7 @@ void SizedDynamics::runge_kutta_step(MotionState& state, const JointArray& torqu
   static constexpr double kFraction[4] = {0.0, 0.5, 0.5, 1.0};
   static constexpr double kWeight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
   const int n = joints_;
-  MotionState at_stage;
+  MotionState at_stage{};
   JointArray v{}, a{}, sum_v{}, sum_a{};
   for (int stage = 0; stage < 4; ++stage) {
     for (int j = 0; j < n; ++j) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/excitation/motion_moments.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/weak_form/weak_windows.hpp"
 
 namespace faultline {
@@ -64,9 +64,8 @@ Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of
 
 double condition_of(const Eigen::MatrixXd& moments, const Eigen::VectorXd& unit) {
   const Eigen::VectorXd scale = unit.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      scale.asDiagonal() * moments * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  const double least = eigen.eigenvalues().minCoeff(), most = eigen.eigenvalues().maxCoeff();
+  const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * moments * scale.asDiagonal());
+  const double least = values.minCoeff(), most = values.maxCoeff();
   return least > kRank * most ? std::sqrt(most / least) : std::numeric_limits<double>::infinity();
 }
 

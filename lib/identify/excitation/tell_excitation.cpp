@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/excitation/tell_excitation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "lib/core/matrix/decompositions.hpp"
 
 namespace faultline {
 namespace {
@@ -96,10 +97,10 @@ Inverse invert(const Eigen::MatrixXd& moments, const std::vector<bool>& at_rest)
   if (out.shown.empty()) return out;
   const Eigen::MatrixXd part = moments(out.shown, out.shown);
   const Eigen::VectorXd root = part.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(root.asDiagonal() * part * root.asDiagonal());
-  const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(kLeastEigenvalue);
-  out.inverse = eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  out.weakest = eigen.eigenvectors().col(0);
+  const SymmetricEigen eigen = symmetric_eigen(root.asDiagonal() * part * root.asDiagonal());
+  const Eigen::VectorXd values = eigen.values.cwiseMax(kLeastEigenvalue);
+  out.inverse = eigen.vectors * values.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
+  out.weakest = eigen.vectors.col(0);
   return out;
 }
 

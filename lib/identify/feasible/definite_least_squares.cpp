@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 
 namespace faultline {
 namespace {
@@ -75,7 +76,7 @@ Eigen::VectorXd newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorX
   const Eigen::VectorXd scale = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd h = scale.asDiagonal() * hessian * scale.asDiagonal();
   h.diagonal().array() += kRidge;
-  return -scale.cwiseProduct(h.ldlt().solve(scale.cwiseProduct(gradient)));
+  return -scale.cwiseProduct(solve_definite(h, scale.cwiseProduct(gradient)));
 }
 
 /// Newton's method with one prior.

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/feasible/body_shape.hpp"
 #include "lib/identify/feasible/definite_least_squares.hpp"
@@ -32,9 +32,8 @@ bool positive_definite(const Chain<double>& chain, const Eigen::VectorXd& low, c
     const Eigen::MatrixXd m = inertia_matrix(chain, q);
     if (!m.allFinite() || !(m.diagonal().minCoeff() > 0.0)) return false;
     const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * m * scale.asDiagonal(),
-                                                               Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()[0] > kDefinite)) return false;
+    const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * m * scale.asDiagonal());
+    if (!(values[0] > kDefinite)) return false;
   }
   return true;
 }
@@ -78,7 +77,7 @@ void scale_bodies(const Eigen::MatrixXd& a, const Eigen::VectorXd& y, FeasibleUn
     if (block.first < unknowns.bodies) nominal.segment(block.first, block.unknowns()) = block.nominal;
   Eigen::MatrixXd few(a.rows(), 1 + a.cols() - unknowns.bodies);
   few << a.leftCols(unknowns.bodies) * nominal, a.rightCols(few.cols() - 1);
-  const double factor = few.colPivHouseholderQr().solve(y)[0];
+  const double factor = least_squares(few, y)[0];
   if (!std::isfinite(factor)) return;
   for (DefiniteBlock& block : unknowns.blocks)
     if (block.first < unknowns.bodies)

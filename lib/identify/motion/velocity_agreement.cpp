@@ -11,10 +11,10 @@
 namespace faultline {
 namespace {
 
-constexpr double kAlike = 0.9;  // correlation above which both are one quantity
-constexpr double kApart = 1.2;  // factor between them that no noise makes
-constexpr double kNear = 0.05;  // of a known factor, in its logarithm
-constexpr double kDegree = 180.0 / std::numbers::pi;
+constexpr double kAlike = 0.9;        // correlation above which both are one quantity
+constexpr double kFactorApart = 1.2;  // factor between them that no noise makes
+constexpr double kNear = 0.05;        // of a known factor, in its logarithm
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 bool is_near(double factor, double known) {
   return std::abs(elementary::log(std::abs(factor) / known)) < kNear;
@@ -24,7 +24,7 @@ bool is_near(double factor, double known) {
 
 bool DerivativeAgreement::disagrees() const {
   return std::abs(correlation) > kAlike &&
-         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kApart));
+         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
 }
 
 DerivativeAgreement velocity_agreement(const JointMotion& motion) {
@@ -45,7 +45,8 @@ DerivativeAgreement velocity_agreement(const JointMotion& motion) {
 std::string words(const DerivativeAgreement& agreement, int joint) {
   const double factor = agreement.factor;
   std::string guess = "one of them is in another unit";
-  if (is_near(factor, kDegree) || is_near(factor, 1.0 / kDegree)) guess = "one of them is in degrees";
+  if (is_near(factor, kDegreesPerRadian) || is_near(factor, 1.0 / kDegreesPerRadian))
+    guess = "one of them is in degrees";
   if (is_near(factor, 1e3) || is_near(factor, 1e-3))
     guess = "one of them is in mm, or the time in milliseconds";
   if (factor < 0.0)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/verdict/doubtful_parameters.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
 #include "lib/identify/weak_form/column_selection.hpp"
 
@@ -32,7 +32,7 @@ Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& tor
     if (rows.empty()) continue;
     const std::vector<int> own{space.viscous(j), space.coulomb(j), space.offset(j)};
     const Eigen::MatrixXd a = s.a(rows, own);
-    const Eigen::VectorXd y = s.y(rows), left = y - a * a.colPivHouseholderQr().solve(y);
+    const Eigen::VectorXd y = s.y(rows), left = y - a * least_squares(a, y);
     const double all = y.squaredNorm(), explained = all - torque.fit.residual(rows).squaredNorm();
     if (explained > 0.0) share[j] = (all - left.squaredNorm()) / explained;
   }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/verdict/single_log_fits.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "lib/core/distributions.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/verdict/correlated_noise.hpp"
 
@@ -101,7 +101,7 @@ Eigen::VectorXd pooled_variances(const SingleLog& s, const std::vector<std::vect
     normal += run.a.transpose() * run.weight.asDiagonal() * run.a;
     sum += covariance_of_sum(run, alike[j]);
   }
-  const Eigen::MatrixXd bread = normal.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+  const Eigen::MatrixXd bread = inverse_definite(normal);
   return (bread * sum * bread).diagonal();
 }
 

@@ -2,9 +2,10 @@
 #include "lib/identify/weak_form/column_selection.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "lib/core/matrix/decompositions.hpp"
 
 namespace faultline {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kMixed = 0.03;       ///< share of a column in a dependent one 
 
 double condition(const Eigen::MatrixXd& a) {
   if (a.cols() == 0) return 0.0;
-  const auto s = Eigen::BDCSVD<Eigen::MatrixXd>(a).singularValues();
+  const Eigen::VectorXd s = singular_values(a);
   return s[0] / s[s.size() - 1];
 }
 

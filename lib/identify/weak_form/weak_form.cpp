@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/weak_form/weak_form.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/weak_form/column_selection.hpp"
 
@@ -56,8 +56,8 @@ Eigen::MatrixXd jackknife(const WeakSystem& s, const Eigen::MatrixXd& a, const E
     const Eigen::VectorXd own_weight = weight(rows[block]);
     const Eigen::VectorXd gradient = own.transpose() * own_weight.cwiseProduct(r(rows[block]));
     const Eigen::VectorXd step =
-        (normal - own.transpose() * own_weight.asDiagonal() * own).ldlt().solve(gradient);
-    steps.col(block) = step.allFinite() ? step : Eigen::VectorXd(normal.ldlt().solve(gradient));
+        solve_definite(normal - own.transpose() * own_weight.asDiagonal() * own, gradient);
+    steps.col(block) = step.allFinite() ? step : solve_definite(normal, gradient);
   }
   const double blocks = s.blocks;
   steps.colwise() -= Eigen::VectorXd(steps.rowwise().mean());

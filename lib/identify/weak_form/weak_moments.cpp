@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/weak_form/weak_moments.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 
 namespace faultline {
 namespace {
@@ -59,12 +59,12 @@ int nearest_set(const std::vector<WeakWindows>& sets, double length_s) {
 Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r) {
   if (r.size() == 0) return r;
   const Eigen::VectorXd scale = n.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * n * scale.asDiagonal());
-  const double least = kMomentsRank * std::max(eigen.eigenvalues().maxCoeff(), 1e-300);
-  Eigen::VectorXd part = eigen.eigenvectors().transpose() * scale.cwiseProduct(r);
+  const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * n * scale.asDiagonal());
+  const double least = kMomentsRank * std::max(eigen.values.maxCoeff(), 1e-300);
+  Eigen::VectorXd part = eigen.vectors.transpose() * scale.cwiseProduct(r);
   for (Eigen::Index i = 0; i < part.size(); ++i)
-    part[i] = eigen.eigenvalues()[i] > least ? part[i] / eigen.eigenvalues()[i] : 0.0;
-  return scale.cwiseProduct(eigen.eigenvectors() * part);
+    part[i] = eigen.values[i] > least ? part[i] / eigen.values[i] : 0.0;
+  return scale.cwiseProduct(eigen.vectors * part);
 }
 
 /// By joint, the extra terms that its balances depend on.

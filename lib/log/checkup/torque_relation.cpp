@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/log/checkup/torque_relation.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/log/checkup/valley.hpp"
 
 namespace faultline {
@@ -149,7 +149,7 @@ std::vector<TorqueRelated> TorqueRelation::result() const {
   const Eigen::VectorXd sizes = (whole.diagonal().array() + 1e-12).sqrt();
   whole = sizes.cwiseInverse().asDiagonal() * whole * sizes.cwiseInverse().asDiagonal();
   whole.diagonal().array() += kRidge;
-  Eigen::MatrixXd inverse = whole.ldlt().solve(Eigen::MatrixXd::Identity(whole.rows(), whole.cols()));
+  Eigen::MatrixXd inverse = inverse_definite(whole);
   inverse = sizes.cwiseInverse().asDiagonal() * inverse * sizes.cwiseInverse().asDiagonal();
   for (int j = 0; j < joints_; ++j) all[j] = related(j, inverse);
   return all;

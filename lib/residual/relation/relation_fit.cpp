@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/residual/relation/relation_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/distributions.hpp"
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/residual/relation/lag_line.hpp"
 #include "lib/residual/relation/relation_residual.hpp"
@@ -66,7 +66,7 @@ std::vector<double> weights_of(const Moments& moments) {
   Eigen::MatrixXd scaled = Eigen::MatrixXd(moments.gram.selfadjointView<Eigen::Lower>());
   scaled = scale.asDiagonal() * scaled * scale.asDiagonal();
   for (int i = 0; i < scaled.rows(); ++i) scaled(i, i) = scale[i] > 0.0 ? scaled(i, i) + kRidge : 1.0;
-  const Eigen::VectorXd solution = scaled.ldlt().solve(scale.cwiseProduct(moments.right));
+  const Eigen::VectorXd solution = solve_definite(scaled, scale.cwiseProduct(moments.right));
   const Eigen::VectorXd weights = scale.cwiseProduct(solution);
   return {weights.begin(), weights.end()};
 }

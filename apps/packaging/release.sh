@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Makes what is handed out of the last commit: the Debian packages, the source archive and their checksums.
+# The same commit gives the same bytes on the same Debian release.
+# Usage: bash apps/packaging/release.sh [FOLDER]     FOLDER is dist by default
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+out=$(realpath -m "${1:-dist}")
+
+if ! commit=$(git rev-parse --short HEAD 2>/dev/null); then
+  echo "release: this is no checkout of the repository; a release is made of a commit" >&2
+  exit 2
+fi
+[ -z "$(git status --porcelain)" ] || echo "release: what is not committed is left out" >&2
+
+bash apps/install.sh
+bash apps/install.sh --release
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+version=$(sed -n 's/^project(faultline VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+source_archive=faultline-$version.tar.gz
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+
+git archive --format=tar --prefix="faultline-$version/" HEAD | gzip -9n >"$work/$source_archive"
+tar -xzf "$work/$source_archive" -C "$work"
+# A name that does not change, so that no path of this machine or run gets into the program.
+cmake -S "$work/faultline-$version" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFAULTLINE_TESTS=OFF \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$work=." >&2
+cmake --build "$work/build" --parallel "$(nproc)" >&2
+(cd "$work/build" && cpack -B "$work" >&2)
+
+mkdir -p "$out"
+rm -f "$out"/faultline_*.deb "$out"/libfaultline-dev_*.deb "$out"/python3-faultline_*.deb "$out"/faultline-*.tar.gz
+cp "$work"/*.deb "$work/$source_archive" "$out"
+(cd "$out" && sha256sum -- *.deb "$source_archive" >SHA256SUMS)
+echo "Of commit $commit, in $out:"
+(cd "$out" && ls -1s --block-size=K -- *.deb "$source_archive" SHA256SUMS)

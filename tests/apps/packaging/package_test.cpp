@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace faultline {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(DebianPackage, HoldsTheProgramAndNamesTheLibrariesItNeeds) {
+  if (run_command({"sh", "-c", "command -v dpkg-shlibdeps"}).status != 0)
+    GTEST_SKIP() << "dpkg-shlibdeps is missing; install dpkg-dev (bash apps/install.sh --release)";
+  const TemporaryFolder folder;
+  const std::string build = fs::path(FAULTLINE_PROGRAM).parent_path().string();
+  const ProgramRun made = run_command({"cpack", "--config", build + "/CPackConfig.cmake", "-G", "DEB", "-B",
+                                       folder.path().string(), "-D", "CPACK_COMPONENTS_ALL=program", "-D",
+                                       "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"});
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  const std::string package = folder.file("faultline_" FAULTLINE_VERSION "-1_amd64.deb");
+  ASSERT_TRUE(fs::exists(package)) << made.out;
+
+  const std::string depends = run_command({"dpkg-deb", "-f", package, "Depends"}).out;
+  for (const char* library : {"libcholmod3", "libhdf5", "libsqlite3", "libc6"})
+    EXPECT_NE(depends.find(library), std::string::npos) << depends;
+  const std::string content = run_command({"dpkg-deb", "-c", package}).out;
+  for (const char* path : {"./usr/bin/faultline\n", "./usr/share/man/man1/faultline-diagnose.1.gz\n",
+                           "./usr/share/faultline/sample_logs/bench/healthy_1.csv\n"})
+    EXPECT_NE(content.find(path), std::string::npos) << path;
+  EXPECT_EQ(content.find("/include/"), std::string::npos) << "headers belong to libfaultline-dev";
+}
+
+}  // namespace
+}  // namespace faultline
