@@ -8,35 +8,14 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "apps/robot_log.hpp"
-#include "formats/log_formats.hpp"
-#include "lib/batch/merge_batches.hpp"
-#include "lib/batch/run_batch.hpp"
+#include "apps/work/batching.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
-
-struct BatchArguments : ModelPaths {
-  std::vector<std::string> paths;
-  std::string folder, json, shard;
-  BatchOptions options;
-};
-
-/// "3/8": I from 1 to N or from 0 to N-1, so that both ways of numbering tasks do.
-void take_shard(const std::string& text, BatchOptions& options) {
-  if (text.empty()) return;
-  int i = 0, n = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || n < 1 || i < 0 || i > n)
-    throw Error(ErrorCode::usage, "--shard " + text, "is no part I/N with I from 1 to N, such as 2/8");
-  options.shard = i % n;
-  options.shards = n;
-}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -65,48 +44,20 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
   return summary.status;
 }
 
-/// Of a folder of results that a batch writes.
-void writes_batch(FileUse& files, const std::string& folder) {
-  for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
-    files.writes("-o", folder + "/" + name);
-  files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
-}
-
-void claim_files(const BatchArguments& arguments, const std::vector<BatchLog>& logs) {
-  FileUse files;
-  for (const BatchLog& log : logs) files.reads("the log", log.path);
-  files.reads(arguments);
-  writes_batch(files, arguments.folder);
-  files.writes("--json", arguments.json).claim();
-}
-
-int merge_shards(const std::vector<std::string>& folders, const std::string& into, const std::string& json) {
-  FileUse files;
-  for (const std::string& folder : folders) files.reads_below("the results of a shard", folder);
-  writes_batch(files, into);
-  files.writes("--json", json).claim();
-  return report(merge_batches(folders, into), into, json);
-}
-
-int run_command(BatchArguments arguments, ColorChoice color) {
-  BatchOptions& options = arguments.options;
-  take_shard(arguments.shard, options);
-  const std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
-  if (logs.empty())
-    throw Error(ErrorCode::input, arguments.paths.front(),
-                "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
-  claim_files(arguments, logs);
-  const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
-  const OpenLog open = [&](const std::string& path) { return open_robot_log(path, model.robot); };
+int run_command(BatchRequest request, ColorChoice color) {
+  BatchOptions& options = request.options;
+  take_shard(request.shard, options);
+  const std::vector<BatchLog> logs = claimed_logs(request);
+  const auto [model, cases] = load_model_files(request.model, request.case_base());
   BatchResult result;
   {
     ProgressBar bar(color);
     options.progress = progress_to(bar);
-    result = run_batch(logs, open, model, cases, arguments.folder, options);
+    result = run_batch_on(logs, model, cases, request);
   }
   const int done = result.summary.all.logs - result.diagnosed;
   if (done > 0) tell(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
-  return report(result.summary, arguments.folder, arguments.json);
+  return report(result.summary, request.folder, request.json);
 }
 
 void add_merge(CLI::App& batch, Program& program) {
@@ -117,10 +68,12 @@ void add_merge(CLI::App& batch, Program& program) {
   merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
   add_file_option(*merge, "--json", *json, "Write the summary as JSON");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
-  merge->callback([=, &program] { program.run = [=] { return merge_shards(*folders, *into, *json); }; });
+  merge->callback([=, &program] {
+    program.run = [=] { return report(merge_shards(*folders, *into, *json), *into, *json); };
+  });
 }
 
-void add_options(CLI::App& command, BatchArguments& arguments) {
+void add_options(CLI::App& command, BatchRequest& arguments) {
   command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
   add_model_option(command, arguments);
   command.add_option("-o,--output", arguments.folder, "Folder for the results; an earlier run there goes on")
@@ -138,7 +91,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   add_diagnose_options(command, arguments.options.diagnose, "As of faultline diagnose");
 }
 
-void refuse_incomplete(const BatchArguments& arguments) {
+void refuse_incomplete(const BatchRequest& arguments) {
   if (arguments.paths.empty()) throw CLI::RequiredError("PATH (a log or a folder)");
   if (arguments.model.empty()) throw CLI::RequiredError("--model");
   if (arguments.folder.empty()) throw CLI::RequiredError("-o,--output");
@@ -147,7 +100,7 @@ void refuse_incomplete(const BatchArguments& arguments) {
 }  // namespace
 
 void add_batch(CLI::App& app, Program& program) {
-  auto arguments = std::make_shared<BatchArguments>();
+  auto arguments = std::make_shared<BatchRequest>();
   CLI::App* command =
       app.add_subcommand("batch", "Diagnose all logs of folders, with an index of the results");
   add_options(*command, *arguments);

@@ -26,6 +26,8 @@ packages=(
 test_packages=(
   # HTML reports are looked at in a browser
   chromium fonts-dejavu-core
+  # the Python module, its frames and the pictures of its example
+  pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib
   # CI checks the format of the sources
   clang-format
 )
