@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 #include "lib/robot/axis_units.hpp"
 
 namespace faultline {
@@ -30,11 +31,8 @@ std::string why_not_judged(const Model& model) {
 }
 
 void check_channels(const Log& segment, const LogSource& log, const Model& model) {
+  check_joints(segment, log, model);
   const int joints = model.robot.joints();
-  if (segment.joints() != joints)
-    throw Error(ErrorCode::input, log.identity().path,
-                "is a log of another robot: it has " + std::to_string(segment.joints()) +
-                    " joints, the model \"" + model.name + "\" has " + std::to_string(joints));
   const bool has_torque = static_cast<int>(segment.tau.size()) == joints && model.has_mechanics();
   if (!has_torque && !can_track(segment, model))
     throw Error(ErrorCode::input, log.identity().path, why_not_judged(model));
@@ -54,6 +52,14 @@ void note_rejected(Issues& issues, int count) {
 }
 
 }  // namespace
+
+void check_joints(const Log& segment, const LogSource& log, const Model& model) {
+  const int joints = model.robot.joints();
+  if (segment.joints() != joints)
+    throw Error(ErrorCode::input, log.identity().path,
+                "is a log of another robot: it has " + counted(segment.joints(), "joint") + ", the model \"" +
+                    model.name + "\" has " + std::to_string(joints));
+}
 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
   check_channels(segment, log, model);

@@ -11,6 +11,9 @@
 
 namespace faultline {
 
+/// Throws Error(input) when the log has other joints than the model's robot.
+void check_joints(const Log& segment, const LogSource& log, const Model& model);
+
 /// What was read of a log, whatever is made of it.
 struct LogTally {
   std::int64_t rows = 0;

@@ -15,12 +15,15 @@
 namespace faultline {
 namespace {
 
-/// Whether there is no torque that the model could judge. Rewinds the log before and after.
+/// Whether there is no torque that the model could judge. Rewinds the log before and after. Throws
+/// Error(input) for a log of another number of joints, before anything takes it for the model's.
 bool lacks_torque(LogSource& log, const Model& model) {
   if (!model.has_mechanics()) return true;
   log.rewind();
   Log first;
-  const bool lacks = log.next(first) && first.tau.empty();
+  const bool has_rows = log.next(first);
+  if (has_rows) check_joints(first, log, model);
+  const bool lacks = has_rows && first.tau.empty();
   log.rewind();
   return lacks;
 }

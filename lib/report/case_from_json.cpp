@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/report/case_from_json.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
@@ -27,7 +28,9 @@ const Json& fault_with_id(const Json& diagnosis, const std::string& where, int i
                   std::to_string(diagnosis.at("faults").size()));
 }
 
+/// A finding of its signals alone (second residuals, tracking) has none: all are missing then.
 std::vector<double> features_from(const Json& json, const std::vector<std::string>& names) {
+  if (json.empty()) return std::vector<double>(names.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<double> values;
   for (const std::string& name : names) {
     if (!json.contains(name))

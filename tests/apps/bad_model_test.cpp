@@ -121,5 +121,25 @@ TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
   EXPECT_EQ(run_program(arguments).status, 3);
 }
 
+/// Before, the row-by-row look at the log ahead of the diagnosis took it for the model's robot and crashed.
+TEST_F(BadModel, ALogOfFewerOrMoreJointsIsOfAnotherRobot) {
+  std::string model;
+  for (const auto& entry : std::filesystem::directory_iterator(FAULTLINE_SOURCE_DIR "/sample_logs/golden")) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("model-", 0) == 0) model = entry.path().string();
+    if (name.rfind("cases-", 0) == 0) std::filesystem::copy_file(entry.path(), folder_.file("cases.db"));
+  }
+  std::string two = "t,q1,q2,dq1,dq2,tau1,tau2\n", four = "t,q1,q2,q3,q4,tau1,tau2,tau3,tau4\n";
+  for (int k = 0; k < 200; ++k) {
+    const std::string time = std::to_string(0.073 * k);
+    two += time + ",0.1,0.2,0,0,1,1\n";
+    four += time + ",0.1,0.2,0.3,0.4,1,1,1,1\n";
+  }
+  for (const auto& [log, joints] : {std::pair{&two, "2 joints"}, {&four, "4 joints"}})
+    expect_one_sentence(run_program({"diagnose", folder_.write("log.csv", *log), "--model", model, "--cases",
+                                     folder_.file("cases.db")}),
+                        3, {"log.csv", "another robot", joints});
+}
+
 }  // namespace
 }  // namespace faultline
