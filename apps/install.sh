@@ -27,6 +27,8 @@ packages=(
 test_packages=(
   # HTML reports are looked at in a browser
   chromium fonts-dejavu-core
+  # what is written is held against docs/schemas, and the documentation is built as a site
+  python3-jsonschema mkdocs
   # CI checks the format of the sources
   clang-format
 )

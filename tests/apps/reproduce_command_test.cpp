@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lib/core/atomic_file.hpp"
+#include "tests/support/json_schema.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -65,6 +66,7 @@ TEST(ReproduceCommand, quick_run_gives_tables_figures_and_the_orders_of_magnitud
        {"generator_mse", "table_1", "table_2", "runs_held", "runs_fast", "runs_pd", "dual_held"})
     expect_full_table(json["tables"], id);
   expect_figures_3_to_8(out, read_file((out / "index.md").string()));
+  EXPECT_FOLLOWS_SCHEMA({"reproduction-1", (out / "index.json").string()});
 }
 
 TEST(ReproduceCommand, bad_options_and_places_are_named) {
