@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pages on commands say what the program's --help says; FAULTLINE_APPROVE=1 writes it into them.
+// What the pages say of the program: each command's --help (FAULTLINE_APPROVE=1 writes it into them), the
+// names of issues, and the example in C++.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -10,6 +11,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
 namespace {
@@ -79,6 +81,26 @@ TEST(DocumentationCommands, EachCommandHasAPageAndEachOfItsOwnCommandsABlock) {
       EXPECT_NE(page.find("$ faultline " + name + " " + own + " --help"), std::string::npos)
           << name << " " << own;
   }
+}
+
+/// The block of code of that language in a page.
+std::string code_in(const std::string& page, const std::string& language) {
+  const std::string mark = "\n" + kFence + language + "\n";
+  const std::size_t begin = page.find(mark);
+  if (begin == std::string::npos) return "";
+  const std::size_t code = begin + mark.size();
+  return page.substr(code, page.find("\n" + kFence, code) + 1 - code);
+}
+
+TEST(DocumentationCpp, TheProgramOutsideTheTreeCompiles) {
+  const TemporaryFolder folder;
+  const std::string code = code_in(read_file((kPages / "cpp.md").string()), "cpp"),
+                    log = folder.file("log.txt");
+  ASSERT_NE(code.find("faultline::diagnose("), std::string::npos);
+  const std::string command = "c++ -std=c++20 -fsyntax-only -I'" + std::string(FAULTLINE_SOURCE_DIR) +
+                              "' -isystem /usr/include/eigen3 '" + folder.write("main.cpp", code) + "' >'" +
+                              log + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
 }
 
 std::string sources() {
