@@ -16,7 +16,7 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kMostBands = 200;
-constexpr int kWidth = 520, kPanelHeight = 140;
+constexpr int kWidth = 420, kPanelHeight = 130;
 constexpr double kGapSteps = 3.0;
 
 enum class FigureKind { position, velocity, torque, other };
@@ -176,9 +176,8 @@ std::string inspection_figures(const Inspection& inspection, const std::string& 
     plot.bands = stuck_bands(inspection, group, zero_s);
     plot.bands.insert(plot.bands.end(), gaps.begin(), gaps.end());
     const std::string unit = group.unit.empty() ? "" : " <small>(" + escaped_markup(group.unit) + ")</small>";
-    text += fmt::format(
-        "<figure><figcaption>{}{}</figcaption>\n{}\n<div class=\"still\">{}</div><p></p></figure>\n",
-        escaped_markup(group.caption), unit, legend(group), render_svg(plot));
+    text += fmt::format("<figure><figcaption>{}{}</figcaption>\n{}\n<div class=\"still\">{}</div></figure>\n",
+                        escaped_markup(group.caption), unit, legend(group), render_svg(plot));
   }
   text += "</div>\n";
   if (inspection.overview.channels_left_out > 0)

@@ -30,7 +30,22 @@ const char* colour_of(const Inspection& inspection) {
   return verdict == "sound" ? "healthy" : verdict == "doubtful" ? "inconclusive" : "faulty";
 }
 
-std::string top(const Inspection& inspection) {
+/// Headings of a page of one log; those of one of several are a level lower.
+class Headings {
+ public:
+  explicit Headings(std::size_t logs) : level_(logs > 1 ? 2 : 1) {}
+
+  std::string of_log(const std::string& text) const { return heading(level_, text); }
+  std::string of_part(const std::string& text) const { return heading(level_ + 1, text); }
+
+ private:
+  static std::string heading(int level, const std::string& text) {
+    return fmt::format("<h{0}>{1}</h{0}>\n", level, escaped_markup(text));
+  }
+  int level_;
+};
+
+std::string top(const Inspection& inspection, const Headings& headings) {
   const TimeAxis& time = inspection.quality.time;
   std::string facts = fmt::format("{}, {} rows, {} used", inspection.log.format, inspection.log.rows_read,
                                   inspection.rows_used);
@@ -40,8 +55,8 @@ std::string top(const Inspection& inspection) {
   if (!std::isnan(time.period_s)) facts += fmt::format(", {:.5g} Hz", 1.0 / time.period_s);
   std::string verdict = verdict_sentence_of(inspection);
   if (!verdict.empty()) verdict[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(verdict[0])));
-  return fmt::format("<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p class=\"verdict {}\">{}</p>\n",
-                     escaped_markup(printable(inspection.log.path)), escaped_markup(facts),
+  return fmt::format("{}<p class=\"sub\">{}</p>\n<p class=\"verdict {}\">{}</p>\n",
+                     headings.of_log(printable(inspection.log.path)), escaped_markup(facts),
                      colour_of(inspection), escaped_markup(brief(verdict)));
 }
 
@@ -51,7 +66,7 @@ std::string item(const std::string& word, const std::string& what, const std::st
                      sentence.empty() ? "" : ": ", escaped_markup(sentence));
 }
 
-std::string findings(const Inspection& inspection) {
+std::string findings(const Inspection& inspection, const Headings& headings) {
   std::vector<Issue> issues = inspection.issues.all();
   std::stable_sort(issues.begin(), issues.end(),
                    [](const Issue& a, const Issue& b) { return a.severity > b.severity; });
@@ -64,11 +79,11 @@ std::string findings(const Inspection& inspection) {
     if (issue.rows_dropped > 0) what += fmt::format(", {} rows left out", issue.rows_dropped);
     text += item(to_string(issue.severity), what, issue.message);
   }
-  return "<h2>Findings</h2>\n" +
+  return headings.of_part("Findings") +
          (text.empty() ? "<p>Nothing wrong was found.</p>\n" : "<ul>\n" + text + "</ul>\n");
 }
 
-std::string analyses(const Inspection& inspection) {
+std::string analyses(const Inspection& inspection, const Headings& headings) {
   std::string text;
   for (const PossibleAnalysis& analysis : inspection.analyses) {
     std::string sentence = analysis.why;
@@ -77,28 +92,30 @@ std::string analyses(const Inspection& inspection) {
       sentence += (sentence.empty() ? "from " : "; from ") + joined(analysis.channels);
     text += item(to_string(analysis.fit), analysis.what, sentence);
   }
-  return "<h2>What it is good for</h2>\n<ul>\n" + text + "</ul>\n";
+  return headings.of_part("What it is good for") + "<ul>\n" + text + "</ul>\n";
 }
 
-std::string time_facts(const Inspection& inspection) {
+std::string time_facts(const Inspection& inspection, const Headings& headings) {
   const TimeAxis& time = inspection.quality.time;
   if (std::isnan(time.period_s)) return "";
   std::string text =
-      "<h2>Time</h2>\n" +
-      html_table({}, {{"sample period (median)", fmt::format("{:.6g} s", time.period_s)},
-                      {"jitter",
-                       fmt::format("{:.3g} s rms, {:.3g} s at most", time.jitter_s, time.largest_jitter_s)},
-                      {"gaps", fmt::format("{}, {:.4g} s together", time.gaps, time.in_gaps_s)},
-                      {"rows used of those read", fmt::format("{:.4g} %", 100.0 * inspection.share_used())},
-                      {"rows of those the time has room for",
-                       fmt::format("{:.4g} %", 100.0 * inspection.completeness())}});
+      headings.of_part("Time") +
+      html_table(
+          {},
+          {{"sample period (median)", fmt::format("{:.6g} s", time.period_s)},
+           {"jitter", fmt::format("{:.3g} s rms, {:.3g} s at most", time.jitter_s, time.largest_jitter_s)},
+           {"gaps", fmt::format("{}, {:.4g} s together", time.gaps, time.in_gaps_s)},
+           {"rows used of those read", fmt::format("{:.4g} %", 100.0 * inspection.share_used())},
+           {"rows of those the time has room for",
+            fmt::format("{:.4g} %", 100.0 * inspection.completeness())}},
+          "Time");
   std::vector<HtmlRow> gaps;
   for (std::size_t i = 0; i < std::min(time.listed_gaps.size(), kShownGaps); ++i)
     gaps.push_back({std::to_string(time.listed_gaps[i].row),
                     time_text(time.listed_gaps[i].start_s, time.period_s),
                     fmt::format("{:.4g} s", time.listed_gaps[i].length_s)});
-  return text + html_part(time.gaps > static_cast<std::int64_t>(kShownGaps) ? "The first gaps" : "Gaps",
-                          html_table({"after row", "at", "length"}, gaps));
+  const bool all = time.gaps <= static_cast<std::int64_t>(kShownGaps);
+  return text + html_table(FactTable{all ? "Gaps" : "The first gaps", {"after row", "at", "length"}, gaps});
 }
 
 std::string step_text(const ChannelCheckup* found) {
@@ -111,7 +128,7 @@ std::string unchanged_text(const ChannelCheckup* found) {
   return fmt::format("{} rows at {}", same.rows, value_text(same.value));
 }
 
-std::string channels(const Inspection& inspection) {
+std::string channels(const Inspection& inspection, const Headings& headings) {
   std::vector<HtmlRow> rows;
   for (const InspectedChannel& channel : inspection.channels) {
     if (rows.size() == kShownChannels) break;
@@ -124,9 +141,9 @@ std::string channels(const Inspection& inspection) {
                     any ? value_text(summary.max) : "-", std::to_string(summary.missing), step_text(found),
                     unchanged_text(found), fmt::format("{:.2g} %", 100.0 * share_at_limits(summary))});
   }
-  return "<h2>Channels</h2>\n" + html_table({"channel", "column", "unit", "least", "largest", "missing",
-                                             "step", "longest unchanged", "at a limit"},
-                                            rows);
+  return headings.of_part("Channels") + html_table({"channel", "column", "unit", "least", "largest",
+                                                    "missing", "step", "longest unchanged", "at a limit"},
+                                                   rows, "Channels");
 }
 
 std::string joints(const Inspection& inspection) {
@@ -137,10 +154,10 @@ std::string joints(const Inspection& inspection) {
                     velocity.is_difference ? "yes" : "no", value_text(torque.correlation),
                     value_text(torque.delay_rows)});
   }
-  return html_part("Velocity against the position's change, torque against acceleration",
-                   html_table({"joint", "velocity, times", "late, rows", "computed from position",
-                               "torque's correlation", "late, rows"},
-                              rows));
+  return html_table(FactTable{"Velocity against the position's change, torque against acceleration",
+                              {"joint", "velocity, times", "velocity late, rows", "computed from position",
+                               "torque's correlation", "torque late, rows"},
+                              rows});
 }
 
 }  // namespace
@@ -150,17 +167,20 @@ std::string inspection_page(const std::vector<Inspection>& inspections) {
                                                        : counted(std::ssize(inspections), "log"),
                                false) +
                      "<body>\n<main>\n";
+  const Headings headings(inspections.size());
+  if (inspections.size() > 1) text += fmt::format("<h1>{}</h1>\n", counted(std::ssize(inspections), "log"));
   for (std::size_t i = 0; i < inspections.size(); ++i) {
     const Inspection& inspection = inspections[i];
     const std::string figures = inspection_figures(inspection, fmt::format("log{}-", i + 1));
-    text += top(inspection) + findings(inspection) + analyses(inspection);
+    text += top(inspection, headings) + findings(inspection, headings) + analyses(inspection, headings);
     if (!figures.empty())
-      text +=
-          "<h2>The channels</h2>\n<p class=\"sub\">Shaded: gaps, and where a channel stood still though its "
-          "joint moved.</p>\n" +
-          figures;
-    text += time_facts(inspection) + channels(inspection) + joints(inspection);
-    text += "<h2>Provenance</h2>\n" + html_table({}, {{"log SHA-256", inspection.log.sha256}});
+      text += headings.of_part("The channels") +
+              "<p class=\"sub\">Shaded: gaps, and where a channel stood still though its "
+              "joint moved.</p>\n" +
+              figures;
+    text += time_facts(inspection, headings) + channels(inspection, headings) + joints(inspection);
+    text += headings.of_part("Provenance") +
+            html_table({}, {{"log SHA-256", inspection.log.sha256}}, "Provenance");
   }
   return text + "</main>\n</body>\n</html>\n";
 }

@@ -11,12 +11,19 @@ namespace faultline {
 
 using HtmlRow = std::vector<std::string>;
 
-/// Empty without rows; without `head`, the first cell of each row is its heading.
-std::string html_table(const HtmlRow& head, const std::vector<HtmlRow>& rows);
+/// How a table of so many columns stands where it has no room (style/tables.css): ` class="few"`, as cards on
+/// a phone; ` class="many"`, on a tablet too; empty for one that always has room.
+const char* html_table_class(std::size_t columns);
+
+/// Empty without rows; without `head`, the first cell of each row is its heading. `caption` is for screen
+/// readers: on the screen a heading says it.
+std::string html_table(const HtmlRow& head, const std::vector<HtmlRow>& rows,
+                       const std::string& caption = "");
+/// With its title as heading and caption.
 std::string html_table(const FactTable& table);
 /// Empty without lines.
 std::string html_list(const std::vector<std::string>& lines);
-/// A heading over `content`; empty without content.
+/// A heading over `content`, none when the title is empty; empty without content.
 std::string html_part(const char* title, const std::string& content);
 
 }  // namespace faultline

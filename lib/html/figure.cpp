@@ -15,6 +15,7 @@
 namespace faultline {
 namespace {
 
+constexpr int kPictureWidth = 420;            // px; its text is legible on a phone and on half a sheet
 constexpr std::size_t kPictureSamples = 480;  // about one a pixel of paper
 constexpr std::size_t kTableRows = 20;
 
@@ -76,6 +77,7 @@ std::string picture(const PageFigure& figure) {
   plot.marks = figure.marks;
   plot.id = figure.id + "-";
   plot.captions = false;
+  plot.width = kPictureWidth;
   plot.panel_height = 130;
   PlotPanel panel{.y_label = "", .series = {}, .log_y = figure.log_y};
   for (const FigureCurve& curve : figure.curves) panel.series.push_back(thinned(curve, figure.log_y));
@@ -88,18 +90,19 @@ std::string picture(const PageFigure& figure) {
 
 std::string legend(const PageFigure& figure) {
   std::string text = "<ul class=\"legend\">";
-  auto item = [&](std::size_t number, const std::string& name) {
+  auto item = [&](std::size_t number, const std::string& name, const char* value) {
     const PlotPen pen = plot_pen(number);
     text += fmt::format(
         "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" x2=\"28\" y1=\"4\" y2=\"4\" "
-        "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{} <b></b></li>",
-        pen.colour, pen.dashes, escaped_markup(name));
+        "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{}{}</li>",
+        pen.colour, pen.dashes, escaped_markup(name), value);
   };
-  for (const FigureCurve& curve : figure.curves) item(static_cast<std::size_t>(curve.pen), curve.name);
+  for (const FigureCurve& curve : figure.curves)
+    item(static_cast<std::size_t>(curve.pen), curve.name, " <b></b>");
   std::size_t next = figure.curves.size();
   for (const FigureLimit& limit : figure.limits)
-    item(next++, fmt::format("{}: {}", limit.name, value_text(limit.value)));
-  return text + "</ul>";
+    item(next++, fmt::format("{}: {}", limit.name, value_text(limit.value)), "");
+  return text + "<li class=\"at\"><b></b></li></ul>";
 }
 
 std::string range_text(const Range& range, bool largest_only) {
@@ -122,7 +125,7 @@ std::string table(const PageFigure& figure, double sample_period_s) {
       row.push_back(range_text(range_of(curve, begin, end), figure.log_y));
     cells.push_back(std::move(row));
   }
-  return html_table(head, cells);
+  return html_table(head, cells, figure.caption);
 }
 
 }  // namespace

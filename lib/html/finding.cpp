@@ -14,17 +14,21 @@
 namespace faultline {
 namespace {
 
+constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
+
 std::string times(const FaultFinding& f, double period_s) {
   return html_table({"onset", "alarm", "end", "confidence", "decided by"},
                     {{time_text(f.onset_s, period_s), time_text(f.alarm_s, period_s),
-                      time_text(f.end_s, period_s), percent_text(f.confidence), decided_words(f)}});
+                      time_text(f.end_s, period_s), percent_text(f.confidence), decided_words(f)}},
+                    fmt::format("Fault {}", f.id));
 }
 
 std::string opinions(const FaultFinding& f) {
   if (!was_asked(f.mlp) && !was_asked(f.rbfn)) return "";
   return html_table({"network", "says", "confidence"},
                     {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
-                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
+                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}},
+                    "What both networks said");
 }
 
 std::string alternatives(const FaultFinding& f) {
@@ -45,8 +49,9 @@ std::string likeness(const Precedent& p) {
   std::vector<HtmlRow> rows = feature_rows("alike", p.alike);
   for (HtmlRow& row : feature_rows("unlike", p.unlike)) rows.push_back(std::move(row));
   if (rows.empty()) return "";
-  return fmt::format("<details><summary>Why case {} is similar</summary>\n{}</details>\n", p.case_id,
-                     html_table({"", "in", "here", "there", "difference"}, rows));
+  return fmt::format(
+      "<details><summary>Why case {} is similar</summary>\n{}</details>\n", p.case_id,
+      html_table({"likeness", "in", "here", "there", "difference"}, rows, fmt::format("Case {}", p.case_id)));
 }
 
 std::string precedents(const FaultFinding& f) {
@@ -60,7 +65,8 @@ std::string precedents(const FaultFinding& f) {
   }
   if (!why.empty())
     why += "<p class=\"sub\">A difference of 1 is what cases of the same fault commonly differ by.</p>\n";
-  return html_table({"case", "similarity", "what it was", "how that is known", "what was done then"}, rows) +
+  return html_table({"case", "similarity", "what it was", "how that is known", "what was done then"}, rows,
+                    precedents_title(f)) +
          why;
 }
 
@@ -79,14 +85,16 @@ std::string column(const std::string& content) {
 std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s) {
   if (figures.empty()) return "";
   std::string text =
-      fmt::format("<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
+      fmt::format("<div>\n<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
   for (const PageFigure& figure : figures) text += html_figure(figure, sample_period_s);
-  return text + "</div>\n";
+  return text + "</div>\n</div>\n";
 }
 
 std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& figures, double period_s) {
   std::string text = fmt::format("<section class=\"finding\" id=\"fault-{0}\">\n<h2>Fault {0}: {1}</h2>\n",
                                  f.id, escaped_markup(plain_words(f.label)));
+  if (const std::string size = size_words(f); !size.empty())
+    text += "<p class=\"size\">Size: " + escaped_markup(size) + ".</p>\n";
   text += times(f, period_s);
   if (!f.next_check.empty())
     text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
@@ -107,17 +115,24 @@ std::string html_fault_link(const FaultFinding& f, double zero_s) {
 std::string html_fault_table(const Diagnosis& d) {
   if (d.faults.empty()) return "";
   const double period = d.log.sample_period_s, zero_s = time_zero(d.log.start_s);
-  std::string text = fmt::format("<div class=\"{}\" id=\"faults\"><table>\n<thead><tr>",
-                                 d.faults.size() > 12 ? "wide tall" : "wide");
-  for (const char* head : {"fault", "what", "onset", "alarm", "end", "confidence"})
-    text += fmt::format("<th scope=\"col\">{}</th>", head);
+  const HtmlRow heads = {"fault", "what", "onset", "alarm", "end", "confidence"};
+  std::string text = fmt::format(
+      "<div class=\"wide{}\" id=\"faults\"><table{}>\n<caption><span class=\"unseen\">All faults</span>"
+      "</caption>\n<thead><tr>",
+      d.faults.size() > kShownFaults ? " tall\" tabindex=\"0\" role=\"region\" aria-label=\"All faults" : "",
+      html_table_class(heads.size()));
+  for (const std::string& head : heads) text += fmt::format("<th scope=\"col\">{}</th>", head);
   text += "</tr></thead>\n<tbody>\n";
   for (const FaultFinding& f : d.faults) {
-    text += fmt::format("<tr><td><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
-    for (const std::string& cell :
-         {plain_words(f.label), time_text(f.onset_s, period), time_text(f.alarm_s, period),
-          time_text(f.end_s, period), percent_text(f.confidence)})
-      text += "<td>" + escaped_markup(cell) + "</td>";
+    text += fmt::format("<tr><td data-label=\"fault\"><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
+    const HtmlRow cells = {"",
+                           plain_words(f.label),
+                           time_text(f.onset_s, period),
+                           time_text(f.alarm_s, period),
+                           time_text(f.end_s, period),
+                           percent_text(f.confidence)};
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      text += fmt::format("<td data-label=\"{}\">{}</td>", heads[i], escaped_markup(cells[i]));
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";

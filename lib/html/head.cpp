@@ -24,10 +24,10 @@ std::string html_head(const std::string& title, bool with_script) {
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>{}</title>\n",
+      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n",
       policy(with_script), escaped_markup(title));
-  text += fmt::format("<style>{}</style>\n", page_style());
   if (with_script) text += fmt::format("<style>{}</style>\n", dygraphs_style());
+  text += fmt::format("<style>{}</style>\n", page_style());  // after it, so that ours stands
   return text + "</head>\n";
 }
 

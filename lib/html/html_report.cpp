@@ -28,7 +28,7 @@ std::string rate_text(const LogFacts& log) {
 
 std::string timeline_key(const Diagnosis& d) {
   std::string text;
-  if (!d.faults.empty()) text = "Pale: onset to alarm; full: alarm to end. Click a fault to see it. ";
+  if (!d.faults.empty()) text = "Low: onset to alarm; high: alarm to end. Choose a fault to see it. ";
   if (const double zero_s = time_zero(d.log.start_s); zero_s != 0.0)
     text += fmt::format("Axes of time count from {:.0f} s.", zero_s);
   return text.empty() ? "" : "<p class=\"key\">" + text + "</p>\n";
@@ -39,7 +39,7 @@ std::string top(const Diagnosis& d) {
   std::string text = fmt::format(
       "<header>\n<h1{}>{}</h1>\n<p class=\"sub\">{} to {}, {} rows{}; model {}, faultline {}</p>\n<p "
       "class=\"verdict {}\">{}</p>\n",
-      name.size() > 300 ? " class=\"long\"" : "", escaped_markup(name),
+      name.size() > 300 ? " class=\"long\" tabindex=\"0\"" : "", escaped_markup(name),
       time_text(d.log.start_s, d.log.sample_period_s), time_text(d.log.end_s, d.log.sample_period_s),
       d.log.rows_read, rate_text(d.log), escaped_markup(printable(d.model.name).substr(0, 200)),
       escaped_markup(d.program_version), to_string(d.verdict), escaped_markup(verdict_sentence(d)));
@@ -55,8 +55,10 @@ std::string residual_table(const Diagnosis& d) {
   for (const JointResidual& r : d.residuals)
     rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
                     time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
-  return html_part("Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
-                   html_table({"joint", "velocity rms", "largest", "at", "position rms"}, rows));
+  return html_table(
+      FactTable{"Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
+                {"joint", "velocity rms", "largest", "at", "position rms"},
+                rows});
 }
 
 std::string log_quality(const Diagnosis& d) {
@@ -66,12 +68,15 @@ std::string log_quality(const Diagnosis& d) {
                     issue.first_row > 0 ? std::to_string(issue.first_row) : "", std::to_string(issue.count),
                     std::to_string(issue.rows_dropped), issue.message});
   const std::string table =
-      html_table({"severity", "code", "channel", "first in row", "times", "rows left out", "what"}, rows);
+      html_table({"severity", "code", "channel", "first in row", "times", "rows left out", "what"}, rows,
+                 "What was noticed");
   return "<h2 id=\"log\">Log quality</h2>\n" +
-         html_table({}, {{"rows read", std::to_string(d.log.rows_read)},
-                         {"rows used", std::to_string(d.log.rows_used)},
-                         {"format", d.log.format},
-                         {"sample period", value_text(d.log.sample_period_s) + " s"}}) +
+         html_table({},
+                    {{"rows read", std::to_string(d.log.rows_read)},
+                     {"rows used", std::to_string(d.log.rows_used)},
+                     {"format", d.log.format},
+                     {"sample period", value_text(d.log.sample_period_s) + " s"}},
+                    "The log") +
          (table.empty() ? "<p>Nothing was wrong with the log.</p>\n" : table) +
          html_part("What this log and model cannot show", html_list(d.cannot_see));
 }
@@ -86,12 +91,14 @@ std::string provenance(const Diagnosis& d, const ReportDetails& details) {
   return "<h2 id=\"provenance\">Provenance</h2>\n<p>Whoever diagnoses the log of this hash with these gets "
          "the "
          "same report.</p>\n" +
-         html_table({}, {{"log", printable(d.log.path)},
-                         {"log SHA-256", d.log.sha256},
-                         {"model", d.model.name},
-                         {"model SHA-256", d.model.sha256},
-                         {"case base SHA-256 (of its content)", d.model.cases_sha256},
-                         {"program", "faultline " + d.program_version}}) +
+         html_table({},
+                    {{"log", printable(d.log.path)},
+                     {"log SHA-256", d.log.sha256},
+                     {"model", d.model.name},
+                     {"model SHA-256", d.model.sha256},
+                     {"case base SHA-256 (of its content)", d.model.cases_sha256},
+                     {"program", "faultline " + d.program_version}},
+                    "Provenance") +
          tables(details.provenance);
 }
 
@@ -141,7 +148,7 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   const FactTable condition = condition_table(d);
   if (!condition.rows.empty())
     text += fmt::format("<h2 id=\"condition\">{}</h2>\n", escaped_markup(condition.title)) +
-            html_table(condition.head, condition.rows);
+            html_table(condition.head, condition.rows, condition.title);
   text += "<h2 id=\"run\">The whole run</h2>\n" + html_plots(whole, 0, period) + residual_table(d);
   text += log_quality(d);
   if (!details.model.empty()) text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model);

@@ -21,7 +21,7 @@
     }
     if (!element.classList.contains('drawn')) return;
     const figure = waiting.get(element);
-    const group = groups.get(figure.fault);
+    const group = groups.get(figure.group);
     try {
       drawn.set(element, new Plot(figure, element, group));
       group.plots.push(drawn.get(element));
@@ -35,25 +35,38 @@
     if (drawn.has(element)) drawn.get(element).visible = false;
   }
 
-  function addTools(group) {
-    const place = document.querySelector('.tools[data-fault="' + group.fault + '"]');
-    if (!place) return;
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.textContent = 'Reset zoom';
-    button.addEventListener('click', () => group.reset());
+  // The plots of a fault, and its evidence, which zooms alone.
+  function groupsOf(fault) {
+    return [groups.get(fault), fault ? groups.get(-fault) : undefined].filter(Boolean);
+  }
+
+  function addTools(place) {
+    const fault = Number(place.dataset.fault);
+    const add = (text, label, action) => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = text;
+      if (label !== text) button.setAttribute('aria-label', label);
+      button.addEventListener('click', () => groupsOf(fault).forEach(action));
+      place.append(button);
+    };
+    add('Reset zoom', 'Reset zoom', (group) => group.reset());
+    add('+', 'Zoom in', (group) => group.scale(0.5));
+    add('\u2212', 'Zoom out', (group) => group.scale(2));
+    add('\u2190', 'Earlier', (group) => group.pan(-0.2));
+    add('\u2192', 'Later', (group) => group.pan(0.2));
     const help = document.createElement('span');
+    help.className = 'help';
     help.textContent = 'Drag to zoom, shift and drag to move, double click to reset; keys: arrows, +, -, Escape.';
-    place.append(button, help);
+    place.append(help);
   }
 
   for (const figure of data.figures) {
-    if (!groups.has(figure.fault)) {
-      groups.set(figure.fault, new Group(figure.fault, data.figures.filter((f) => f.fault === figure.fault)));
-      addTools(groups.get(figure.fault));
-    }
+    if (!groups.has(figure.group))
+      groups.set(figure.group, new Group(data.figures.filter((f) => f.group === figure.group)));
     waiting.set(document.getElementById(figure.id), figure);
   }
+  for (const place of document.querySelectorAll('.tools')) addTools(place);
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       if (entry.isIntersecting) comeIntoSight(entry.target);
@@ -73,7 +86,7 @@
       const onset = Number(link.dataset.onset), run = data.windows[0], around = (run.to - run.from) / 40;
       if (groups.has(0) && window) groups.get(0).zoom(window.from, window.to);
       else if (groups.has(0) && isFinite(onset)) groups.get(0).zoom(onset - around, onset + around);
-      if (groups.has(fault)) groups.get(fault).reset();
+      for (const group of groupsOf(fault)) group.reset();
     });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     for (const group of groups.values()) for (const plot of group.plots) plot.recolour();

@@ -8,14 +8,17 @@
 
 #include "lib/fault/fault_words.hpp"
 #include "lib/robot/axis_units.hpp"
+#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
 
+constexpr double kTraceMargin = 0.12;  // of what is shown of the evidence, on both sides
+
 PageFigure figure_over(const CurveWindow& window, const std::string& id, const std::vector<PlotMark>& marks) {
   PageFigure figure;
   figure.id = (window.fault_id > 0 ? fmt::format("plot-{}-", window.fault_id) : "plot-run-") + id;
-  figure.fault_id = window.fault_id;
+  figure.fault_id = figure.group = window.fault_id;
   figure.marks = marks;
   figure.from_s = window.start_s;
   figure.to_s = window.end_s;
@@ -44,7 +47,7 @@ PageFigure residual_figure(const CurveWindow& window, const RunCurves& curves,
   return figure;
 }
 
-/// Position, velocity and torque of joint j (from 0): measured, and as the healthy robot has it.
+/// Position, velocity and torque of joint j (from 0): as logged, and as the healthy robot has it.
 std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves& curves, std::size_t j,
                                       const std::vector<PlotMark>& marks) {
   const JointCurves& joint = window.joints[j];
@@ -52,20 +55,31 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
   const AxisKind axis = turns ? AxisKind::revolute : AxisKind::prismatic;
   const std::string n = std::to_string(j + 1);
   auto pair = [&](const char* id, const char* what, const char* unit, const Envelope& measured,
-                  const Envelope& healthy, const char* healthy_name) {
+                  const Envelope& healthy, const char* healthy_name, const char* logged_name) {
     PageFigure figure = figure_over(window, id + n, marks);
     figure.caption = fmt::format("Joint {}: {}", n, what);
     figure.y_label = unit;
-    // What was measured lies on top: where the other shows, they differ.
+    // What was logged lies on top: where the other shows, they differ.
     add_curve(figure, window, healthy_name, fmt::format("{}{}h", id, n), healthy.values, 1);
-    add_curve(figure, window, "measured", id + n, measured.values, 0);
+    add_curve(figure, window, logged_name, id + n, measured.values, 0);
     return figure;
   };
   const char* predicted = curves.by_reference ? "reference" : "predicted";
-  return {pair("q", "position", position_unit(axis), joint.q, joint.q_predicted, predicted),
-          pair("dq", "velocity", velocity_unit(axis), joint.dq, joint.dq_predicted, predicted),
+  return {pair("q", "position", position_unit(axis), joint.q, joint.q_predicted, predicted, "measured"),
+          pair("dq", "velocity", velocity_unit(axis), joint.dq, joint.dq_predicted, predicted, "measured"),
           pair("tau", turns ? "torque" : "force", torque_unit(axis), joint.tau, joint.tau_required,
-               "needed by the healthy robot")};
+               "needed by the healthy robot", logged_words(curves.torque))};
+}
+
+/// The evidence grows in a part of the window only: its figure shows that part, and zooms alone.
+void show_trace(PageFigure& figure, const FaultFinding& fault) {
+  if (fault.trace.time.empty()) return;
+  const double first = std::fmin(fault.trace.time.front(), fault.onset_s), last = fault.trace.time.back();
+  const double margin = kTraceMargin * (last - first);
+  if (!(margin > 0.0)) return;
+  figure.from_s = std::max(figure.from_s, first - margin);
+  figure.to_s = std::min(figure.to_s, last + margin);
+  figure.group = -figure.fault_id;
 }
 
 PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window, const RunCurves& curves,
@@ -83,6 +97,7 @@ PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
   for (const EvidenceCurve& curve : fault.trace.curves)
     for (const double ratio : curve.ratio) largest = std::fmax(largest, ratio);
   figure.least_y = -0.15 * largest;
+  show_trace(figure, fault);
   return figure;
 }
 

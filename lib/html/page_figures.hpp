@@ -36,6 +36,7 @@ struct FigureLimit {
 struct PageFigure {
   std::string id;
   int fault_id = 0;  ///< 0: of the whole run
+  int group = 0;     ///< figures of one group share zoom and cursor
   std::string caption;
   std::string y_label;  ///< with its unit
   bool log_y = false;

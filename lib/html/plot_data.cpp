@@ -87,9 +87,16 @@ Json figure_json(const PageFigure& figure) {
     curves.push_back(Json::array({valid_utf8(curve.name), curve.key, curve.pen}));
   for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
   for (const PlotMark& mark : figure.marks) marks.push_back(Json::array({mark.x, mark.text}));
-  return {{"id", figure.id},       {"fault", figure.fault_id}, {"log", figure.log_y},
-          {"from", figure.from_s}, {"to", figure.to_s},        {"least", number_or_null(figure.least_y)},
-          {"curves", curves},      {"limits", limits},         {"marks", marks}};
+  return {{"id", figure.id},
+          {"fault", figure.fault_id},
+          {"group", figure.group},
+          {"log", figure.log_y},
+          {"from", figure.from_s},
+          {"to", figure.to_s},
+          {"least", number_or_null(figure.least_y)},
+          {"curves", curves},
+          {"limits", limits},
+          {"marks", marks}};
 }
 
 /// No "</script>" and no "<!--" can end or open anything.

@@ -6,6 +6,10 @@ const faultlinePlots = (() => {
   const {data, rowsOfFigure, nearestRow} = faultlineSeries;
   const DASHES = [null, [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4], [4, 2, 1, 2]];
 
+  // A finger scrolls the page; buttons zoom.
+  const INTERACTION = Object.assign({}, Dygraph.defaultInteractionModel);
+  for (const touch of ['touchstart', 'touchmove', 'touchend']) delete INTERACTION[touch];
+
   function colour(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   }
@@ -13,7 +17,7 @@ const faultlinePlots = (() => {
   function short(value) {
     if (value === null || !isFinite(value)) return '-';
     const size = Math.abs(value);
-    return size !== 0 && (size >= 1e5 || size < 1e-3) ? value.toExponential(2) : String(+value.toPrecision(4));
+    return size !== 0 && (size >= 1e5 || size < 0.01) ? value.toExponential(2) : String(+value.toPrecision(4));
   }
 
   // With as many decimals as tell neighbouring ticks of an axis apart.
@@ -23,9 +27,14 @@ const faultlinePlots = (() => {
     return value.toFixed(Math.min(Math.max(decimals, 0), 9)).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
   }
 
+  // With as many decimals as tell neighbouring rows apart.
+  function moment(time, rows) {
+    const step = rows.length > 1 ? (rows[rows.length - 1][0] - rows[0][0]) / (rows.length - 1) : 1;
+    return time.toFixed(Math.min(Math.max(Math.ceil(-Math.log10(step)), 0), 6)) + ' s';
+  }
+
   class Group {
-    constructor(fault, figures) {
-      this.fault = fault;
+    constructor(figures) {
       this.home = [Math.min(...figures.map((f) => f.from)), Math.max(...figures.map((f) => f.to))];
       const whole = data.windows[0];
       this.limit = [whole.from, whole.to];
@@ -66,7 +75,8 @@ const faultlinePlots = (() => {
       this.fine = rowsOfFigure(figure, true);
       this.rows = this.rowsFor(group.range);
       this.live = element.querySelector('.live');
-      this.values = element.querySelectorAll('.legend b');
+      this.time = element.querySelector('.legend .at b');
+      this.values = element.querySelectorAll('.legend li:not(.at) b');
       this.span = this.valueRange();
       const names = figure.curves.map((c, i) => i + ' ' + c[0]);
       const series = {};
@@ -76,8 +86,10 @@ const faultlinePlots = (() => {
       this.graph = new Dygraph(this.live, this.rows, Object.assign({
         labels: ['time'].concat(names), series, logscale: figure.log,
         dateWindow: group.range.slice(), valueRange: this.span, connectSeparatedPoints: false,
-        highlightCircleSize: 3, animatedZooms: false, xRangePad: 0, axisLabelFontSize: 12,
-        axes: {x: {axisLabelFormatter: (x) => tick(x, group.range) + ' s', valueFormatter: (x) => String(x)},
+        interactionModel: INTERACTION, highlightCircleSize: 3,
+        animatedZooms: false, xRangePad: 0, axisLabelFontSize: 12,
+        axes: {x: {pixelsPerLabel: 50, axisLabelFormatter: (x) => tick(x, group.range) + ' s',
+                   valueFormatter: (x) => String(x)},
                y: {axisLabelWidth: 62, axisLabelFormatter: (y) => (figure.log ? short(y) : tick(y, this.span))}},
         highlightCallback: (event, x) => group.point(x),
         unhighlightCallback: () => group.unpoint(),
@@ -85,6 +97,7 @@ const faultlinePlots = (() => {
         zoomCallback: (from, to) => group.zoom(from, to),
         drawCallback: (graph) => this.drawn(graph),
       }, this.colours()));
+      for (const child of this.live.children) child.setAttribute('aria-hidden', 'true');
       this.cursor = document.createElement('div');
       this.cursor.className = 'cursor';
       this.live.appendChild(this.cursor);
@@ -121,7 +134,7 @@ const faultlinePlots = (() => {
     colours() {
       return {colors: this.figure.curves.map((c) => colour('--pen' + c[2] % 6)), gridLineColor: colour('--grid'),
               axisLabelColor: colour('--soft'),
-              axisLineColor: colour('--line')};
+              axisLineColor: colour('--axis')};
     }
 
     recolour() { this.graph.updateOptions(this.colours()); }
@@ -185,8 +198,9 @@ const faultlinePlots = (() => {
 
     point(time) {
       const row = nearestRow(this.rows, time);
+      this.time.textContent = moment(time, this.rows);
       this.values.forEach((value, i) => {
-        value.textContent = i < this.figure.curves.length && this.rows[row] ? short(this.rows[row][i + 1]) : '';
+        value.textContent = this.rows[row] ? short(this.rows[row][i + 1]) : '';
       });
       const x = this.graph.toDomXCoord(time);
       this.cursor.style.left = x + 'px';
@@ -195,6 +209,7 @@ const faultlinePlots = (() => {
 
     unpoint() {
       this.cursor.style.display = 'none';
+      this.time.textContent = '';
       this.values.forEach((value) => { value.textContent = ''; });
     }
 

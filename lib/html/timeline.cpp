@@ -17,15 +17,19 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeft = 70.0, kRight = 1090.0;
-constexpr int kLane = 30, kTop = 6;
+// Along the run in per cent, the rest in px.
+constexpr double kWhole = 100.0;
+constexpr double kNumberRoom = 2.4;  // that a number takes on a desk, and on a phone
+constexpr double kNumberRoomNarrow = 9.0;
+constexpr double kEasyTarget = 9.0;  // narrower faults get more to click at
+constexpr double kNearEnd = 92.0;
+constexpr int kLane = 30, kTop = 6, kFoot = 24;
 
 /// Lane 0 is for faults of no joint.
 class Picture {
  public:
   explicit Picture(const Diagnosis& d) : d_(d) {
-    axis_ = {
-        .low = d.log.start_s - zero_s_, .high = d.log.end_s - zero_s_, .from_px = kLeft, .to_px = kRight};
+    axis_ = {.low = d.log.start_s - zero_s_, .high = d.log.end_s - zero_s_, .from_px = 0.0, .to_px = kWhole};
     for (const FaultFinding& f : d.faults) {
       joints_ = std::max(joints_, f.label.joint);
       first_lane_ = f.label.joint > 0 ? first_lane_ : 0;
@@ -33,28 +37,22 @@ class Picture {
   }
 
   std::string text() const {
-    std::string svg = fmt::format(
-        "<svg class=\"timeline\" viewBox=\"0 0 1100 {}\" role=\"group\" aria-label=\"Timeline of the run: "
-        "{}\">\n",
-        foot() + 24, counted(std::ssize(d_.faults), "fault"));
-    for (int lane = first_lane_; lane <= joints_; ++lane) svg += lane_text(lane);
+    std::string html = "<div class=\"timeline\">\n<div class=\"names\">";
+    for (int lane = first_lane_; lane <= joints_; ++lane)
+      html += lane > 0 ? fmt::format("<span>joint {}</span>", lane) : "<span>robot</span>";
+    html += fmt::format("</div>\n<svg height=\"{}\" role=\"group\" aria-label=\"Timeline of the run: {}\">\n",
+                        foot() + kFoot, counted(std::ssize(d_.faults), "fault"));
+    for (int lane = first_lane_; lane <= joints_; ++lane)
+      html += fmt::format("<rect class=\"lane\" y=\"{}\" width=\"100%\" height=\"6\"/>\n", lane_y(lane) + 8);
     for (std::size_t i = 0; i < d_.faults.size(); ++i)
-      if (std::isfinite(d_.faults[i].onset_s)) svg += fault_text(d_.faults[i], room_after(i));
-    return svg + ticks() + "</svg>\n";
+      if (std::isfinite(d_.faults[i].onset_s)) html += fault_text(d_.faults[i], room_after(i));
+    return html + ticks() + "</svg>\n</div>\n";
   }
 
  private:
   int lane_y(int lane) const { return kTop + kLane * (lane - first_lane_); }
   int foot() const { return lane_y(joints_ + 1); }
-  double x_of(double time_s) const { return std::clamp(axis_.px(time_s - zero_s_), kLeft, kRight); }
-
-  std::string lane_text(int lane) const {
-    const std::string name = lane > 0 ? fmt::format("joint {}", lane) : "robot";
-    return fmt::format(
-        "<text x=\"0\" y=\"{}\">{}</text><rect class=\"lane\" x=\"{}\" y=\"{}\" width=\"{}\" "
-        "height=\"6\"/>\n",
-        lane_y(lane) + 16, name, kLeft, lane_y(lane) + 8, kRight - kLeft);
-  }
+  double place(double time_s) const { return std::clamp(axis_.px(time_s - zero_s_), 0.0, kWhole); }
 
   std::string described(const FaultFinding& f) const {
     const double period = d_.log.sample_period_s;
@@ -64,43 +62,57 @@ class Picture {
                                       percent_text(f.confidence)));
   }
 
-  /// Pixels between a fault's onset and the next one on its lane.
+  /// Between a fault's onset and the next one on its lane.
   double room_after(std::size_t i) const {
     for (std::size_t k = i + 1; k < d_.faults.size(); ++k)
       if (d_.faults[k].label.joint == d_.faults[i].label.joint && std::isfinite(d_.faults[k].onset_s))
-        return x_of(d_.faults[k].onset_s) - x_of(d_.faults[i].onset_s);
-    return kRight;
+        return place(d_.faults[k].onset_s) - place(d_.faults[i].onset_s);
+    return kWhole;
   }
 
-  std::string fault_text(const FaultFinding& f, double room_px) const {
+  static std::string bar(const char* name, double from, double to, int y, int height) {
+    return fmt::format("<rect class=\"{}\" x=\"{:.2f}%\" y=\"{}\" width=\"{:.2f}%\" height=\"{}\"/>", name,
+                       from, y, to - from, height);
+  }
+
+  std::string fault_text(const FaultFinding& f, double room) const {
     const int y = lane_y(std::max(f.label.joint, 0));
-    const double onset = x_of(f.onset_s), alarm = std::isfinite(f.alarm_s) ? x_of(f.alarm_s) : onset;
-    const double end = std::max(std::isfinite(f.end_s) ? x_of(f.end_s) : kRight, onset + 4.0);
-    const std::string words = described(f);
-    std::string svg = fmt::format(
-        "<a {0} aria-label=\"{1}\"><title>{1}</title><rect "
-        "class=\"before\" "
-        "x=\"{2:.1f}\" y=\"{3}\" width=\"{4:.1f}\" height=\"22\"/>",
-        html_fault_link(f, zero_s_), words, onset, y, end - onset);
-    svg += fmt::format("<rect class=\"fault\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"22\"/>", alarm,
-                       y, std::max(end - alarm, 2.0));
-    svg += fmt::format("<rect class=\"alarm\" x=\"{:.1f}\" y=\"{}\" width=\"2.5\" height=\"26\"/>",
-                       std::min(alarm, kRight - 2.5), y - 2);
-    if (room_px < 24.0) return svg + "</a>\n";
-    const bool room = onset < kRight - 24.0;
+    const double onset = place(f.onset_s), alarm = std::isfinite(f.alarm_s) ? place(f.alarm_s) : onset;
+    const double end = std::max({std::isfinite(f.end_s) ? place(f.end_s) : kWhole, onset, alarm});
+    std::string svg = fmt::format("<a {0} aria-label=\"{1}\"><title>{1}</title>", html_fault_link(f, zero_s_),
+                                  described(f));
+    svg += bar("hit", onset, end, y - 3, kLane - 2);
+    if (end - onset < kEasyTarget)
+      svg += fmt::format(
+          "<rect class=\"hit\" x=\"{:.2f}%\" y=\"{}\" width=\"28\" height=\"28\" transform=\"translate(-14)\"/>",
+          0.5 * (onset + end), y - 3);
+    svg += bar("before", onset, alarm, y + 5, 12) + bar("fault", alarm, end, y, 22);
+    svg += fmt::format("<rect class=\"alarm\" x=\"{:.2f}%\" y=\"{}\" width=\"2.5\" height=\"26\"/>", alarm,
+                       y - 2);
+    if (room < kNumberRoom) return svg + "</a>\n";
+    const bool after = onset < kNearEnd;
     return svg +
-           fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text></a>\n",
-                       onset + (room ? 6.0 : -4.0), y + 16, room ? "start" : "end", f.id);
+           fmt::format(
+               "<text aria-hidden=\"true\" class=\"number{}\" x=\"{:.2f}%\" dx=\"{}\" y=\"{}\"{}>{}</text></a>\n",
+               room < kNumberRoomNarrow ? " tight" : "", after ? alarm : onset, after ? 6 : -5, y + 16,
+               after ? "" : " text-anchor=\"end\"", f.id);
   }
 
+  /// Every second one is left out on a phone.
   std::string ticks() const {
     std::string svg;
+    bool minor = false;
     for (const PlotTick& tick : ticks_of(axis_, 10)) {
       const double x = axis_.px(tick.value);
       svg += fmt::format(
-          "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text class=\"tick\" x=\"{0:.1f}\" "
-          "y=\"{3}\" text-anchor=\"{4}\">{5} s</text>\n",
-          x, foot() - 4, foot() + 2, foot() + 18, x > kRight - 30.0 ? "end" : "middle", tick.text);
+          "<line x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"{1}\" y2=\"{2}\"/><text class=\"tick{6}\" "
+          "x=\"{0:.2f}%\" y=\"{3}\" text-anchor=\"{4}\">{5} s</text>\n",
+          x, foot() - 4, foot() + 2, foot() + 18,
+          x < 2.0    ? "start"
+          : x > 97.0 ? "end"
+                     : "middle",
+          tick.text, minor ? " minor" : "");
+      minor = !minor;
     }
     return svg;
   }

@@ -82,7 +82,7 @@ std::string render_svg(const LinePlot& plot) {
     svg += render_panel(plot, i, frame, x);
   }
   const double foot = frame.top - step + plot.panel_height;
-  for (const PlotTick& tick : ticks_of(x, 10))
+  for (const PlotTick& tick : ticks_of(x, tick_count(x)))
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x.px(tick.value),
                        foot + 17.0, tick.text);
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",

@@ -58,6 +58,12 @@ std::vector<PlotTick> ticks_of(const PlotAxis& axis, int count) {
   return axis.logarithmic ? log_ticks(axis, count) : linear_ticks(axis, count);
 }
 
+int tick_count(const PlotAxis& axis) {
+  constexpr double kRoom = 66.0;  // px
+  constexpr int kMost = 10;
+  return std::clamp(static_cast<int>(std::abs(axis.to_px - axis.from_px) / kRoom), 2, kMost);
+}
+
 PlotAxis axis_over(const std::vector<const std::vector<double>*>& values, bool logarithmic) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const std::vector<double>* list : values)

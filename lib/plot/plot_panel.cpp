@@ -34,7 +34,7 @@ std::string grid(const PlotFrame& f, const PlotAxis& x, const PlotAxis& y) {
         "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#dddddd\"/><text x=\"{3}\" "
         "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
         f.left, f.right, y.px(tick.value), f.left - 6, y.px(tick.value) + 4, tick.text);
-  for (const PlotTick& tick : ticks_of(x, 10))
+  for (const PlotTick& tick : ticks_of(x, tick_count(x)))
     svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#eeeeee\"/>\n",
                        x.px(tick.value), f.top, f.bottom);
   return svg;

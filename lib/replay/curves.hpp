@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lib/fault/fault_kind.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 
@@ -49,7 +50,8 @@ struct RunCurves {
   std::vector<double> healthy_residual;  ///< largest normalised velocity residual when healthy, a joint each
   std::vector<char> turns;               ///< 1 for a revolute joint
   bool by_reference = false;  ///< what is called predicted is the reference: the log was only tracked
-  double alarm_ratio = 0.0;   ///< log likelihood ratio that raises the alarm
+  TorqueMeaning torque = TorqueMeaning::measured;  ///< what `tau` is
+  double alarm_ratio = 0.0;                        ///< log likelihood ratio that raises the alarm
 
   bool empty() const { return whole.bins == 0; }
 };

@@ -64,6 +64,7 @@ RunCurves without_curves(const Model& model, const LogFacts& log) {
     curves.turns.push_back(model.robot.chain.geometry[j].kind == AxisKind::revolute);
   }
   curves.by_reference = log.is_tracked;
+  curves.torque = model.robot.log.torque;
   curves.alarm_ratio = model.evidence.threshold;
   return curves;
 }

@@ -49,6 +49,12 @@ std::string evidence_line(const EvidenceItem& e) {
   return (e.text.empty() ? e.name : e.text) + ": " + value;
 }
 
+std::string size_words(const FaultFinding& fault) {
+  const auto size = std::find_if(fault.evidence.begin(), fault.evidence.end(),
+                                 [](const EvidenceItem& item) { return item.name == "size"; });
+  return size == fault.evidence.end() ? "" : size->text;
+}
+
 std::string issue_line(const Issue& issue) {
   std::string where = issue.channel.empty() ? "" : " in " + shortened(issue.channel, kLongestName);
   if (issue.first_row > 0) where += fmt::format(", first in row {}", issue.first_row);

@@ -17,6 +17,9 @@ inline bool was_asked(const Opinion& opinion) { return opinion.confidence > 0.0;
 /// "MLP residual of joint 2: 41.5 times healthy".
 std::string evidence_line(const EvidenceItem& item);
 
+/// How large the fault is, such as "about 50 % of the torque is lost"; empty when that was not estimated.
+std::string size_words(const FaultFinding& fault);
+
 /// "warning (time_backward, 2 times in t, first in row 17, 2 rows left out): ...".
 std::string issue_line(const Issue& issue);
 

@@ -169,8 +169,10 @@ std::string verdict_sentence(const Diagnosis& d) {
   if (d.verdict == Verdict::not_run || d.faults.empty()) return "The log was not diagnosed.";
   const FaultFinding& first = d.faults.front();
   const std::string since = time_text(first.onset_s, d.log.sample_period_s);
-  if (d.faults.size() == 1) return fmt::format("1 fault: {}, from {}.", plain_words(first.label), since);
-  return fmt::format("{} faults; the first: {}, from {}.", d.faults.size(), plain_words(first.label), since);
+  const std::string size = size_words(first).empty() ? "" : "; " + size_words(first);
+  const std::string what = fmt::format("{}, from {}{}.", plain_words(first.label), since, size);
+  if (d.faults.size() == 1) return "1 fault: " + what;
+  return fmt::format("{} faults; the first: {}", d.faults.size(), what);
 }
 
 std::string render_text(const Diagnosis& d, const TimelineOptions& options) {

@@ -29,6 +29,10 @@ const char* to_string(TorqueMeaning meaning) {
   return "";
 }
 
+const char* logged_words(TorqueMeaning meaning) {
+  return meaning == TorqueMeaning::current ? "from motor current" : to_string(meaning);
+}
+
 const char* to_string(TorqueTiming timing) {
   switch (timing) {
     case TorqueTiming::held:

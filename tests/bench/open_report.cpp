@@ -2,9 +2,11 @@
 // Opens an HTML report in Chromium and tells how long that takes; tests/bench/html_report.sh runs it.
 // Usage: faultline_open_report REPORT.html [--dark] [--size WxH] [--scroll SELECTOR] [--screenshot F] [--pdf
 // F]
+//        faultline_open_report REPORT.html --axe AXE.MIN.JS    (tests/bench/accessibility.sh runs it)
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "tests/support/chromium.hpp"
 
@@ -30,9 +32,44 @@ double zoomed_ms(BrowserPage& page) {
       "t) / 10; })()");
 }
 
+std::string contents(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// The rules of WCAG 2, levels A and AA, that axe-core checks; what breaks one is printed.
+const char* kRunAxe =
+    "(async () => { for (const f of document.querySelectorAll('figure')) { f.scrollIntoView(); await new "
+    "Promise(r => requestAnimationFrame(() => setTimeout(r, 10))); } scrollTo(0, 0); const r = await "
+    "axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']}); return {passes: "
+    "r.passes.length, broken: r.violations.map(v => v.id + ': ' + v.help + ' (' + v.nodes.length + ', first ' "
+    "+ v.nodes[0].html.slice(0, 160) + ')')}; })()";
+
+int check_with_axe(const std::string& report, const std::string& axe) {
+  BrowserPage page;
+  const std::string script = contents(axe);
+  int broken = 0, passed = 0;
+  for (const int width : {320, 390, 768, 1280, 2560})
+    for (const bool dark : {false, true}) {
+      page.resize(width, 900);
+      page.prefer_dark(dark);
+      page.open(report);
+      page.evaluate(script);
+      const nlohmann::json result = page.evaluate(kRunAxe);
+      passed += result.at("passes").get<int>();
+      for (const nlohmann::json& rule : result.at("broken")) {
+        ++broken;
+        std::printf("%d px, %s: %s\n", width, dark ? "dark" : "light", rule.get<std::string>().c_str());
+      }
+    }
+  std::printf("%s: %d violations, %d rules passed\n", report.c_str(), broken, passed);
+  return broken == 0 && passed > 0 ? 0 : 1;
+}
+
 int run(const std::vector<std::string>& words) {
   BrowserOptions options;
-  std::string report, screenshot, pdf, scroll;
+  std::string report, screenshot, pdf, scroll, axe;
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i] == "--dark")
       options.dark = true;
@@ -42,11 +79,14 @@ int run(const std::vector<std::string>& words) {
       scroll = words[++i];
     else if (words[i] == "--screenshot")
       screenshot = words[++i];
+    else if (words[i] == "--axe")
+      axe = words[++i];
     else if (words[i] == "--pdf")
       pdf = words[++i];
     else
       report = std::filesystem::absolute(words[i]).string();
   }
+  if (!axe.empty()) return check_with_axe(report, axe);
   BrowserPage page(options);
   page.open(report);
   std::printf("opened %.0f ms", opened_ms(page));

@@ -1,56 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The HTML report in a real browser, driven as a reader would.
-#include "lib/html/html_report.hpp"
-
 #include <gtest/gtest.h>
 
-#include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
-#include "tests/report/example_details.hpp"
-#include "tests/support/chromium.hpp"
+#include "tests/browser/open_report.hpp"
 
 namespace faultline {
 namespace {
 
-#define SKIP_WITHOUT_CHROMIUM() \
-  if (chromium_program().empty()) GTEST_SKIP() << "no Chromium: bash apps/install.sh --tests installs it"
-
 const char* kRunPlot = "plot-run-q2";
 const char* kOtherRunPlot = "plot-run-tau1";
-
-/// A report in a file of its own, open in a browser.
-struct OpenReport {
-  explicit OpenReport(const Diagnosis& d, const BrowserOptions& options = {}) : page(options) {
-    page.open(folder.write("report.html", render_html(d, example_details(d))));
-  }
-
-  /// Scrolls an element into the middle of the window and gives the middle of it.
-  std::pair<double, double> middle_of(const std::string& selector) {
-    const nlohmann::json at = page.evaluate(
-        "(async () => { const e = document.querySelector('" + selector +
-        "'); e.scrollIntoView({block: 'center', behavior: 'instant'});"
-        "await new Promise(r => requestAnimationFrame(() => setTimeout(r, 50)));"
-        "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
-    return {at.at(0), at.at(1)};
-  }
-
-  /// The stretch of time that a plot shows, s.
-  std::pair<double, double> range_of(const std::string& id) {
-    middle_of("#" + id);
-    const nlohmann::json range =
-        page.evaluate("document.querySelector('#" + id + " .live').dataset.range.split(' ').map(Number)");
-    return {range.at(0), range.at(1)};
-  }
-
-  void scroll_through() {
-    page.evaluate(
-        "(async () => { for (const f of document.querySelectorAll('figure')) { f.scrollIntoView();"
-        "await new Promise(r => requestAnimationFrame(() => setTimeout(r, 20))); } })()");
-  }
-
-  TemporaryFolder folder;
-  BrowserPage page;
-};
 
 TEST(HtmlInChromium, DrawsEveryPlotWithoutErrorOrRequest) {
   SKIP_WITHOUT_CHROMIUM();

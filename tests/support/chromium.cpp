@@ -63,12 +63,19 @@ BrowserPage::BrowserPage(const BrowserOptions& options) {
                  .at("sessionId")
                  .get<std::string>();
   for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable", "Network.enable"}) call(domain);
-  call("Emulation.setDeviceMetricsOverride",
-       {{"width", options.width}, {"height", options.height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+  resize(options.width, options.height);
   call("Emulation.setScriptExecutionDisabled", {{"value", !options.script}});
-  call("Emulation.setEmulatedMedia",
-       {{"features",
-         Json::array({{{"name", "prefers-color-scheme"}, {"value", options.dark ? "dark" : "light"}}})}});
+  prefer_dark(options.dark);
+}
+
+void BrowserPage::resize(int width, int height) {
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
+void BrowserPage::prefer_dark(bool dark) {
+  const Json scheme = {{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}};
+  call("Emulation.setEmulatedMedia", {{"features", Json::array({scheme})}});
 }
 
 void BrowserPage::start(const BrowserOptions& options) {

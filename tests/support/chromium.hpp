@@ -27,6 +27,8 @@ class BrowserPage {
   BrowserPage(const BrowserPage&) = delete;
   BrowserPage& operator=(const BrowserPage&) = delete;
 
+  void resize(int width, int height);
+  void prefer_dark(bool dark);
   /// Loads a file and waits until it is there.
   void open(const std::string& path);
   /// Value of an expression in the page; a promise is waited for.

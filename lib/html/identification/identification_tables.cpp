@@ -24,7 +24,7 @@ double nth(const std::vector<double>& values, std::size_t i) {
 
 std::string chance_text(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p); }
 
-std::string parameter_table(const std::vector<ParameterEstimate>& list) {
+std::string parameter_table(const char* title, const std::vector<ParameterEstimate>& list) {
   std::vector<HtmlRow> rows;
   for (const ParameterEstimate& e : list) {
     if (!e.identifiable) {
@@ -35,7 +35,7 @@ std::string parameter_table(const std::vector<ParameterEstimate>& list) {
         e.std > 0.0 ? fmt::format("{} to {}", fact_text(e.ci95[0]), fact_text(e.ci95[1])) : "given";
     rows.push_back({e.name, fact_text(e.value), interval, e.unit, e.meaning == e.name ? "" : e.meaning});
   }
-  return html_table({"parameter", "value", "95 % interval", "unit", "meaning"}, rows);
+  return html_table(FactTable{title, {"parameter", "value", "95 % interval", "unit", "meaning"}, rows});
 }
 
 std::string term_table(const Identification& id) {
@@ -43,8 +43,9 @@ std::string term_table(const Identification& id) {
   for (const ModelTerm& t : id.terms)
     rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
                     std::string("it ") + worth_words(t)});
-  return html_part("What the model was offered, and what it leaves of torque that was not fitted",
-                   html_table({"term", "joint", "without it", "with it", ""}, rows));
+  return html_table(FactTable{"What the model was offered, and what it leaves of torque that was not fitted",
+                              {"term", "joint", "without it", "with it", "outcome"},
+                              rows});
 }
 
 std::string pattern_table(const Identification& id) {
@@ -54,15 +55,16 @@ std::string pattern_table(const Identification& id) {
     rows.push_back({std::to_string(j + 1), share_text(p.position), share_text(p.speed), share_text(p.torque),
                     share_text(p.previous)});
   }
-  return html_part("What the torque left over repeats with, in shares of its variance",
-                   html_table({"joint", "position", "speed", "torque", "its value a window before"}, rows));
+  return html_table(FactTable{"What the torque left over repeats with, in shares of its variance",
+                              {"joint", "position", "speed", "torque", "its value a window before"},
+                              rows});
 }
 
 }  // namespace
 
 std::string parameter_tables(const Identification& id) {
-  return html_part("Base parameters and friction", parameter_table(id.base_parameters)) +
-         html_part("Masses and lengths", parameter_table(id.physical_parameters));
+  return parameter_table("Base parameters and friction", id.base_parameters) +
+         parameter_table("Masses and lengths", id.physical_parameters);
 }
 
 std::string fit_tables(const Identification& id) {
@@ -78,7 +80,7 @@ std::string fit_tables(const Identification& id) {
   }
   return html_table({"joint", "R2", "R2 held out", "left over, rms", "torque is late by", "noise of q",
                      "noise of dq"},
-                    rows) +
+                    rows, "Fit of each joint") +
          term_table(id) + pattern_table(id);
 }
 
@@ -98,11 +100,12 @@ std::string excitation_tables(const Identification& id) {
         {p.name, std::isfinite(p.own) ? fmt::format("{:.2g}", p.own) : "not shown", p.mixed_with});
   const std::string mixture = mixture_text(id.excitation);
   return html_list(excitation_lines(id)) +
-         html_table({"joint", "position", "fastest forward", "fastest back", "time forward", "lacks"},
-                    joints) +
-         html_part(
+         html_table({"joint", "position", "fastest forward", "fastest back", "time forward", "lacks"}, joints,
+                    "What the motion tells") +
+         html_table(FactTable{
              "How much of what each parameter does to the torque no mixture of the others makes up (1: all)",
-             html_table({"parameter", "its own", "hardest to tell from"}, parameters)) +
+             {"parameter", "its own", "hardest to tell from"},
+             parameters}) +
          (mixture.empty() ? "" : html_part("The mixture that is told least", html_list({mixture})));
 }
 
@@ -110,7 +113,7 @@ std::string trend_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   HtmlRow head = {"parameter"};
   for (std::size_t i = 0; i < id.logs.size(); ++i) head.push_back(fmt::format("log {}", i + 1));
-  for (const char* name : {"unit", "chance if the same", "a log", "chance if level", ""})
+  for (const char* name : {"unit", "chance if the same", "a log", "chance if level", "remark"})
     head.emplace_back(name);
   for (const ParameterTrend& t : id.trends) {
     HtmlRow row(id.logs.size() + 1, "-");
@@ -125,7 +128,7 @@ std::string trend_table(const Identification& id) {
                             : ""});
     rows.push_back(std::move(row));
   }
-  return html_table(head, rows);
+  return html_table(head, rows, "From log to log");
 }
 
 std::string log_tables(const Identification& id) {
@@ -140,8 +143,9 @@ std::string log_tables(const Identification& id) {
   }
   for (const Issue& issue : id.issues.all())
     issues.push_back({to_string(issue.severity), issue.code, std::to_string(issue.count), issue.message});
-  return html_table({"log", "path", "rows", "used", "period", "R2 by joint", "", "SHA-256"}, rows) +
-         html_part("What was noticed", html_table({"severity", "code", "times", "what"}, issues));
+  return html_table({"log", "path", "rows", "used", "period", "R2 by joint", "remark", "SHA-256"}, rows,
+                    "Logs") +
+         html_table(FactTable{"What was noticed", {"severity", "code", "times", "what"}, issues});
 }
 
 }  // namespace faultline

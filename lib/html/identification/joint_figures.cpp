@@ -10,6 +10,7 @@
 #include "lib/html/identification/torque_figures.hpp"
 #include "lib/robot/axis_units.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
@@ -95,7 +96,8 @@ NamedPlot friction_figure(const Identification& id, int joint) {
                               fmt::format("speed, {}", velocity_unit(kind)));
   plot.panels = {
       {.y_label = fmt::format("friction, {}", torque_unit(kind)),
-       .series = {dots("measured less inertia and gravity", cloud), friction_curve(id, joint, cloud)}}};
+       .series = {dots(std::string(logged_words(id.robot.log.torque)) + " less inertia and gravity", cloud),
+                  friction_curve(id, joint, cloud)}}};
   return {fmt::format("friction-{}", joint + 1), plot};
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/core/text.hpp"
 #include "lib/robot/axis_units.hpp"
+#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr std::size_t kSamples = 480;  // of a curve, about one a pixel
 constexpr double kClose_s = 5.0;       // of the figure that looks closely
 constexpr double kGap = 4.0;           // windows without one break the curve
-constexpr int kWidth = 480, kHeight = 170;
+constexpr int kWidth = 420, kHeight = 150;
 
 /// Windows of one log.
 struct Span {
@@ -84,10 +85,11 @@ PlotSeries curve(const std::string& name, const JointFit& fit, const Span& span,
   return out;
 }
 
-LinePlot over_time(const JointFit& fit, const Span& span, const std::string& title, const char* unit) {
+LinePlot over_time(const JointFit& fit, const Span& span, const std::string& title, const char* unit,
+                   const char* logged) {
   LinePlot plot = figure_plot(title, "time, s");
   plot.panels = {{.y_label = unit,
-                  .series = {curve("measured", fit, span, [&](std::size_t k) { return fit.measured[k]; }),
+                  .series = {curve(logged, fit, span, [&](std::size_t k) { return fit.measured[k]; }),
                              curve("modelled", fit, span, [&](std::size_t k) { return fit.modelled[k]; })}},
                  {.y_label = fmt::format("left over, {}", unit),
                   .series = {curve("left over", fit, span, [&](std::size_t k) { return fit.residual(k); })}}};
@@ -111,18 +113,19 @@ std::vector<NamedPlot> torque_figures(const Identification& id, int joint) {
   if (fit.size() == 0) return {};
   const AxisKind kind = id.space.chain.geometry[joint].kind;
   const char* what = kind == AxisKind::revolute ? "torque" : "force";
+  const char* logged = logged_words(id.robot.log.torque);
   const int log = worst_log(id, fit, joint);
   const Span all = windows_of(fit, log), close = worst_seconds(fit, all);
   const std::string of_log = id.logs.size() > 1 ? fmt::format(", log {}", log + 1) : "";
   std::vector<NamedPlot> plots = {
       {fmt::format("torque-{}", joint + 1),
-       over_time(fit, all, fmt::format("Joint {}: {} measured and modelled{}", joint + 1, what, of_log),
-                 torque_unit(kind))}};
+       over_time(fit, all, fmt::format("Joint {}: {} {} and modelled{}", joint + 1, what, logged, of_log),
+                 torque_unit(kind), logged)}};
   if (close.end - close.begin < all.end - all.begin)
     plots.push_back(
         {fmt::format("torque-close-{}", joint + 1),
          over_time(fit, close, fmt::format("Joint {}: where most {} is left{}", joint + 1, what, of_log),
-                   torque_unit(kind))});
+                   torque_unit(kind), logged)});
   return plots;
 }
 
