@@ -81,9 +81,11 @@ std::string log_quality(const Diagnosis& d) {
          html_part("What this log and model cannot show", html_list(d.cannot_see));
 }
 
-std::string tables(const std::vector<FactTable>& list) {
+/// Those without a title have that of their section.
+std::string tables(const std::vector<FactTable>& list, const char* section) {
   std::string text;
-  for (const FactTable& table : list) text += html_table(table);
+  for (const FactTable& table : list)
+    text += table.title.empty() ? html_table(table.head, table.rows, section) : html_table(table);
   return text;
 }
 
@@ -99,7 +101,7 @@ std::string provenance(const Diagnosis& d, const ReportDetails& details) {
                      {"case base SHA-256 (of its content)", d.model.cases_sha256},
                      {"program", "faultline " + d.program_version}},
                     "Provenance") +
-         tables(details.provenance);
+         tables(details.provenance, "Provenance");
 }
 
 std::string scripts(const std::string& plot_data) {
@@ -151,7 +153,8 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
             html_table(condition.head, condition.rows, condition.title);
   text += "<h2 id=\"run\">The whole run</h2>\n" + html_plots(whole, 0, period) + residual_table(d);
   text += log_quality(d);
-  if (!details.model.empty()) text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model);
+  if (!details.model.empty())
+    text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model, "The model");
   text += provenance(d, details) + "</main>\n";
   if (!whole.empty()) text += scripts(html_plot_data(faults, curves, all));
   return text + "</body>\n</html>\n";

@@ -79,8 +79,7 @@ class Picture {
     const int y = lane_y(std::max(f.label.joint, 0));
     const double onset = place(f.onset_s), alarm = std::isfinite(f.alarm_s) ? place(f.alarm_s) : onset;
     const double end = std::max({std::isfinite(f.end_s) ? place(f.end_s) : kWhole, onset, alarm});
-    std::string svg = fmt::format("<a {0} aria-label=\"{1}\"><title>{1}</title>", html_fault_link(f, zero_s_),
-                                  described(f));
+    std::string svg = fmt::format("<a {0} aria-label=\"{1}\">", html_fault_link(f, zero_s_), described(f));
     svg += bar("hit", onset, end, y - 3, kLane - 2);
     if (end - onset < kEasyTarget)
       svg += fmt::format(
@@ -91,11 +90,9 @@ class Picture {
                        y - 2);
     if (room < kNumberRoom) return svg + "</a>\n";
     const bool after = onset < kNearEnd;
-    return svg +
-           fmt::format(
-               "<text aria-hidden=\"true\" class=\"number{}\" x=\"{:.2f}%\" dx=\"{}\" y=\"{}\"{}>{}</text></a>\n",
-               room < kNumberRoomNarrow ? " tight" : "", after ? alarm : onset, after ? 6 : -5, y + 16,
-               after ? "" : " text-anchor=\"end\"", f.id);
+    return svg + fmt::format("<text class=\"number{}\" x=\"{:.2f}%\" dx=\"{}\" y=\"{}\"{}>{}</text></a>\n",
+                             room < kNumberRoomNarrow ? " tight" : "", after ? alarm : onset, after ? 6 : -5,
+                             y + 16, after ? "" : " text-anchor=\"end\"", f.id);
   }
 
   /// Every second one is left out on a phone.

