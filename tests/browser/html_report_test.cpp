@@ -141,6 +141,11 @@ TEST(HtmlInChromium, PrintsAllPlotsOnA4) {
   const std::string pdf = report.page.print();
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
   EXPECT_GE(count(pdf, "/Type /Page\n"), 3u);
+  EXPECT_LE(count(pdf, "/Type /Page\n"), 5u) << "two plots stand side by side";
+  EXPECT_EQ(report.page.evaluate("[...document.styleSheets].flatMap(s => [...s.cssRules]).some(r => r "
+                                 "instanceof CSSPageRule && r.cssText.includes('counter(page)'))"),
+            true)
+      << "pages are numbered";
   EXPECT_EQ(count(pdf, "/MediaBox [0 0 594.95996 841.91998]"), count(pdf, "/Type /Page\n"));
   report.page.emulate_print();
   EXPECT_EQ(report.page.evaluate("[...document.querySelectorAll('figure .still')].filter(s => "
