@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "apps/commands.hpp"
@@ -13,6 +14,7 @@
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
 #include "formats/log_formats.hpp"
+#include "lib/batch/choose_models.hpp"
 #include "lib/batch/merge_batches.hpp"
 #include "lib/batch/run_batch.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -21,8 +23,9 @@
 namespace faultline {
 namespace {
 
-struct BatchArguments : ModelPaths {
-  std::vector<std::string> paths;
+struct BatchArguments {
+  std::vector<std::string> paths, models;  ///< of --model: MODEL or DIR=MODEL
+  std::string cases;
   std::string folder, json, shard;
   BatchOptions options;
 };
@@ -65,6 +68,36 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
   return summary.status;
 }
 
+/// Models, and the folders whose logs they are for.
+struct BatchModels {
+  std::vector<ModelPaths> files;
+  std::vector<std::string> folders;  ///< of each; empty: for all other logs
+};
+
+BatchModels models_of(const BatchArguments& arguments) {
+  BatchModels models;
+  for (const std::string& given : arguments.models) {
+    const std::size_t split = given.find('=');
+    const bool plain = split == std::string::npos || std::filesystem::exists(given);
+    const std::string path = plain ? given : given.substr(split + 1);
+    if (path.empty() || (!plain && split == 0))
+      throw Error(ErrorCode::usage, "--model " + given, "names no folder or no model; give DIR=MODEL");
+    models.files.push_back({path, arguments.cases});
+    models.folders.push_back(plain ? "" : given.substr(0, split));
+  }
+  if (!arguments.cases.empty() && models.files.size() > 1)
+    throw Error(ErrorCode::usage, "--cases " + arguments.cases,
+                "is for a batch of one model; of several, each has its case base beside it");
+  return models;
+}
+
+std::vector<ModelFiles> load(const BatchModels& models) {
+  std::vector<ModelFiles> loaded;
+  for (const ModelPaths& paths : models.files)
+    loaded.push_back(load_model_files(paths.model, paths.case_base()));
+  return loaded;
+}
+
 /// Of a folder of results that a batch writes.
 void writes_batch(FileUse& files, const std::string& folder) {
   for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
@@ -72,10 +105,11 @@ void writes_batch(FileUse& files, const std::string& folder) {
   files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
 }
 
-void claim_files(const BatchArguments& arguments, const std::vector<BatchLog>& logs) {
+void claim_files(const BatchArguments& arguments, const BatchModels& models,
+                 const std::vector<BatchLog>& logs) {
   FileUse files;
   for (const BatchLog& log : logs) files.reads("the log", log.path);
-  files.reads(arguments);
+  for (const ModelPaths& model : models.files) files.reads(model);
   writes_batch(files, arguments.folder);
   files.writes("--json", arguments.json).claim();
 }
@@ -91,18 +125,22 @@ int merge_shards(const std::vector<std::string>& folders, const std::string& int
 int run_command(BatchArguments arguments, ColorChoice color) {
   BatchOptions& options = arguments.options;
   take_shard(arguments.shard, options);
-  const std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
+  std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
   if (logs.empty())
     throw Error(ErrorCode::input, arguments.paths.front(),
                 "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
-  claim_files(arguments, logs);
-  const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
-  const OpenLog open = [&](const std::string& path) { return open_robot_log(path, model.robot); };
+  const BatchModels models = models_of(arguments);
+  choose_models(logs, models.folders);
+  claim_files(arguments, models, logs);
+  const std::vector<ModelFiles> loaded = load(models);
+  const OpenLog open = [](const std::string& path, const Robot& robot) {
+    return open_robot_log(path, robot);
+  };
   BatchResult result;
   {
     ProgressBar bar(color);
     options.progress = progress_to(bar);
-    result = run_batch(logs, open, model, cases, arguments.folder, options);
+    result = run_batch(logs, open, loaded, arguments.folder, options);
   }
   const int done = result.summary.all.logs - result.diagnosed;
   if (done > 0) tell(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
@@ -122,10 +160,16 @@ void add_merge(CLI::App& batch, Program& program) {
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
-  add_model_option(command, arguments);
+  command
+      .add_option(
+          "--model", arguments.models,
+          "Model made by faultline learn; DIR=MODEL for the logs below folder DIR (may be given often)")
+      ->type_name("[DIR=]MODEL")
+      ->allow_extra_args(false);
   command.add_option("-o,--output", arguments.folder, "Folder for the results; an earlier run there goes on")
       ->type_name("DIR");
-  add_cases_option(command, arguments);
+  command.add_option("--cases", arguments.cases, "Case base of the only model, MODEL.cases.db by default")
+      ->type_name("FILE");
   command.add_flag("--html", arguments.options.html, "A page for each log, too");
   command.add_flag("--identify", arguments.options.identify,
                    "Identify the robot from each healthy log alone, and show the trend of its parameters");
@@ -140,7 +184,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
 
 void refuse_incomplete(const BatchArguments& arguments) {
   if (arguments.paths.empty()) throw CLI::RequiredError("PATH (a log or a folder)");
-  if (arguments.model.empty()) throw CLI::RequiredError("--model");
+  if (arguments.models.empty()) throw CLI::RequiredError("--model");
   if (arguments.folder.empty()) throw CLI::RequiredError("-o,--output");
 }
 

@@ -12,26 +12,48 @@ namespace faultline {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+constexpr const char* kSchema = "faultline/batch/2";
+
+Json model_json(const ModelFacts& model) {
+  Json json{{"name", valid_utf8(model.name)}, {"sha256", model.sha256}, {"cases_sha256", model.cases_sha256}};
+  if (!model.notes.empty()) json["notes"] = model.notes;
+  return json;
+}
+
+ModelFacts model_from(const Json& json) {
+  ModelFacts model{json.at("name"), json.at("sha256"), json.at("cases_sha256")};
+  if (json.contains("notes")) model.notes = json["notes"];
+  return model;
+}
+
+}  // namespace
+
 bool BatchFacts::operator==(const BatchFacts& other) const {
   return settings_of(*this) == settings_of(other) && logs == other.logs && shard == other.shard &&
          shards == other.shards;
 }
 
 std::string settings_of(const BatchFacts& facts) {
-  std::string text = "faultline/batch/1\n";
+  std::string text;
+  for (const ModelFacts& model : facts.models) text += settings_of(facts, model) + "\n";
+  return sha256_hex(text);
+}
+
+std::string settings_of(const BatchFacts& facts, const ModelFacts& model) {
+  std::string text = std::string(kSchema) + "\n";
   for (const std::string& part :
-       {facts.program_version, facts.model.name, facts.model.sha256, facts.model.cases_sha256, facts.options})
+       {facts.program_version, model.name, model.sha256, model.cases_sha256, facts.options})
     text += std::to_string(part.size()) + " " + part + "\n";
   return sha256_hex(text);
 }
 
 std::string facts_to_json(const BatchFacts& facts) {
-  Json model{{"name", valid_utf8(facts.model.name)},
-             {"sha256", facts.model.sha256},
-             {"cases_sha256", facts.model.cases_sha256}};
-  if (!facts.model.notes.empty()) model["notes"] = facts.model.notes;
-  return Json{{"schema", "faultline/batch/1"},
-              {"model", model},
+  Json models = Json::array();
+  for (const ModelFacts& model : facts.models) models.push_back(model_json(model));
+  return Json{{"schema", kSchema},
+              {"models", models},
               {"program", {{"version", facts.program_version}}},
               {"options", facts.options},
               {"logs", facts.logs},
@@ -46,9 +68,7 @@ BatchFacts read_facts(const std::string& path) {
   try {
     const Json json = Json::parse(text);
     BatchFacts facts;
-    facts.model = {json.at("model").at("name"), json.at("model").at("sha256"),
-                   json.at("model").at("cases_sha256")};
-    if (json["model"].contains("notes")) facts.model.notes = json["model"]["notes"];
+    for (const Json& model : json.at("models")) facts.models.push_back(model_from(model));
     facts.program_version = json.at("program").at("version");
     facts.options = json.at("options");
     facts.logs = json.at("logs");

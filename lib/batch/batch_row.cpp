@@ -30,6 +30,8 @@ BatchRow row_of(const Diagnosis& d) {
   BatchRow row;
   row.log = valid_utf8(d.log.path);
   row.sha256 = d.log.sha256;
+  row.model = valid_utf8(d.model.name);
+  row.model_sha256 = d.model.sha256;
   row.verdict = to_string(d.verdict);
   row.reason = valid_utf8(d.verdict_reason);
   row.format = d.log.format;
@@ -52,9 +54,12 @@ BatchRow row_of(const Diagnosis& d) {
   return row;
 }
 
-BatchRow unusable_row(const std::string& name, const std::string& path, const Error& error) {
+BatchRow unusable_row(const std::string& name, const std::string& path, const Error& error,
+                      const ModelFacts& model) {
   BatchRow row;
   row.log = valid_utf8(name);
+  row.model = valid_utf8(model.name);
+  row.model_sha256 = model.sha256;
   row.verdict = error.code() == ErrorCode::internal ? "failed" : "unusable";
   const std::string place = place_inside(error.where(), path);
   row.reason = brief(place.empty() ? error.message() : place + ": " + error.message());

@@ -14,8 +14,10 @@ namespace faultline {
 
 /// One log in an index: what a list of runs shows of its diagnosis, or why there is none.
 struct BatchRow {
-  std::string log;      ///< BatchLog::name, as valid UTF-8
-  std::string sha256;   ///< empty when the log could not be read
+  std::string log;           ///< BatchLog::name, as valid UTF-8
+  std::string sha256;        ///< empty when the log could not be read
+  std::string model;         ///< its name
+  std::string model_sha256;  ///< tells models of one name apart
   std::string result;   ///< "logs/<result>.json", without folder and extension; empty without a diagnosis
   std::string verdict;  ///< as in the diagnosis, "unusable", or "failed" for a defect of the program
   std::string reason;
@@ -35,7 +37,8 @@ struct BatchRow {
 
 BatchRow row_of(const Diagnosis& diagnosis);
 /// Of a log that could not be diagnosed. `path` is where it was read: it is not in the row.
-BatchRow unusable_row(const std::string& name, const std::string& path, const Error& error);
+BatchRow unusable_row(const std::string& name, const std::string& path, const Error& error,
+                      const ModelFacts& model = {});
 /// The largest residual of all joints; NaN without any.
 double residual_level(const BatchRow& row);
 /// The folder part of the log's name; empty without one.

@@ -49,6 +49,8 @@ std::string to_json_line(const BatchRow& row) {
   const Json json = {
       {"log", row.log},
       {"sha256", text_or_null(row.sha256)},
+      {"model", row.model},
+      {"model_sha256", text_or_null(row.model_sha256)},
       {"report", report_json(row)},
       {"verdict", row.verdict},
       {"reason", text_or_null(row.reason)},
@@ -74,6 +76,8 @@ BatchRow row_from_json(const std::string& line) {
   BatchRow row;
   row.log = json.at("log").get<std::string>();
   row.sha256 = text_or_empty(json.at("sha256"));
+  row.model = json.at("model").get<std::string>();
+  row.model_sha256 = text_or_empty(json.at("model_sha256"));
   row.result = result_from(json.at("report"));
   row.verdict = json.at("verdict").get<std::string>();
   row.reason = text_or_empty(json.at("reason"));
@@ -96,7 +100,7 @@ BatchRow row_from_json(const std::string& line) {
 
 std::string batch_csv_header() {
   return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,"
-         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256\n";
+         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256,model,model_sha256\n";
 }
 
 std::string to_csv_line(const BatchRow& row) {
@@ -107,11 +111,12 @@ std::string to_csv_line(const BatchRow& row) {
     first = fmt::format("{},{},{},{},{},{}", to_string(f.label.kind), csv_joint(f.label.joint),
                         csv_cell(f.onset_s), csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence));
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log), row.verdict,
-                     row.faults.size(), first, csv_cell(all), csv_cell(residual_level(row)), row.rows,
-                     row.rows_used, csv_cell(row.start_s), csv_cell(row.end_s), csv_cell(row.sample_period_s),
-                     row.warnings, row.severe, csv_cell(row.reason),
-                     row.result.empty() ? "" : "logs/" + row.result + ".json", row.sha256);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log),
+                     row.verdict, row.faults.size(), first, csv_cell(all), csv_cell(residual_level(row)),
+                     row.rows, row.rows_used, csv_cell(row.start_s), csv_cell(row.end_s),
+                     csv_cell(row.sample_period_s), row.warnings, row.severe, csv_cell(row.reason),
+                     row.result.empty() ? "" : "logs/" + row.result + ".json", row.sha256,
+                     csv_cell(row.model), row.model_sha256);
 }
 
 }  // namespace faultline

@@ -51,6 +51,17 @@ Json kinds_json(const BatchSummary& summary) {
   return json;
 }
 
+Json models_json(const BatchSummary& summary) {
+  Json models = Json::array();
+  for (const ModelFacts& model : summary.facts.models) {
+    Json json = {{"name", model.name}, {"sha256", model.sha256}, {"cases_sha256", model.cases_sha256}};
+    const auto counts = summary.models.find(model.sha256);
+    json.update(counts_json(counts == summary.models.end() ? counts_of({}) : counts->second));
+    models.push_back(std::move(json));
+  }
+  return models;
+}
+
 }  // namespace
 
 BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
@@ -70,15 +81,17 @@ BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& fac
   BatchSummary summary;
   summary.facts = facts;
   std::vector<const BatchRow*> all;
-  std::map<std::string, std::vector<const BatchRow*>> folders;
+  std::map<std::string, std::vector<const BatchRow*>> folders, models;
   for (const BatchRow& row : rows) {
     all.push_back(&row);
     folders[folder_of(row)].push_back(&row);
+    models[row.model_sha256].push_back(&row);
     for (const FaultEvent& fault : row.faults)
       ++summary.kinds[to_string(fault.label.kind)][fault.label.joint];
     summary.status = std::max(summary.status, status_of(row));
   }
   summary.all = counts_of(all);
+  for (const auto& [model, members] : models) summary.models[model] = counts_of(members);
   for (const auto& [folder, members] : folders) summary.folders[folder] = counts_of(members);
   return summary;
 }
@@ -91,11 +104,8 @@ std::string to_json(const BatchSummary& summary) {
     folders.push_back(json);
   }
   const BatchFacts& facts = summary.facts;
-  const Json json = {{"schema", "faultline/batch-summary/1"},
-                     {"model",
-                      {{"name", facts.model.name},
-                       {"sha256", facts.model.sha256},
-                       {"cases_sha256", facts.model.cases_sha256}}},
+  const Json json = {{"schema", "faultline/batch-summary/2"},
+                     {"models", models_json(summary)},
                      {"program", {{"version", facts.program_version}}},
                      {"options", facts.options},
                      {"shard", facts.shard},

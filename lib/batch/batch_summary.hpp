@@ -24,13 +24,14 @@ BatchCounts counts_of(const std::vector<const BatchRow*>& rows);
 struct BatchSummary {
   BatchFacts facts;
   BatchCounts all;
+  std::map<std::string, BatchCounts> models;        ///< by BatchRow::model_sha256
   std::map<std::string, BatchCounts> folders;       ///< by folder_of()
   std::map<std::string, std::map<int, int>> kinds;  ///< faults by kind and joint; joint 0 = of no joint
   int status = 0;                                   ///< exit status: the worst of all logs
 };
 BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts);
 
-/// Schema "faultline/batch-summary/1"; no wall-clock time is in it.
+/// Schema "faultline/batch-summary/2"; no wall-clock time is in it.
 std::string to_json(const BatchSummary& summary);
 /// A few lines for a terminal.
 std::string to_text(const BatchSummary& summary);

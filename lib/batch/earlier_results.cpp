@@ -22,14 +22,14 @@ bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
 
 }  // namespace
 
-EarlierResults::EarlierResults(const BatchFolder& folder, const std::string& settings)
-    : folder_(folder), settings_(settings), entries_(read_journal(folder.journal())) {
+EarlierResults::EarlierResults(const BatchFolder& folder)
+    : folder_(folder), entries_(read_journal(folder.journal())) {
   for (const auto& [key, entry] : entries_) logs_.insert(entry.row.log);
 }
 
-const JournalEntry* EarlierResults::find(const BatchLog& log) const {
+const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings) const {
   if (!logs_.count(valid_utf8(log.name))) return nullptr;
-  const auto found = entries_.find(result_key(settings_, log, sha256_of_file(log.path)));
+  const auto found = entries_.find(result_key(settings, log, sha256_of_file(log.path)));
   return found != entries_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
 }
 

@@ -14,16 +14,15 @@ namespace faultline {
 /// What earlier runs into a folder have done, finished or killed.
 class EarlierResults {
  public:
-  /// `settings`: settings_of() this run.
-  EarlierResults(const BatchFolder& folder, const std::string& settings);
+  explicit EarlierResults(const BatchFolder& folder);
 
-  /// The entry of the log as it is now, when its result files are there as they were written; null else. The
-  /// log is read, for its hash, only when one of its name was done. Throws Error(input) when it cannot be.
-  const JournalEntry* find(const BatchLog& log) const;
+  /// `settings`: settings_of() this run and the log's model. The entry of the log as it is now, when its
+  /// result files are there as they were written; null else. The log is read, for its hash, only when one of
+  /// its name was done. Throws Error(input) when it cannot be.
+  const JournalEntry* find(const BatchLog& log, const std::string& settings) const;
 
  private:
   const BatchFolder& folder_;
-  std::string settings_;
   std::map<std::string, JournalEntry> entries_;  ///< by key
   std::set<std::string> logs_;                   ///< names
 };

@@ -87,7 +87,7 @@ class Finder {
   void add(const fs::path& path, const std::string& name) {
     std::error_code error;
     const std::string file = fs::weakly_canonical(path, error).string();
-    const BatchLog log{path.string(), name};
+    const BatchLog log{path.string(), name, 0};
     const auto [place, fresh] = found_.try_emplace(error ? path.string() : file, log);
     if (!fresh && name < place->second.name) place->second = log;
   }

@@ -12,6 +12,7 @@ struct BatchLog {
   /// What every result calls it: below a folder that was given, with that folder's own name in front; the
   /// bare file name of a file that was given. No folder of a machine is in it.
   std::string name;
+  int model = 0;  ///< place in the models of the batch
 };
 
 /// The logs at `paths`, files and folders in any order, each once, sorted by name. A file that was given is

@@ -71,19 +71,21 @@ std::string result_key(const std::string& settings, const BatchLog& log, const s
 JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup) {
   const BatchOptions& options = setup.options;
   const FileStamp before = stamp_of(log.path);
-  const auto source = setup.open(log.path);
-  Diagnosis diagnosis = diagnose(*source, setup.model, setup.cases, options.diagnose);
+  const auto which = static_cast<std::size_t>(log.model);
+  const Model& model = setup.models[which].model;
+  const auto source = setup.open(log.path, model.robot);
+  Diagnosis diagnosis = diagnose(*source, model, setup.models[which].cases, options.diagnose);
   diagnosis.log.path = log.name;
   refuse_changed(log, before, diagnosis.log.sha256);
   JournalEntry entry;
-  entry.key = result_key(setup.settings, log, diagnosis.log.sha256);
+  entry.key = result_key(setup.settings[which], log, diagnosis.log.sha256);
   entry.row = row_of(diagnosis);
   if (options.identify && diagnosis.verdict == Verdict::healthy)
-    entry.row.parameters = parameters_in(*source, setup.model.robot);
+    entry.row.parameters = parameters_in(*source, model.robot);
   entry.row.result = result_name(log.name, diagnosis.log.sha256);
   const std::string stem = setup.folder.file("logs/" + entry.row.result);
   if (options.html) {
-    const std::string page = render_page(*source, setup.model, diagnosis, options.diagnose);
+    const std::string page = render_page(*source, model, diagnosis, options.diagnose);
     refuse_changed(log, before, diagnosis.log.sha256);
     write_file(stem + ".html", page);
     entry.html_sha = sha256_hex(page);
@@ -95,15 +97,15 @@ JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup) {
 }
 
 JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const Error& reason,
-                             const std::string& settings) {
+                             const ModelFacts& model, const std::string& settings) {
   JournalEntry entry;
-  entry.row = unusable_row(log.name, log.path, reason);
+  entry.row = unusable_row(log.name, log.path, reason, model);
   std::error_code error;
   if (!std::filesystem::is_regular_file(log.path, error)) return entry;
   try {
     entry.row.sha256 = sha256_of_file(log.path);
   } catch (const Error& unreadable) {
-    entry.row = unusable_row(log.name, log.path, unreadable);
+    entry.row = unusable_row(log.name, log.path, unreadable, model);
     return entry;
   }
   if (reason.code() != ErrorCode::internal && stamp_of(log.path) == before)

@@ -20,21 +20,21 @@ std::string result_key(const std::string& settings, const BatchLog& log, const s
 /// What all logs of a batch are diagnosed with, and where the results go.
 struct BatchSetup {
   const OpenLog& open;
-  const Model& model;
-  const CaseBase& cases;
+  const std::vector<ModelFiles>& models;
   const BatchFolder& folder;
   const BatchOptions& options;
-  std::string settings;  ///< settings_of() the batch
+  std::vector<ModelFacts> facts;      ///< of each of the models
+  std::vector<std::string> settings;  ///< settings_of() the batch and each of the models
 };
 
 /// Diagnoses one log and writes its result files; the entry has no position yet.
 /// Throws Error(input) when the log cannot be used and Error(output) when a file cannot be written.
 JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup);
 
-/// Of a log that could not be used for this reason, without position. It has no key, so that the next run
-/// does it again, when the file is another one than `before` it was read, cannot be read, or the reason is a
-/// defect of the program.
+/// Of a log of `model` that could not be used for this reason, without position. It has no key, so that the
+/// next run does it again, when the file is another one than `before` it was read, cannot be read, or the
+/// reason is a defect of the program.
 JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const Error& reason,
-                             const std::string& settings);
+                             const ModelFacts& model, const std::string& settings);
 
 }  // namespace faultline

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <mutex>
 #include <new>
+#include <set>
 
 #include "lib/batch/batch_index.hpp"
 #include "lib/batch/earlier_results.hpp"
 #include "lib/batch/log_result.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
-#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -35,11 +35,22 @@ void refuse_special_file(const std::string& path) {
     throw Error(ErrorCode::input, path, "is no regular file");
 }
 
+/// In the order in which the list uses them, so that the order of options changes no byte.
+std::vector<ModelFacts> used(const std::vector<ModelFacts>& models, const std::vector<BatchLog>& logs) {
+  std::vector<ModelFacts> found;
+  std::set<std::string> seen;
+  for (const BatchLog& log : logs) {
+    const ModelFacts& model = models[static_cast<std::size_t>(log.model)];
+    if (seen.insert(model.sha256 + model.cases_sha256).second) found.push_back(model);
+  }
+  return found;
+}
+
 /// The work on one list of logs.
 class Batch {
  public:
   explicit Batch(const BatchSetup& setup)
-      : setup_(setup), before_(setup.folder, setup.settings), journal_(setup.folder.journal()) {}
+      : setup_(setup), before_(setup.folder), journal_(setup.folder.journal()) {}
 
   BatchResult run(const std::vector<BatchLog>& logs, const BatchFacts& facts) {
     std::vector<int> positions;
@@ -67,18 +78,24 @@ class Batch {
  private:
   JournalEntry entry_of(const BatchLog& log, int position) {
     const FileStamp before = stamp_of(log.path);
+    const auto unusable = [&](const Error& error) {
+      const auto which = static_cast<std::size_t>(log.model);
+      return fresh(
+          at(position, unusable_result(log, before, error, setup_.facts[which], setup_.settings[which])));
+    };
     try {
       refuse_special_file(log.path);
-      if (const JournalEntry* done = before_.find(log)) return at(position, *done);
+      const std::string& settings = setup_.settings[static_cast<std::size_t>(log.model)];
+      if (const JournalEntry* done = before_.find(log, settings)) return at(position, *done);
       return fresh(at(position, write_log_result(log, setup_)));
     } catch (const std::bad_alloc&) {
       throw;  // of this machine now, not of the log
     } catch (const Error& error) {
       if (error.code() == ErrorCode::output) throw;
-      return fresh(at(position, unusable_result(log, before, error, setup_.settings)));
+      return unusable(error);
     } catch (const std::exception& error) {
-      const Error defect(ErrorCode::internal, log.path, std::string("defect of faultline: ") + error.what());
-      return fresh(at(position, unusable_result(log, before, defect, setup_.settings)));
+      return unusable(
+          Error(ErrorCode::internal, log.path, std::string("defect of faultline: ") + error.what()));
     }
   }
 
@@ -103,10 +120,14 @@ class Batch {
 
 }  // namespace
 
-BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, const Model& model,
-                      const CaseBase& cases, const std::string& folder, const BatchOptions& options) {
+BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
+                      const std::vector<ModelFiles>& models, const std::string& folder,
+                      const BatchOptions& options) {
+  std::vector<ModelFacts> all;
+  for (const auto& [model, cases] : models)
+    all.push_back({model.name, model.sha256, cases.sha256(), notes_of(model)});
   BatchFacts facts;
-  facts.model = {model.name, model.sha256, cases.sha256(), notes_of(model)};
+  facts.models = used(all, logs);
   facts.program_version = program_version();
   facts.options = options_text(options);
   facts.logs = static_cast<int>(logs.size());
@@ -114,7 +135,9 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, co
   facts.shards = options.shards;
   const BatchFolder out(folder, options.wait);
   out.mark_unfinished();
-  const BatchSetup setup{open, model, cases, out, options, settings_of(facts)};
+  std::vector<std::string> settings;
+  for (const ModelFacts& model : all) settings.push_back(settings_of(facts, model));
+  const BatchSetup setup{open, models, out, options, all, settings};
   return Batch(setup).run(logs, facts);
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/batch/batch_summary.hpp"
 #include "lib/batch/find_logs.hpp"
+#include "lib/model/model_files.hpp"
 #include "lib/pipeline/diagnose.hpp"
 
 namespace faultline {
@@ -33,13 +34,14 @@ struct BatchResult {
   int diagnosed = 0;  ///< by this run; the others were done before
 };
 
-using OpenLog = std::function<std::unique_ptr<LogSource>(const std::string& path)>;
+using OpenLog = std::function<std::unique_ptr<LogSource>(const std::string& path, const Robot& robot)>;
 
-/// Diagnoses every log into `folder` (docs/batch.md). What an earlier run, finished or killed, has done with
-/// the same log, model, cases and options is kept. A log that cannot be used is a row with its reason. The
-/// same input gives the same bytes, whatever the threads and however often it was cut short. Throws
-/// Error(output) when results cannot be written.
-BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open, const Model& model,
-                      const CaseBase& cases, const std::string& folder, const BatchOptions& options = {});
+/// Diagnoses every log with its model of `models` (BatchLog::model) into `folder` (docs/batch.md). What an
+/// earlier run, finished or killed, has done with the same log, model, cases and options is kept. A log that
+/// cannot be used is a row with its reason. The same input gives the same bytes, whatever the threads and
+/// however often it was cut short. Throws Error(output) when results cannot be written.
+BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
+                      const std::vector<ModelFiles>& models, const std::string& folder,
+                      const BatchOptions& options = {});
 
 }  // namespace faultline

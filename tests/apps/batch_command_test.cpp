@@ -106,6 +106,67 @@ TEST(BatchCommand, ThreadsShardsAndCopiesOfTheLogsChangeNoByte) {
   EXPECT_NE(missing.err.find("are missing"), std::string::npos) << missing.err;
 }
 
+/// Another model is the same one with other bytes.
+std::string second_model(const BatchWorld& world) {
+  const std::string path = world.file("second.model");
+  write_file(path, read_file(world.model()) + "\n");
+  fs::copy_file(case_base_path(world.model()), case_base_path(path));
+  return path;
+}
+
+TEST(BatchCommand, FoldersHaveModelsOfTheirOwn) {
+  const BatchWorld world;
+  world.add_logs(4);
+  const std::string second = second_model(world), out = world.file("out");
+  const std::vector<std::string> both{"--model", "day_2=" + second};
+  EXPECT_EQ(run_program(world.command(out, both)).status, 1);
+  const Json summary = Json::parse(read_file(out + "/summary.json"));
+  ASSERT_EQ(summary["models"].size(), 2u);
+  EXPECT_EQ(summary["models"][0]["healthy"], 2);
+  EXPECT_EQ(summary["models"][1]["faulty"], 2);
+  std::istringstream lines(read_file(out + "/index.ndjson"));
+  for (std::string line; std::getline(lines, line);) {
+    const Json row = Json::parse(line);
+    const std::string name = row["log"].get<std::string>();
+    const bool is_second = name.find("day_2") != std::string::npos;
+    EXPECT_EQ(row["model_sha256"], summary["models"][is_second ? 1 : 0]["sha256"]) << name;
+    const Json diagnosis = Json::parse(read_file(out + "/" + row["report"].get<std::string>()));
+    EXPECT_EQ(diagnosis["model"]["sha256"], row["model_sha256"]);
+  }
+  EXPECT_NE(read_file(out + "/index.html").find("By model"), std::string::npos);
+  EXPECT_EQ(done_before(run_program(world.command(out, both))), 4);
+  EXPECT_EQ(done_before(run_program(world.command(out))), 2) << "the logs of the first model were done";
+  for (const char* part : {"1/2", "2/2"}) {
+    std::vector<std::string> more = both;
+    more.insert(more.end(), {"--shard", part});
+    run_program(world.command(world.file(std::string("part_") + part[0]), more));
+  }
+  run_program({"batch", "merge", world.file("part_1"), world.file("part_2"), "-o", world.file("all")});
+  run_program(world.command(out, both));
+  EXPECT_EQ(differences(out, world.file("all")), std::vector<std::string>{});
+}
+
+TEST(BatchCommand, ALogWithoutAModelIsSaidBeforeAnythingIsDone) {
+  const BatchWorld world;
+  world.add_logs(4);
+  const std::string out = world.file("out");
+  const auto refused = [&](std::vector<std::string> models) {
+    std::vector<std::string> command{"batch", world.logs(), "-o", out};
+    for (const std::string& model : models) command.insert(command.end(), {"--model", model});
+    const ProgramRun run = run_program(command);
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_FALSE(fs::exists(out));
+    return run.err;
+  };
+  EXPECT_NE(refused({"day_1=" + world.model()}).find("runs/day_2/run_1.csv: 2 of 4 logs have no model"),
+            std::string::npos);
+  EXPECT_NE(
+      refused({world.model(), "day_3=" + world.model()}).find("no log lies below a folder of that name"),
+      std::string::npos);
+  EXPECT_NE(refused({world.model(), world.model()}).find("twice"), std::string::npos);
+  EXPECT_NE(refused({"=" + world.model()}).find("give DIR=MODEL"), std::string::npos);
+}
+
 TEST(BatchCommand, OnlyWhatChangedIsDoneAgain) {
   const BatchWorld world;
   world.add_logs(4);

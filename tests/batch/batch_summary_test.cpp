@@ -37,7 +37,7 @@ std::vector<BatchRow> rows() {
 
 BatchFacts facts() {
   BatchFacts made;
-  made.model = {"bench", "aa", "bb"};
+  made.models = {{"bench", "aa", "bb"}};
   made.program_version = "1";
   made.options = "--classify evidence";
   made.logs = 5;
@@ -83,7 +83,7 @@ TEST(BatchSummary, OfNothingHasNoResidualAndNoRate) {
 
 TEST(BatchSummary, TheJsonHasAFaultOfNoJointAsNull) {
   const Json json = Json::parse(to_json(summary_of(rows(), facts())));
-  EXPECT_EQ(json["schema"], "faultline/batch-summary/1");
+  EXPECT_EQ(json["schema"], "faultline/batch-summary/2");
   EXPECT_EQ(json["shard"], 1);
   EXPECT_EQ(json["faults"][0], (Json{{"kind", "locked"}, {"joint", 2}, {"count", 2}}));
   EXPECT_TRUE(json["faults"][1]["joint"].is_null());
@@ -105,8 +105,14 @@ TEST(BatchFacts, ComeBackFromTheirFileAndOtherSettingsDiffer) {
   other.shard = 0;
   EXPECT_FALSE(read == other);
   EXPECT_EQ(settings_of(read), settings_of(other)) << "shards of one batch have the same settings";
-  other.model.cases_sha256 = "cc";
+  other.models[0].cases_sha256 = "cc";
   EXPECT_NE(settings_of(read), settings_of(other));
+  other = facts();
+  other.models.push_back({"scara", "dd", "ee"});
+  EXPECT_NE(settings_of(read), settings_of(other)) << "another list of models is another batch";
+  EXPECT_EQ(settings_of(read, read.models[0]), settings_of(other, other.models[0]))
+      << "but the logs of the first model are not done again";
+  EXPECT_TRUE(read_facts(folder.write("two.json", facts_to_json(other))) == other);
   EXPECT_THROW(read_facts(folder.write("cut.json", facts_to_json(facts()).substr(0, 40))), Error);
 }
 

@@ -26,29 +26,31 @@ const std::string kGolden = FAULTLINE_SOURCE_DIR "/sample_logs/golden";
 /// Two logs of the golden folder, its model, and a count of the logs that were opened.
 class RunBatch : public testing::Test {
  protected:
-  RunBatch() : subject_(load_golden_model(kGolden, load_golden(kGolden))) {
+  RunBatch() {
+    const ModelAndCases subject = load_golden_model(kGolden, load_golden(kGolden));
+    models_.push_back({subject.model, subject.cases});
     for (const char* name : {"healthy_trapezoidal.csv", "locked_1.csv"}) {
       fs::copy_file(kGolden + "/logs/" + name, folder_.file(name));
-      logs_.push_back({folder_.file(name), std::string("runs/") + name});
+      logs_.push_back({folder_.file(name), std::string("runs/") + name, 0});
     }
   }
 
   BatchResult run(const std::string& out, BatchOptions options = {}) {
     options.threads = 1;
-    const OpenLog open = [&](const std::string& path) {
+    const OpenLog open = [&](const std::string& path, const Robot&) {
       ++opened_;
       auto source = open_log(path);
       if (path == grows_) std::ofstream(path, std::ios::app) << "\n";
       if (path == touched_) fs::last_write_time(path, fs::last_write_time(path) + std::chrono::hours(1));
       return source;
     };
-    return run_batch(logs_, open, subject_.model, subject_.cases, folder_.file(out), options);
+    return run_batch(logs_, open, models_, folder_.file(out), options);
   }
 
   std::string index(const std::string& out) const { return read_file(folder_.file(out) + "/index.ndjson"); }
 
   TemporaryFolder folder_;
-  ModelAndCases subject_;
+  std::vector<ModelFiles> models_;
   std::vector<BatchLog> logs_;
   std::string grows_, touched_;
   int opened_ = 0;
@@ -96,11 +98,11 @@ TEST_F(RunBatch, AnUnusableLogIsKeptUntilItIsAnotherOne) {
 }
 
 TEST_F(RunBatch, ADefectOfTheProgramIsARowThatTheNextRunDoesAgain) {
-  const OpenLog broken = [](const std::string&) -> std::unique_ptr<LogSource> {
+  const OpenLog broken = [](const std::string&, const Robot&) -> std::unique_ptr<LogSource> {
     throw std::logic_error("out of range");
   };
   for (int i = 0; i < 2; ++i) {
-    const BatchResult result = run_batch(logs_, broken, subject_.model, subject_.cases, folder_.file("out"));
+    const BatchResult result = run_batch(logs_, broken, models_, folder_.file("out"));
     EXPECT_EQ(result.diagnosed, 2);
     EXPECT_EQ(result.summary.status, 4);
   }
@@ -109,16 +111,16 @@ TEST_F(RunBatch, ADefectOfTheProgramIsARowThatTheNextRunDoesAgain) {
 
 TEST(UnusableResult, HasAKeyOnlyWhenTheFileIsTheOneThatWasRead) {
   const TemporaryFolder folder;
-  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv"};
+  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};
   const Error reason(ErrorCode::input, log.path, "is no log");
   const FileStamp before = stamp_of(log.path);
-  EXPECT_EQ(unusable_result(log, before, reason, "s").key, result_key("s", log, sha256_hex("x")));
+  EXPECT_EQ(unusable_result(log, before, reason, {}, "s").key, result_key("s", log, sha256_hex("x")));
   folder.write("a.csv", "xy");
-  const JournalEntry changed = unusable_result(log, before, reason, "s");
+  const JournalEntry changed = unusable_result(log, before, reason, {}, "s");
   EXPECT_EQ(changed.key, "");
   EXPECT_EQ(changed.row.sha256, sha256_hex("xy"));
   fs::remove(log.path);
-  const JournalEntry gone = unusable_result(log, stamp_of(log.path), reason, "s");
+  const JournalEntry gone = unusable_result(log, stamp_of(log.path), reason, {}, "s");
   EXPECT_EQ(gone.key, "");
   EXPECT_EQ(gone.row.sha256, "");
   EXPECT_EQ(gone.row.reason, "is no log");
@@ -127,7 +129,7 @@ TEST(UnusableResult, HasAKeyOnlyWhenTheFileIsTheOneThatWasRead) {
 TEST(EarlierResults, CountOnlyWhileTheirFilesAreAsWritten) {
   const TemporaryFolder folder;
   const BatchFolder out(folder.file("out"), false);
-  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv"};
+  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};
   JournalEntry entry;
   entry.key = result_key("s", log, sha256_hex("x"));
   entry.row.log = log.name;
@@ -135,12 +137,12 @@ TEST(EarlierResults, CountOnlyWhileTheirFilesAreAsWritten) {
   entry.json_sha = sha256_hex("{}");
   write_file(out.file("logs/a.json"), "{}");
   JournalWriter(out.journal()).add(entry);
-  EXPECT_NE(EarlierResults(out, "s").find(log), nullptr);
-  EXPECT_EQ(EarlierResults(out, "t").find(log), nullptr);
-  EXPECT_EQ(EarlierResults(out, "s").find({log.path, "runs/b.csv"}), nullptr);
-  EXPECT_EQ(EarlierResults(out, "s").find({"/not/there", "runs/b.csv"}), nullptr) << "was read in vain";
+  EXPECT_NE(EarlierResults(out).find(log, "s"), nullptr);
+  EXPECT_EQ(EarlierResults(out).find(log, "t"), nullptr);
+  EXPECT_EQ(EarlierResults(out).find({log.path, "runs/b.csv", 0}, "s"), nullptr);
+  EXPECT_EQ(EarlierResults(out).find({"/not/there", "runs/b.csv", 0}, "s"), nullptr) << "was read in vain";
   write_file(out.file("logs/a.json"), "{ }");
-  EXPECT_EQ(EarlierResults(out, "s").find(log), nullptr);
+  EXPECT_EQ(EarlierResults(out).find(log, "s"), nullptr);
 }
 
 TEST(ResultName, IsReadableAndDiffersByNameAndContent) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "lib/batch/page/index_assets.hpp"
+#include "lib/batch/page/index_data.hpp"
 #include "lib/batch/page/index_table.hpp"
 #include "lib/batch/page/index_trends.hpp"
 #include "lib/core/markup.hpp"
@@ -15,14 +16,34 @@
 namespace faultline {
 namespace {
 
+constexpr std::size_t kLongestName = 200;
+constexpr int kNamedModels = 3;  // in a title
+
+/// "model bench", safe in markup.
+std::string models_text(const BatchFacts& facts) {
+  std::string names;
+  int count = 0;
+  for (const ModelFacts& model : facts.models)
+    if (++count <= kNamedModels)
+      names += (names.empty() ? "" : ", ") + printable(model.name).substr(0, kLongestName);
+  if (count > kNamedModels) names += fmt::format(" and {} more", count - kNamedModels);
+  return escaped_markup((count == 1 ? "model " : "models ") + names);
+}
+
+/// A table that scrolls on its own where the page is too narrow for it, also by keyboard.
+std::string scrolling(const std::string& label, const std::string& table) {
+  return "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"" + label + "\">" + table +
+         "</div>\n";
+}
+
 std::string head(const BatchSummary& summary) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src {}; "
       "base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
-      "<title>{} logs, model {}</title>\n<style>{}</style>\n</head>\n",
-      source_hash(index_script()), source_hash(index_style()), summary.all.logs,
-      escaped_markup(printable(summary.facts.model.name).substr(0, 200)), index_style());
+      "<title>{} logs, {}</title>\n<style>{}</style>\n</head>\n",
+      source_hash(index_script()), source_hash(index_style()), summary.all.logs, models_text(summary.facts),
+      index_style());
 }
 
 std::string counts_line(const BatchCounts& counts) {
@@ -52,15 +73,26 @@ HtmlRow counts_row(const std::string& name, const BatchCounts& c) {
           value_text(c.largest_residual)};
 }
 
+HtmlRow counts_head(const char* what) {
+  return {what,     "logs",  "healthy",         "faulty",          "inconclusive", "unusable",
+          "faults", "hours", "faults per hour", "median residual", "largest"};
+}
+
 std::string folder_table(const BatchSummary& summary) {
   std::vector<HtmlRow> rows;
   for (const auto& [folder, counts] : summary.folders)
     rows.push_back(counts_row(folder.empty() ? "(given files)" : folder, counts));
-  return "<h2>By folder</h2>\n<div class=\"wide\">" +
-         html_table({"folder", "logs", "healthy", "faulty", "inconclusive", "unusable", "faults", "hours",
-                     "faults per hour", "median residual", "largest"},
-                    rows) +
-         "</div>\n";
+  return "<h2>By folder</h2>\n" + scrolling("Counts by folder", html_table(counts_head("folder"), rows));
+}
+
+/// Only where there are several models.
+std::string model_table(const BatchSummary& summary) {
+  std::vector<HtmlRow> rows;
+  for (const ModelFacts& model : summary.facts.models)
+    if (const auto counts = summary.models.find(model.sha256); counts != summary.models.end())
+      rows.push_back(counts_row(model.name, counts->second));
+  if (rows.size() < 2) return "";
+  return "<h2>By model</h2>\n" + scrolling("Counts by model", html_table(counts_head("model"), rows));
 }
 
 std::string kind_table(const BatchSummary& summary) {
@@ -68,7 +100,15 @@ std::string kind_table(const BatchSummary& summary) {
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
       rows.push_back({kind, joint > 0 ? std::to_string(joint) : "-", std::to_string(count)});
-  return rows.empty() ? "" : "<h2>Faults by kind</h2>\n" + html_table({"fault", "joint", "times"}, rows);
+  return rows.empty() ? ""
+                      : "<h2>Faults by kind</h2>\n" +
+                            scrolling("Faults by kind", html_table({"fault", "joint", "times"}, rows));
+}
+
+std::string trends(const std::vector<BatchRow>& rows) {
+  const std::string still = index_trends(rows);
+  if (still.empty()) return "";
+  return "<h2>Trends</h2>\n<div id=\"trends-live\"></div>\n<noscript>" + still + "</noscript>\n";
 }
 
 std::string options_of_kind(const BatchSummary& summary) {
@@ -77,36 +117,54 @@ std::string options_of_kind(const BatchSummary& summary) {
   return text;
 }
 
+/// By their place in the batch; nothing for one model.
+std::string options_of_models(const BatchFacts& facts) {
+  if (facts.models.size() < 2) return "";
+  std::string text;
+  for (std::size_t i = 0; i < facts.models.size(); ++i)
+    text += fmt::format("<option value=\"{}\">{}</option>", i,
+                        escaped_markup(printable(facts.models[i].name).substr(0, kLongestName)));
+  return "<label>Model <select id=\"model\"><option value=\"\">all</option>" + text + "</select></label>";
+}
+
 std::string tools(const BatchSummary& summary) {
+  const std::string models = options_of_models(summary.facts);
   return "<div class=\"tools\"><label>Find <input id=\"text\" type=\"search\"></label><label>Verdict <select "
          "id=\"verdict\"><option value=\"\">all</option><option>faulty</option><option>healthy</option>"
          "<option>inconclusive</option><option>unusable</option><option>failed</option></select></label>"
          "<label>Fault <select id=\"kind\"><option value=\"\">all</option>" +
-         options_of_kind(summary) + "</select></label><span id=\"shown\" role=\"status\"></span></div>\n";
+         options_of_kind(summary) + "</select></label>" + models +
+         "<details id=\"choice\"><summary>Columns</summary><fieldset><legend>Columns to show</legend></fieldset>"
+         "</details><span id=\"shown\" role=\"status\"></span></div>\n";
 }
 
 std::string provenance(const BatchFacts& facts) {
-  std::vector<HtmlRow> rows = {{"model", printable(facts.model.name)},
-                               {"model SHA-256", facts.model.sha256},
-                               {"case base SHA-256", facts.model.cases_sha256},
-                               {"program", "faultline " + facts.program_version},
-                               {"options", facts.options}};
-  for (const std::string& note : facts.model.notes) rows.push_back({"note", printable(note)});
-  return "<h2>Provenance</h2>\n" + html_table({}, rows);
+  std::vector<HtmlRow> rows = {{"program", "faultline " + facts.program_version}, {"options", facts.options}};
+  for (const ModelFacts& model : facts.models) {
+    rows.push_back({"model", printable(model.name)});
+    rows.push_back({"its SHA-256", model.sha256});
+    rows.push_back({"SHA-256 of its case base", model.cases_sha256});
+    for (const std::string& note : model.notes) rows.push_back({"note", printable(note)});
+  }
+  return "<h2>Provenance</h2>\n" + scrolling("Provenance", html_table({}, rows));
 }
 
 }  // namespace
 
 std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSummary& summary, bool pages) {
   const BatchFacts& facts = summary.facts;
-  std::string text = head(summary) + "<body>\n";
+  std::string text = head(summary) + "<body>\n<main>\n";
   text += fmt::format(
-      "<h1>{}, {}</h1>\n<p class=\"sub\">Model {}{}</p>\n", counted(summary.all.logs, "log"),
-      counted(summary.all.faults, "fault"), escaped_markup(printable(facts.model.name).substr(0, 200)),
+      "<h1>{}, {}</h1>\n<p class=\"sub\">Diagnosed with {}{}</p>\n", counted(summary.all.logs, "log"),
+      counted(summary.all.faults, "fault"), models_text(facts),
       facts.shards > 1 ? fmt::format("; part {} of {} of {} logs", facts.shard, facts.shards, facts.logs)
                        : "");
-  text += counts_line(summary.all) + folder_table(summary) + kind_table(summary) + index_trends(rows);
-  text += "<h2>Logs</h2>\n" + tools(summary) + index_table(rows, pages) + provenance(facts);
+  text += counts_line(summary.all) + model_table(summary) + folder_table(summary) + kind_table(summary) +
+          trends(rows);
+  text += "<h2 id=\"list\">Logs</h2>\n" + tools(summary) + index_table(rows, pages) + provenance(facts) +
+          "</main>\n";
+  text +=
+      "<script type=\"application/json\" id=\"index-data\">" + index_data(rows, facts, pages) + "</script>\n";
   return text + "<script>" + std::string(index_script()) + "</script>\n</body>\n</html>\n";
 }
 

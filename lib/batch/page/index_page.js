@@ -1,59 +1,101 @@
 // SPDX-License-Identifier: MIT
-// Sorts and filters the table of logs. Without it the table stands as it is.
+// Filters, order and columns of the page; the part of its address after # keeps them.
 'use strict';
 (() => {
-  const table = document.getElementById('logs'), body = table.tBodies[0];
-  const rows = Array.from(body.rows), shown = document.getElementById('shown');
-  const text = document.getElementById('text'), verdict = document.getElementById('verdict');
-  const kind = document.getElementById('kind');
-  const words = rows.map(row => row.textContent.toLowerCase());
+  const {rows} = faultlineIndex;
+  const {columns, Table} = faultlineRows;
+  const fields = ['text', 'verdict', 'kind', 'model'].map((id) => document.getElementById(id)).filter(Boolean);
+  const count = document.getElementById('shown'), choice = document.querySelector('#choice fieldset');
+  const usual = columns.filter((column) => column.usual).map((column) => column.id);
+  const state = {order: 'no', columns: usual};
+  const table = new Table(document.getElementById('table'), sort);
+  let words = null, orderOfRows = rows, sortedBy = 'no';
 
-  function filter() {
-    const wanted = text.value.toLowerCase().split(/\s+/).filter(Boolean);
-    let count = 0;
-    rows.forEach((row, i) => {
-      const show = (!verdict.value || row.dataset.v === verdict.value) &&
-        (!kind.value || row.dataset.k.split(' ').includes(kind.value)) &&
-        wanted.every(word => words[i].includes(word));
-      row.hidden = !show;
-      count += show;
-    });
-    shown.textContent = `${count} of ${rows.length} logs`;
-  }
+  const wordsOf = (row) => `${row.log} ${row.verdict} ${row.faults.map((f) => f.words + ' ' + f.kind).join(' ')} ${
+    row.reason}`.toLowerCase();
 
-  function value(row, column) {
-    const cell = row.cells[column], given = cell.dataset.s;
-    return given === undefined ? cell.textContent : given === '' ? NaN : Number(given);
+  function passes(row, wanted) {
+    const [text, verdict, kind, model] = ['text', 'verdict', 'kind', 'model'].map((id) => wanted[id]);
+    return (!verdict || row.verdict === verdict) && (!model || row.model === Number(model)) &&
+      (!kind || row.faults.some((fault) => fault.kind === kind)) &&
+      text.every((word) => words[row.no - 1].includes(word));
   }
 
   function compare(a, b) {
-    if (typeof a === 'string') return a < b ? -1 : a > b ? 1 : 0;
-    if (isNaN(a) || isNaN(b)) return isNaN(a) - isNaN(b);
-    return a - b;
+    const without = (a === null || a === undefined) - (b === null || b === undefined);
+    return without || (a < b ? -1 : a > b ? 1 : 0);
   }
 
-  function sort(column, head) {
-    const down = head.getAttribute('aria-sort') === 'ascending';
-    for (const other of table.tHead.rows[0].cells) other.removeAttribute('aria-sort');
-    head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-    const keyed = rows.map((row, place) => ({row, place, key: value(row, column)}));
-    keyed.sort((a, b) => {
-      const missing = typeof a.key === 'number' && isNaN(a.key) - isNaN(b.key);
-      return missing || (down ? compare(b.key, a.key) : compare(a.key, b.key)) || a.place - b.place;
+  function inOrder() {
+    if (sortedBy === state.order) return orderOfRows;
+    const down = state.order.startsWith('-');
+    const column = columns.find((c) => c.id === state.order.slice(down ? 1 : 0));
+    const keyed = rows.map((row) => ({row, key: column.value(row)}));
+    const missing = (key) => key === null || key === undefined;
+    keyed.sort((a, b) => missing(a.key) - missing(b.key) ||
+      (down ? compare(b.key, a.key) : compare(a.key, b.key)) || a.row.no - b.row.no);
+    sortedBy = state.order;
+    return (orderOfRows = keyed.map(({row}) => row));
+  }
+
+  function show() {
+    const wanted = {model: ''};
+    for (const field of fields) wanted[field.id] = field.value;
+    wanted.text = wanted.text.toLowerCase().split(/\s+/).filter(Boolean);
+    if (wanted.text.length && !words) words = rows.map(wordsOf);
+    const all = !wanted.text.length && !wanted.verdict && !wanted.kind && !wanted.model;
+    const list = all ? inOrder() : inOrder().filter((row) => passes(row, wanted));
+    table.show(list, state.columns, state.order);
+    faultlineTrendGroup.show(all ? null : new Set(list));
+    count.textContent = `${list.length} of ${rows.length} logs`;
+  }
+
+  function keep() {
+    const parts = new URLSearchParams();
+    for (const field of fields) if (field.value) parts.set(field.id, field.value);
+    if (state.order !== 'no') parts.set('sort', state.order);
+    if (state.columns.join() !== usual.join()) parts.set('columns', state.columns.join());
+    const text = parts.toString();
+    if ('#' + text !== location.hash && (text || location.hash)) history.replaceState(null, '', '#' + text);
+  }
+
+  function restore() {
+    const parts = new URLSearchParams(location.hash.slice(1));
+    for (const field of fields) field.value = parts.get(field.id) || '';
+    for (const field of fields) if (field.selectedIndex === -1) field.value = '';
+    const order = parts.get('sort') || 'no';
+    state.order = columns.some((c) => c.id === order.replace(/^-/, '')) ? order : 'no';
+    const wanted = (parts.get('columns') || '').split(',');
+    const known = columns.map((c) => c.id).filter((id) => wanted.includes(id));
+    state.columns = known.length ? known : usual;
+    for (const box of choice.querySelectorAll('input')) box.checked = state.columns.includes(box.value);
+    show();
+  }
+
+  function sort(id) {
+    state.order = state.order === id ? '-' + id : id;
+    show();
+    keep();
+  }
+
+  for (const column of columns) {
+    const label = document.createElement('label'), box = document.createElement('input');
+    box.type = 'checkbox';
+    box.value = column.id;
+    label.append(box, ' ' + column.title);
+    choice.append(label);
+    box.addEventListener('change', () => {
+      const on = Array.from(choice.querySelectorAll('input:checked'), (one) => one.value);
+      if (!on.length) return void (box.checked = true);
+      state.columns = on;
+      show();
+      keep();
     });
-    const all = document.createDocumentFragment();
-    for (const {row} of keyed) all.append(row);
-    body.append(all);
   }
-
-  Array.from(table.tHead.rows[0].cells).forEach((head, column) => {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.textContent = head.textContent;
-    button.addEventListener('click', () => sort(column, head));
-    head.replaceChildren(button);
-  });
-  for (const field of [text, verdict, kind]) field.addEventListener('input', filter);
+  // The row of a log that the filters hide is not in the plots either.
+  faultlineTrendGroup.start((row) => table.goTo(row));
+  for (const field of fields) field.addEventListener('input', () => { show(); keep(); });
+  addEventListener('hashchange', restore);
   document.documentElement.classList.add('js');
-  filter();
+  restore();
 })();

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "lib/batch/page/index_thumbnail.hpp"
 #include "lib/core/markup.hpp"
@@ -14,6 +14,8 @@
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kStillRows = 500;  // without script; more would cost those who have one
 
 std::string fault_list(const BatchRow& row) {
   std::string list;
@@ -26,14 +28,6 @@ std::string fault_list(const BatchRow& row) {
   return list;
 }
 
-std::string kinds(const BatchRow& row) {
-  std::set<std::string> names;
-  for (const FaultEvent& fault : row.faults) names.insert(to_string(fault.label.kind));
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
-  return list;
-}
-
 std::string log_cell(const BatchRow& row, bool pages) {
   const std::string name = escaped_markup(printable(row.log).substr(0, 400));
   if (row.result.empty()) return name;
@@ -41,19 +35,15 @@ std::string log_cell(const BatchRow& row, bool pages) {
 }
 
 std::string number_cell(double value, const std::string& shown) {
-  if (!std::isfinite(value)) return "<td class=\"n\" data-s=\"\">-</td>";
-  return fmt::format("<td class=\"n\" data-s=\"{}\">{}</td>", value, shown);
+  return "<td class=\"n\">" + (std::isfinite(value) ? shown : std::string("-")) + "</td>";
 }
 
 std::string table_row(const BatchRow& row, std::size_t number, bool pages) {
   const double duration = row.end_s - row.start_s, level = residual_level(row);
   const int issues = row.warnings + row.severe;
-  const double onset = row.faults.empty() ? std::nan("") : row.faults.front().onset_s;
-  return fmt::format(
-             "<tr data-v=\"{}\" data-k=\"{}\"><td class=\"n\" "
-             "data-s=\"{}\">{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td><td data-s=\"{}\">{}</td>",
-             row.verdict, kinds(row), number, number, log_cell(row, pages), row.verdict, row.verdict,
-             fault_list(row), std::isfinite(onset) ? fmt::format("{}", onset) : "", index_thumbnail(row)) +
+  return fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td><td>{}</td>",
+                     number, log_cell(row, pages), row.verdict, row.verdict, fault_list(row),
+                     index_thumbnail(row)) +
          number_cell(level, value_text(level)) + number_cell(duration, value_text(duration)) +
          number_cell(issues, std::to_string(issues)) + "</tr>\n";
 }
@@ -62,13 +52,18 @@ std::string table_row(const BatchRow& row, std::size_t number, bool pages) {
 
 std::string index_table(const std::vector<BatchRow>& rows, bool pages) {
   std::string text =
-      "<div class=\"wide\"><table id=\"logs\">\n<thead><tr><th class=\"c1\" scope=\"col\">no.</th><th "
+      "<div id=\"table\"></div>\n<noscript><table class=\"logs\">\n<thead><tr><th class=\"c1\" scope=\"col\">no.</th><th "
       "class=\"c2\" scope=\"col\">log</th><th class=\"c3\" scope=\"col\">verdict</th><th class=\"c4\" "
       "scope=\"col\">faults</th><th class=\"c5\" scope=\"col\">timeline</th><th class=\"c6\" "
       "scope=\"col\">residual</th><th class=\"c7\" scope=\"col\">length, s</th><th class=\"c8\" "
       "scope=\"col\">issues</th></tr></thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) text += table_row(rows[i], i + 1, pages);
-  return text + "</tbody></table></div>\n";
+  const std::size_t count = std::min(rows.size(), kStillRows);
+  for (std::size_t i = 0; i < count; ++i) text += table_row(rows[i], i + 1, pages);
+  text += "</tbody></table>\n";
+  if (count < rows.size())
+    text += fmt::format("<p>The first {} of {} logs; a script shows all, as index.csv does.</p>\n", count,
+                        rows.size());
+  return text + "</noscript>\n";
 }
 
 }  // namespace faultline

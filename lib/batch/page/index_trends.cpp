@@ -27,8 +27,7 @@ std::vector<const BatchRow*> judged_in_order(const std::vector<BatchRow>& rows, 
   std::vector<const BatchRow*> judged;
   for (const BatchRow& row : rows)
     if (is_judged(row)) judged.push_back(&row);
-  by_time =
-      std::all_of(judged.begin(), judged.end(), [](const BatchRow* row) { return row->start_s >= kEpoch; });
+  by_time = tell_the_date(rows);
   if (by_time)
     std::stable_sort(judged.begin(), judged.end(),
                      [](const BatchRow* a, const BatchRow* b) { return a->start_s < b->start_s; });
@@ -112,6 +111,11 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
 
 }  // namespace
 
+bool tell_the_date(const std::vector<BatchRow>& rows) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [](const BatchRow& row) { return !is_judged(row) || row.start_s >= kEpoch; });
+}
+
 std::string index_trends(const std::vector<BatchRow>& rows) {
   bool by_time = false;
   const auto judged = judged_in_order(rows, by_time);
@@ -135,7 +139,7 @@ std::string index_trends(const std::vector<BatchRow>& rows) {
   if (PlotPanel parameters = parameter_panel(judged); !parameters.series.empty())
     plot.panels.push_back(std::move(parameters));
   plot.id = "trends";
-  return "<h2>Trends</h2>\n<figure>" + render_svg(plot) + "</figure>\n";
+  return "<figure>" + render_svg(plot) + "</figure>\n";
 }
 
 }  // namespace faultline

@@ -12,4 +12,7 @@ namespace faultline {
 /// Many logs share a point, so that no peak is lost. Empty for less than two judged logs.
 std::string index_trends(const std::vector<BatchRow>& rows);
 
+/// Whether all judged logs say when they were recorded.
+bool tell_the_date(const std::vector<BatchRow>& rows);
+
 }  // namespace faultline
