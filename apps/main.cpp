@@ -40,6 +40,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_identify(app, program);
   add_learn(app, program);
   add_diagnose(app, program);
+  add_compare(app, program);
   add_batch(app, program);
   add_golden(app, program);
   add_reproduce(app, program);

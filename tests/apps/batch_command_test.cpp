@@ -119,7 +119,8 @@ TEST(BatchCommand, FoldersHaveModelsOfTheirOwn) {
   world.add_logs(4);
   const std::string second = second_model(world), out = world.file("out");
   const std::vector<std::string> both{"--model", "day_2=" + second};
-  EXPECT_EQ(run_program(world.command(out, both)).status, 1);
+  const ProgramRun first = run_program(world.command(out, both));
+  EXPECT_EQ(first.status, 1) << first.err;
   const Json summary = Json::parse(read_file(out + "/summary.json"));
   ASSERT_EQ(summary["models"].size(), 2u);
   EXPECT_EQ(summary["models"][0]["healthy"], 2);

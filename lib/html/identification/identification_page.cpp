@@ -10,7 +10,7 @@
 #include "lib/html/head.hpp"
 #include "lib/html/identification/identification_tables.hpp"
 #include "lib/html/identification/trend_figures.hpp"
-#include "lib/plot/plot_series.hpp"
+#include "lib/html/still_figures.hpp"
 #include "lib/report/identification_text.hpp"
 
 namespace faultline {
@@ -30,34 +30,6 @@ const char* colour_of(IdentificationStatus status) {
       return "inconclusive";
   }
   return "inconclusive";
-}
-
-std::string legend(const LinePlot& plot) {
-  std::string text = "<ul class=\"legend\">";
-  for (const PlotPanel& panel : plot.panels)
-    for (std::size_t i = 0; i < panel.series.size(); ++i) {
-      const PlotSeries& series = panel.series[i];
-      if (series.name.empty()) continue;
-      const PlotPen pen = plot_pen(series.pen < 0 ? i : static_cast<std::size_t>(series.pen));
-      text += fmt::format("<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\">{}</svg>{}</li>",
-                          key_sample(series, pen, 1.0, 4.0), escaped_markup(series.name));
-    }
-  return text + "</ul>";
-}
-
-std::string figure(const NamedPlot& named) {
-  LinePlot plot = named.plot;
-  plot.id = named.name + "-";
-  plot.captions = false;
-  return fmt::format("<figure id=\"{}\"><figcaption>{}</figcaption>\n{}\n<div class=\"still\">", named.name,
-                     escaped_markup(plot.title), legend(plot)) +
-         render_svg(plot) + "</div></figure>\n";
-}
-
-std::string figures(const std::vector<NamedPlot>& plots) {
-  std::string text;
-  for (const NamedPlot& plot : plots) text += figure(plot);
-  return text.empty() ? "" : "<div class=\"plots\">\n" + text + "</div>\n";
 }
 
 std::string top(const Identification& id) {
@@ -93,10 +65,10 @@ std::string render_identification_html(const Identification& id) {
   text += part("fit", "Fit", fit_tables(id));
   for (int j = 0; j < std::ssize(id.joint_fits); ++j)
     text += part(fmt::format("joint-{}", j + 1).c_str(), fmt::format("Joint {}", j + 1).c_str(),
-                 figures(joint_figures(id, j)));
+                 still_figures(joint_figures(id, j)));
   text += part("motion", "What the motion tells", excitation_tables(id));
   text += part("trend", "From log to log",
-               html_list(trend_lines(id)) + figures(trend_figures(id)) + trend_table(id));
+               html_list(trend_lines(id)) + still_figures(trend_figures(id)) + trend_table(id));
   text += part("logs", "Logs", log_tables(id));
   return text + "</main>\n</body>\n</html>\n";
 }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/file_use.hpp"
+#include "apps/options.hpp"
+#include "apps/robot_log.hpp"
+#include "formats/open_log.hpp"
+#include "lib/compare/comparison_text.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/html/comparison/comparison_page.hpp"
+#include "lib/log/derive.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+namespace {
+
+const std::vector<std::string> kAlignments{"auto", "time", "motion"};  // in the order of AlignmentKind
+
+struct CompareArguments {
+  std::string first, second, model, html, json;
+  CompareOptions options;
+};
+
+void claim_files(const CompareArguments& arguments) {
+  FileUse()
+      .reads("the first log", arguments.first)
+      .reads("the second log", arguments.second)
+      .reads("the model", arguments.model)
+      .writes("--html", arguments.html)
+      .writes("--json", arguments.json)
+      .claim();
+}
+
+RunSignals read_run(const std::string& path, const Model* model) {
+  auto log = with_velocity(model ? open_robot_log(path, model->robot) : open_log(path));
+  return run_signals(path, read_all(*log), model ? &model->residual : nullptr);
+}
+
+std::vector<char> turns_of(const Model& model) {
+  std::vector<char> turns;
+  for (const JointGeometry& joint : model.robot.chain.geometry)
+    turns.push_back(joint.kind == AxisKind::revolute);
+  return turns;
+}
+
+int run_compare(const CompareArguments& arguments) {
+  claim_files(arguments);
+  std::unique_ptr<Model> model;
+  if (!arguments.model.empty()) model = std::make_unique<Model>(load_model(arguments.model));
+  const std::vector<char> turns = model ? turns_of(*model) : std::vector<char>{};
+  const RunComparison comparison = compare_runs(read_run(arguments.first, model.get()),
+                                                read_run(arguments.second, model.get()), arguments.options);
+  if (!arguments.json.empty()) write_file(arguments.json, to_json(comparison, turns));
+  if (!arguments.html.empty()) write_file(arguments.html, render_comparison_html(comparison, turns));
+  if (arguments.json != "-" && arguments.html != "-") print(to_text(comparison, turns));
+  return comparison.same() ? kNothingFound : kFindings;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Program& program) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare two runs signal by signal: where they part, and by how much");
+  command->add_option("FIRST", arguments->first, "A log, such as a good run")->required();
+  command->add_option("SECOND", arguments->second, "Another log of the same robot")->required();
+  command
+      ->add_option("--model", arguments->model,
+                   "Model of the robot: its columns and units, and residuals of both runs")
+      ->type_name("MODEL");
+  add_choice_option(
+      *command, "--align", kAlignments,
+      [arguments](std::size_t place) { arguments->options.align = static_cast<AlignmentKind>(place); },
+      "time: each from its first row; motion: by the references, a constant shift or a warp; auto: motion where "
+      "that is better")
+      ->default_str(kAlignments.front());
+  add_file_option(*command, "--html", arguments->html, "Write a page with plots");
+  add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");
+  command->footer(
+      "Exit status 0: the same within noise, 1: the runs differ.\n"
+      "Example: faultline compare good.csv bad.csv --model robot.model --html compare.html");
+  command->callback([arguments, &program] { program.run = [arguments] { return run_compare(*arguments); }; });
+}
+
+}  // namespace faultline

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "lib/compare/compare_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/compare/signal_value.hpp"
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/error.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kGap = 4.0;         // sample periods without a sample
+constexpr double kOtherPace = 0.02;  // a torque is judged while the second run is no more faster or slower
+constexpr double kErrors = 3.0;      // how often errors of interpolation and time may be exceeded
+constexpr double kRounding = 1e-9;   // of the largest value: what the arithmetic alone may make
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+/// Of a normal variable, its magnitude exceeded once in 1 / `chance` samples at most (a bound on its tail).
+double sigmas_for(double chance) { return std::sqrt(-2.0 * elementary::log(chance / 2.0)); }
+
+/// One signal at the samples of the first run.
+class OneDifference {
+ public:
+  OneDifference(const RunSignal& first, const RunSignal& second, const RunComparison& all,
+                const CompareOptions& options)
+      : first_(first), second_(second), all_(all), options_(options) {
+    found_.quantity = first.quantity;
+    found_.joint = first.joint;
+    const double a = noise_of(first.values), b = noise_of(second.values);
+    const double rounding = kRounding * std::max(largest_of(first.values), largest_of(second.values));
+    found_.noise = std::max(std::sqrt(a * a + b * b), rounding);
+    found_.threshold = all.sigmas * found_.noise;
+  }
+
+  SignalDifference take() {
+    for (std::size_t i = 0; i < first_.time.size(); ++i) add(first_.time[i], first_.values[i]);
+    if (count_ > 0) {
+      found_.rms = std::sqrt(squares_ / count_);
+      found_.beyond = beyond_ / count_;
+    }
+    if (found_.quantity == "torque" && other_pace_ > 0.0) {
+      found_.judged = false;
+      found_.diverges_s = std::numeric_limits<double>::quiet_NaN();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(double t, double value) {
+    const double at = all_.alignment.second_at(t), rate = all_.alignment.rate_at(t);
+    ValueBetween other = value_between(second_.time, second_.values, at, kGap * all_.second_period_s);
+    if (found_.quantity == "velocity") other.value *= rate;
+    const double d = other.value - value;
+    found_.time.push_back(t);
+    found_.first.push_back(value);
+    found_.second.push_back(other.value);
+    found_.difference.push_back(d);
+    if (!std::isfinite(d)) return;
+    count_ += 1.0;
+    squares_ += d * d;
+    other_pace_ += std::abs(rate - 1.0) > kOtherPace;
+    if (!(std::abs(d) <= std::abs(found_.largest))) found_.largest = d, found_.largest_s = t;
+    const bool leaves = std::abs(d) > found_.threshold + kErrors * (other.error + time_error(at));
+    beyond_ += leaves;
+    in_a_row_ = leaves ? in_a_row_ + 1 : 0;
+    if (in_a_row_ == 1) since_ = t;
+    if (in_a_row_ == options_.in_a_row && std::isnan(found_.diverges_s)) found_.diverges_s = since_;
+  }
+
+  /// What times that are not known better make of the signal's slope.
+  double time_error(double at) const {
+    if (all_.alignment.uncertain_s <= 0.0) return 0.0;
+    const double h = all_.second_period_s, gap = kGap * h;
+    const double slope = (value_between(second_.time, second_.values, at + h, gap).value -
+                          value_between(second_.time, second_.values, at - h, gap).value) /
+                         (2.0 * h);
+    return std::isfinite(slope) ? std::abs(slope) * all_.alignment.uncertain_s : 0.0;
+  }
+
+  const RunSignal &first_, &second_;
+  const RunComparison& all_;
+  const CompareOptions& options_;
+  SignalDifference found_;
+  double count_ = 0.0, squares_ = 0.0, beyond_ = 0.0, other_pace_ = 0.0, since_ = 0.0;
+  int in_a_row_ = 0;
+};
+
+double overlap(const RunSignals& first, const RunSignals& second, const RunAlignment& alignment) {
+  if (alignment.warped()) return alignment.first_s.back() - alignment.first_s.front();
+  const double from = std::max(0.0, -alignment.shift_s);
+  return std::min(first.length_s, second.length_s - alignment.shift_s) - from;
+}
+
+void refuse_unlike(const RunSignals& first, const RunSignals& second) {
+  if (first.motion.size() == second.motion.size()) return;
+  throw Error(ErrorCode::input, second.name,
+              fmt::format("has {} joints and {} has {}; only runs of one robot can be compared",
+                          second.motion.size(), first.name, first.motion.size()));
+}
+
+std::vector<std::string> notes_of(const RunSignals& first, const RunSignals& second,
+                                  const RunComparison& all) {
+  std::vector<std::string> notes;
+  for (const char* quantity : {"velocity", "torque", "residual"}) {
+    const bool one = first.find(quantity, 1), other = second.find(quantity, 1);
+    if (one != other)
+      notes.push_back(
+          fmt::format("only {} has a {}; it is not compared", one ? first.name : second.name, quantity));
+  }
+  for (const SignalDifference& signal : all.signals)
+    if (!signal.judged) {
+      notes.push_back("torques are shown but not judged: moves that last differently need different torques");
+      break;
+    }
+  const double alone = std::max(first.length_s, second.length_s) - all.compared_s;
+  if (alone > std::max(first.period_s, second.period_s) * 2.0)
+    notes.push_back(
+        fmt::format("{:.3f} s of the longer run have nothing beside them and are not compared", alone));
+  return notes;
+}
+
+}  // namespace
+
+const SignalDifference* RunComparison::first_divergence() const {
+  const SignalDifference* earliest = nullptr;
+  for (const SignalDifference& signal : signals)
+    if (!std::isnan(signal.diverges_s) && (!earliest || signal.diverges_s < earliest->diverges_s))
+      earliest = &signal;
+  return earliest;
+}
+
+RunComparison compare_runs(RunSignals first, RunSignals second, const CompareOptions& options) {
+  refuse_unlike(first, second);
+  if (first.by_reference != second.by_reference) {
+    first = by_positions(std::move(first));
+    second = by_positions(std::move(second));
+  }
+  RunComparison all;
+  all.first = first.name;
+  all.second = second.name;
+  all.first_length_s = first.length_s;
+  all.second_length_s = second.length_s;
+  all.first_period_s = first.period_s;
+  all.second_period_s = second.period_s;
+  all.alignment = align_runs(first, second, options.align);
+  all.compared_s = overlap(first, second, all.alignment);
+  if (!(all.compared_s > 0.0))
+    throw Error(ErrorCode::input, second.name, "has no time in common with " + first.name);
+  double samples = 0.0;
+  for (const RunSignal& signal : first.signals) samples += static_cast<double>(signal.time.size());
+  all.sigmas = sigmas_for(options.false_alarms / samples);
+  for (const RunSignal& signal : first.signals)
+    if (const RunSignal* other = second.find(signal.quantity, signal.joint))
+      all.signals.push_back(OneDifference(signal, *other, all, options).take());
+  all.notes = notes_of(first, second, all);
+  return all;
+}
+
+}  // namespace faultline

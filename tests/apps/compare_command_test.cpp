@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/batch/batch_world.hpp"
+
+namespace faultline {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Two runs of one motion, the second with a fault from 2 s when `faulty`.
+std::string write_run(const TemporaryFolder& folder, const std::string& name, std::uint64_t seed,
+                      bool faulty) {
+  SimulationSpec spec = small_run(6.0);
+  spec.motion.points = {{-0.30}, {0.0}, {-0.12}};
+  spec.motion.move_min_s = spec.motion.move_max_s = 1.3;
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
+  if (faulty)
+    spec.faults = {{FaultKind::free_swinging, 1, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
+  const std::string path = folder.file(name);
+  write_log(path, simulate(small_robot(), spec, seed).log);
+  return path;
+}
+
+TEST(CompareCommand, TellsTheSameFromTheOtherByItsStatus) {
+  const TemporaryFolder folder;
+  const std::string a = write_run(folder, "a.csv", 1, false), b = write_run(folder, "b.csv", 2, false),
+                    bad = write_run(folder, "bad.csv", 3, true);
+  const ProgramRun same = run_program({"compare", a, b});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_NE(same.out.find("The runs are the same within noise."), std::string::npos);
+  const std::string page = folder.file("page.html");
+  const ProgramRun other = run_program({"compare", a, bad, "--html", page, "--json", "-"});
+  EXPECT_EQ(other.status, 1) << other.err;
+  const Json json = Json::parse(other.out);
+  EXPECT_EQ(json["schema"], "faultline/comparison/1");
+  EXPECT_EQ(json["same"], false);
+  EXPECT_NEAR(json["diverges_s"].get<double>(), 2.0, 0.1);
+  EXPECT_NE(read_file(page).find("The runs differ from"), std::string::npos);
+  const ProgramRun again = run_program({"compare", a, bad, "--html", "-"});
+  EXPECT_EQ(again.out, read_file(page));
+}
+
+TEST(CompareCommand, ShowsResidualsOfBothWithAModel) {
+  const BatchWorld world;
+  const TemporaryFolder folder;
+  const std::string a = write_run(folder, "a.csv", 1, false), bad = write_run(folder, "bad.csv", 3, true);
+  const ProgramRun run = run_program(
+      {"compare", a, bad, "--model", world.model(), "--json", "-", "--html", folder.file("page.html")});
+  EXPECT_EQ(run.status, 1) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["signals"].back()["quantity"], "residual");
+  EXPECT_GT(std::abs(json["signals"].back()["largest"].get<double>()), 10.0);
+  EXPECT_EQ(json["signals"][0]["unit"], "m") << "the model knows that the joint slides";
+  EXPECT_NE(read_file(folder.file("page.html")).find("Residual of joint 1"), std::string::npos);
+}
+
+TEST(CompareCommand, WhatCannotBeComparedIsSaid) {
+  const TemporaryFolder folder;
+  const std::string a = write_run(folder, "a.csv", 1, false);
+  EXPECT_EQ(run_program({"compare", a, folder.file("none.csv")}).status, 3);
+  EXPECT_EQ(run_program({"compare", a, folder.write("words.csv", "one,two\nthree,four\n")}).status, 3);
+  EXPECT_EQ(run_program({"compare", a}).status, 2);
+  EXPECT_EQ(run_program({"compare", a, a, "--align", "space"}).status, 2);
+  const ProgramRun over = run_program({"compare", a, a, "--json", a});
+  EXPECT_EQ(over.status, 2);
+  EXPECT_NE(over.err.find("would overwrite"), std::string::npos) << over.err;
+}
+
+}  // namespace
+}  // namespace faultline
