@@ -21,6 +21,8 @@ constexpr double kOutlier = 0.01;      // squared distance in shares of the moti
 constexpr double kSameMotion = 0.05;   // rms left, in shares of the motion
 constexpr double kBetter = 0.5;        // a shift or a warp leaves at most this share of what was left without
 constexpr double kSlow = 0.05;         // share of the rms speed below which a time tells nothing
+constexpr double kAgreesAWhile = 0.25;  // of the time, by positions: runs of one motion that a fault parts
+constexpr double kMoreAgreeing = 0.2;   // of the time: what a shift must gain then
 constexpr int kRefinements = 6;
 constexpr std::size_t kRefined = 8;    // shifts that are refined
 constexpr double kNearlyAsGood = 4.0;  // as the best, before they are
@@ -67,6 +69,16 @@ class Motions {
       if (!std::isnan(d)) sum += std::min(d, 1.0), count += 1.0;
     }
     return count > 0.0 ? std::sqrt(sum / count) : kNaN;
+  }
+
+  /// Share of the time in which the motions agree.
+  double agreeing(const RunAlignment& alignment, double step) const {
+    double agree = 0.0, count = 0.0;
+    for (double t = 0.0; t <= first_.length_s; t += step) {
+      const double d = squared(first_at(t), second_at(alignment.second_at(t)));
+      if (!std::isnan(d)) agree += d <= kSameMotion * kSameMotion, count += 1.0;
+    }
+    return count > 0.0 ? agree / count : 0.0;
   }
 
   /// Time to add to `at` in the second run so that it is where the first is at `t`, by the speed there; NaN
@@ -219,11 +231,15 @@ RunAlignment warp_of(const Motions& motions, const RunSignals& first, const RunS
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
 RunAlignment finished(RunAlignment alignment, const std::string& basis, double without, bool is_only_time) {
-  alignment.same_motion = alignment.left_rms <= kSameMotion;
-  const std::string left = percent(alignment.left_rms) + " of the motion (rms)";
+  const bool agrees = alignment.left_rms <= kSameMotion;
+  alignment.same_motion = agrees || alignment.parts;
+  const std::string left = agrees || !alignment.parts
+                               ? percent(alignment.left_rms) + " of the motion (rms)"
+                               : fmt::format("{:.0f} % of the motion in {:.0f} % of the time, and part then",
+                                             100.0 * kSameMotion, 100.0 * alignment.agreeing);
   if (!alignment.same_motion) {
-    alignment.why = "the runs are different motions: at best alignment the " + basis + " are still " + left +
-                    " apart, so what differs is the motion and not the robot";
+    alignment.why = "at best alignment the " + basis + " are still " + left +
+                    " apart, so what differs is the motion, not the robot";
   } else if (alignment.warped()) {
     const double first = alignment.first_s.back() - alignment.first_s.front();
     const double second = alignment.second_s.back() - alignment.second_s.front();
@@ -267,21 +283,29 @@ RunAlignment align_runs(const RunSignals& first, const RunSignals& second, Align
   const std::string basis = first.by_reference ? "references" : "positions (no references were recorded)";
   const double step = coarse_step(first, second);
   RunAlignment plain;
-  plain.left_rms = motions.left(plain, step);
+  const auto judge = [&](RunAlignment& alignment) {
+    alignment.left_rms = motions.left(alignment, step);
+    alignment.agreeing = motions.agreeing(alignment, step);
+    alignment.parts = !first.by_reference && alignment.agreeing >= kAgreesAWhile;
+  };
+  judge(plain);
   if (wanted == AlignmentKind::time) return finished(plain, basis, plain.left_rms, true);
   RunAlignment shifted;
   shifted.kind = AlignmentKind::motion;
   shifted.shift_s = best_shift(motions, first, second);
-  shifted.left_rms = motions.left(shifted, step);
+  judge(shifted);
   const bool shift_pays =
-      shifted.left_rms <= kBetter * plain.left_rms &&
+      (shifted.left_rms <= kBetter * plain.left_rms ||
+       (shifted.parts && shifted.agreeing >= plain.agreeing + kMoreAgreeing)) &&
       std::abs(shifted.shift_s) >= kLeastShift * std::min(first.period_s, second.period_s);
   RunAlignment best = shift_pays || (wanted == AlignmentKind::motion && !(plain.left_rms < shifted.left_rms))
                           ? shifted
                           : plain;
-  if (best.left_rms > kSameMotion) {
+  const bool may_warp = first.by_reference || wanted == AlignmentKind::motion;
+  if (best.left_rms > kSameMotion && !best.parts && may_warp) {
     RunAlignment warp = warp_of(motions, first, second);
-    warp.left_rms = motions.left(warp, step);
+    judge(warp);
+    warp.parts = false;
     if (warp.left_rms <= kSameMotion && warp.left_rms <= kBetter * best.left_rms) best = warp;
   }
   return finished(best, basis, plain.left_rms, false);

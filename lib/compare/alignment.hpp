@@ -12,7 +12,8 @@ namespace faultline {
 enum class AlignmentKind {
   automatic,  ///< motion where that is better than time
   time,       ///< each from its first row
-  motion,     ///< by the motion: a constant shift, or a monotone warp where none suits
+  motion,     ///< by the motion: a constant shift, or a monotone warp where none suits; by positions alone a
+              ///< warp is taken for `motion` only, since it would follow what a fault does to them, too
 };
 
 /// Which time of the second run belongs to a time of the first.
@@ -21,6 +22,8 @@ struct RunAlignment {
   double shift_s = 0.0;                      ///< the second run is later by it
   std::vector<double> first_s, second_s;     ///< of a warp: increasing, points in between by straight lines
   double left_rms = 0.0;  ///< of the motions' difference then, in shares of how far the motion goes
+  double agreeing = 0.0;  ///< share of the time in which the motions agree
+  bool parts = false;     ///< positions that agree for a while only: one motion, until a fault parts the runs
   bool same_motion = true;
   double uncertain_s = 0.0;  ///< how far times may be off, standard deviation
   std::string why;           ///< a sentence

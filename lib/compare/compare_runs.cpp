@@ -25,6 +25,13 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
+double rms_of(const std::vector<double>& values) {
+  double squares = 0.0, count = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) squares += v * v, count += 1.0;
+  return count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Of a normal variable, its magnitude exceeded once in 1 / `chance` samples at most (a bound on its tail).
 double sigmas_for(double chance) { return std::sqrt(-2.0 * elementary::log(chance / 2.0)); }
 
@@ -48,7 +55,10 @@ class OneDifference {
       found_.rms = std::sqrt(squares_ / count_);
       found_.beyond = beyond_ / count_;
     }
-    if (found_.quantity == "torque" && other_pace_ > 0.0) {
+    found_.first_rms = rms_of(first_.values);
+    found_.second_rms = rms_of(second_.values);
+    const bool other_motion = !all_.alignment.same_motion && found_.quantity != "residual";
+    if (other_motion || (found_.quantity == "torque" && other_pace_ > 0.0)) {
       found_.judged = false;
       found_.diverges_s = std::numeric_limits<double>::quiet_NaN();
     }
@@ -117,8 +127,14 @@ std::vector<std::string> notes_of(const RunSignals& first, const RunSignals& sec
       notes.push_back(
           fmt::format("only {} has a {}; it is not compared", one ? first.name : second.name, quantity));
   }
+  if (!all.alignment.same_motion)
+    notes.push_back(
+        first.find("residual", 1)
+            ? "signals of different motions must differ and are not judged; residuals are"
+            : "signals of different motions must differ and are not judged; with --model the residuals of "
+              "both are compared, which do not follow from the motion");
   for (const SignalDifference& signal : all.signals)
-    if (!signal.judged) {
+    if (!signal.judged && all.alignment.same_motion) {
       notes.push_back("torques are shown but not judged: moves that last differently need different torques");
       break;
     }

@@ -27,8 +27,11 @@ struct SignalDifference {
   double threshold = 0.0;  ///< what the noise alone does not leave
   double beyond = 0.0;     ///< share of samples beyond what noise and interpolation explain
   double diverges_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: never leaves the noise
-  bool judged = true;  ///< false: a torque while the moves last differently, which must differ
-  std::vector<double> time, first, second, difference;  ///< NaN where a run has nothing
+  bool judged = true;  ///< false: must differ, as torques when the moves last differently, or all but
+                       ///< residuals of different motions
+  double first_rms = std::numeric_limits<double>::quiet_NaN();   ///< of the first run's signal alone
+  double second_rms = std::numeric_limits<double>::quiet_NaN();  ///< likewise
+  std::vector<double> time, first, second, difference;           ///< NaN where a run has nothing
 };
 
 /// Two runs, signal by signal.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,8 @@ Json signal_json(const SignalDifference& s, const std::vector<char>& turns) {
           {"joint", s.joint},
           {"unit", unit_of(s.quantity, turns_at(turns, s.joint))},
           {"rms", number_or_null(s.rms)},
+          {"first_rms", number_or_null(s.first_rms)},
+          {"second_rms", number_or_null(s.second_rms)},
           {"largest", number_or_null(s.largest)},
           {"largest_s", number_or_null(s.largest_s)},
           {"noise", number_or_null(s.noise)},
@@ -69,7 +72,15 @@ const char* unit_of(const std::string& quantity, bool turns) {
 
 std::string verdict_of(const RunComparison& comparison) {
   const SignalDifference* first = comparison.first_divergence();
-  if (!comparison.alignment.same_motion) return "The runs are different motions.";
+  if (!comparison.alignment.same_motion) {
+    const std::string motions = "The runs are different motions";
+    if (first)
+      return fmt::format("{}; their residuals differ from {} on, first that of joint {}.", motions,
+                         seconds_text(first->diverges_s), first->joint);
+    const bool judged = std::any_of(comparison.signals.begin(), comparison.signals.end(),
+                                    [](const SignalDifference& signal) { return signal.judged; });
+    return judged ? motions + "; their residuals are the same within noise." : motions + ".";
+  }
   if (!first) return "The runs are the same within noise.";
   return fmt::format("The runs differ from {} on: first the {} of joint {}.", seconds_text(first->diverges_s),
                      first->quantity, first->joint);
@@ -89,6 +100,12 @@ std::string to_text(const RunComparison& comparison, const std::vector<char>& tu
   text += fmt::format("  {:<9}{:>5}  {:<6}{:>10}{:>11}{:>12}{:>11}{:>12}\n", "", "joint", "unit", "rms",
                       "largest", "at", "threshold", "leaves it");
   for (const SignalDifference& signal : comparison.signals) text += line_of(signal, turns);
+  for (const SignalDifference& signal : comparison.signals)
+    if (signal.quantity == "residual")
+      text += fmt::format(
+          "{}  residual of joint {} alone, rms: {} in the first run, {} in the second (1 as in healthy logs)\n",
+          signal.joint == 1 ? "\n" : "", signal.joint, value_text(signal.first_rms),
+          value_text(signal.second_rms));
   text += "\n" +
           wrapped(fmt::format("Threshold: {:.3g} times the noise of both signals, estimated from their third "
                               "differences; a signal leaves it with three samples in a row.",
@@ -117,6 +134,7 @@ std::string to_json(const RunComparison& comparison, const std::vector<char>& tu
             {{"by", kind_text(alignment)},
              {"shift_s", alignment.warped() ? Json(nullptr) : Json(alignment.shift_s)},
              {"left_rms", number_or_null(alignment.left_rms)},
+             {"agreeing", alignment.agreeing},
              {"same_motion", alignment.same_motion},
              {"why", alignment.why},
              {"warp", warp}}},

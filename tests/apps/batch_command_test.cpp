@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lib/model/model_files.hpp"
 #include "tests/batch/batch_world.hpp"
 
 namespace faultline {
@@ -106,11 +107,14 @@ TEST(BatchCommand, ThreadsShardsAndCopiesOfTheLogsChangeNoByte) {
   EXPECT_NE(missing.err.find("are missing"), std::string::npos) << missing.err;
 }
 
-/// Another model is the same one with other bytes.
+/// The same robot under another name, which is another model.
 std::string second_model(const BatchWorld& world) {
   const std::string path = world.file("second.model");
-  write_file(path, read_file(world.model()) + "\n");
-  fs::copy_file(case_base_path(world.model()), case_base_path(path));
+  auto [model, cases] = load_model_files(world.model(), case_base_path(world.model()));
+  model.name = "second";
+  bind_cases(model, cases);
+  write_file(path, model_to_json(model));
+  write_case_base(case_base_path(path), cases);
   return path;
 }
 

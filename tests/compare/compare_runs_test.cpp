@@ -34,6 +34,25 @@ Log without_head(const Log& log, double seconds) {
   return slice(log, first, log.rows());
 }
 
+/// A motion without dynamics, at other times in the second run.
+Log timed(double duration_s, double stretch, std::uint64_t seed, double fault_from = 1e9) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  Log log;
+  log.q.resize(2);
+  log.q_ref.resize(2);
+  for (int i = 0; i * 0.01 <= duration_s; ++i) {
+    const double t = i * 0.01, phase = t + stretch * std::sin(0.5 * t);
+    log.time.push_back(t);
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double q = std::sin(0.9 * phase + double(j)) + 0.4 * std::sin(2.3 * phase);
+      log.q_ref[j].push_back(q);
+      log.q[j].push_back(q + noise(random) + (j == 1 && phase > fault_from ? 0.01 : 0.0));
+    }
+  }
+  return log;
+}
+
 RunComparison compared(const Log& a, const Log& b, AlignmentKind align = AlignmentKind::automatic) {
   return compare_runs(run_signals("a.csv", a), run_signals("b.csv", b), {.align = align});
 }
@@ -111,23 +130,36 @@ TEST(CompareRuns, OfDifferentMotionsSayThatTheMotionDiffers) {
   EXPECT_NE(verdict_of(c).find("different motions"), std::string::npos);
 }
 
-/// A motion without dynamics, at other times in the second run.
-Log timed(double duration_s, double stretch, std::uint64_t seed, double fault_from = 1e9) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> noise(0.0, 1e-4);
-  Log log;
-  log.q.resize(2);
-  log.q_ref.resize(2);
-  for (int i = 0; i * 0.01 <= duration_s; ++i) {
-    const double t = i * 0.01, phase = t + stretch * std::sin(0.5 * t);
-    log.time.push_back(t);
-    for (std::size_t j = 0; j < 2; ++j) {
-      const double q = std::sin(0.9 * phase + double(j)) + 0.4 * std::sin(2.3 * phase);
-      log.q_ref[j].push_back(q);
-      log.q[j].push_back(q + noise(random) + (j == 1 && phase > fault_from ? 0.01 : 0.0));
-    }
+TEST(CompareRuns, ASevereFaultWithoutReferencesIsNoOtherMotion) {
+  SimulationSpec good = fixed_motion(15.0), bad = good;
+  good.record_reference = bad.record_reference = false;
+  bad.faults = {{FaultKind::free_swinging, 1, 7.9, std::numeric_limits<double>::infinity(), 0, 0}};
+  for (const double head : {0.0, 0.25}) {
+    const RunComparison c = compared(run_of(good, 1), without_head(run_of(bad, 2), head));
+    EXPECT_TRUE(c.alignment.same_motion) << told(c);
+    EXPECT_FALSE(c.alignment.warped());
+    EXPECT_NEAR(c.alignment.shift_s, -head, 1e-3);
+    ASSERT_NE(c.first_divergence(), nullptr) << told(c);
+    EXPECT_NEAR(c.first_divergence()->diverges_s, 7.95, 0.1) << told(c);
   }
-  return log;
+}
+
+TEST(CompareRuns, OnlyResidualsOfDifferentMotionsAreJudged) {
+  RunSignals a = run_signals("a", timed(20.0, 0.0, 1)), b = run_signals("b", timed(20.0, 9.0, 2));
+  EXPECT_EQ(compare_runs(a, b).first_divergence(), nullptr);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (RunSignals* run : {&a, &b}) {
+    RunSignal residual{"residual", 1, a.signals[0].time, {}};
+    for (const double t : residual.time)
+      residual.values.push_back(noise(random) + (run == &b && t > 7.9 ? 20.0 : 0.0));
+    run->signals.push_back(residual);
+  }
+  const RunComparison c = compare_runs(a, b);
+  ASSERT_FALSE(c.alignment.same_motion) << told(c);
+  ASSERT_NE(c.first_divergence(), nullptr);
+  EXPECT_NEAR(c.first_divergence()->diverges_s, 7.9, 0.05);
+  EXPECT_NE(verdict_of(c).find("their residuals differ from 7.9"), std::string::npos) << verdict_of(c);
 }
 
 TEST(CompareRuns, MovesThatLastDifferentlyAreAlignedByAWarp) {

@@ -134,7 +134,8 @@ std::string close_up(const RunComparison& c, const std::vector<char>& turns) {
   const SignalDifference* first = c.first_divergence();
   if (!first) return "";
   const double around = kAround * c.compared_s;
-  const TimeSpan span{first->diverges_s - around, first->diverges_s + around};
+  const TimeSpan span{std::max(first->diverges_s - around, 0.0),
+                      std::min(first->diverges_s + around, c.first_length_s)};
   std::vector<NamedPlot> plots;
   for (const SignalDifference& signal : c.signals)
     if (signal.joint == first->joint && !std::isnan(signal.rms))
