@@ -7,198 +7,21 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/compare/signal_value.hpp"
+#include "lib/compare/best_shift.hpp"
+#include "lib/compare/motion_pair.hpp"
 #include "lib/compare/warp.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kCoarse = 1200;          // samples when the shift is looked for
-constexpr int kFine = 20000;           // samples when it is refined
-constexpr double kLeastOverlap = 0.5;  // of the shorter run
-constexpr double kOutlier = 0.01;      // squared distance in shares of the motion that counts no further
-constexpr double kSameMotion = 0.05;   // rms left, in shares of the motion
-constexpr double kBetter = 0.5;        // a shift or a warp leaves at most this share of what was left without
-constexpr double kSlow = 0.05;         // share of the rms speed below which a time tells nothing
+constexpr double kBetter = 0.5;  // a shift or a warp leaves at most this share of what was left without
 constexpr double kAgreesAWhile = 0.25;  // of the time, by positions: runs of one motion that a fault parts
 constexpr double kMoreAgreeing = 0.2;   // of the time: what a shift must gain then
 constexpr int kRefinements = 6;
-constexpr std::size_t kRefined = 8;    // shifts that are refined
-constexpr double kNearlyAsGood = 4.0;  // as the best, before they are
-constexpr double kAgreeing = 1e-4;     // squared distance, in shares of the motion, of motions that agree
-constexpr double kLeastShift = 0.1;    // sample periods
-constexpr double kGap = 4.0;           // sample periods without a sample
+constexpr double kLeastShift = 0.1;  // sample periods
 
-/// Both motions on the scale of the first: 1 is the standard deviation of a joint.
-class Motions {
- public:
-  Motions(const RunSignals& first, const RunSignals& second) : first_(first), second_(second) {
-    for (const RunSignal& signal : first.motion)
-      scale_.push_back(1.0 / std::max(spread(signal.values), 1e-9));
-  }
-
-  /// Of all joints, scaled; NaN where a run has none.
-  std::vector<double> first_at(double t) const { return at(first_, t); }
-  std::vector<double> second_at(double t) const { return at(second_, t); }
-
-  /// Mean of squared distances that count up to kOutlier; infinite with too little overlap.
-  double cost(double shift, double step) const {
-    double sum = 0.0, count = 0.0;
-    for (double t = std::max(0.0, -shift); t <= first_.length_s; t += step) {
-      const double d = squared(first_at(t), second_at(t + shift));
-      if (std::isnan(d)) continue;
-      sum += std::min(d, kOutlier);
-      count += 1.0;
-    }
-    const double shorter = std::min(first_.length_s, second_.length_s);
-    return count * step < kLeastOverlap * shorter ? std::numeric_limits<double>::infinity() : sum / count;
-  }
-
-  static double squared(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0.0;
-    for (std::size_t j = 0; j < a.size(); ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);
-    return sum / static_cast<double>(a.size());
-  }
-
-  /// rms of what is left, outliers included; where times are known.
-  double left(const RunAlignment& alignment, double step) const {
-    double sum = 0.0, count = 0.0;
-    for (double t = 0.0; t <= first_.length_s; t += step) {
-      const double d = squared(first_at(t), second_at(alignment.second_at(t)));
-      if (!std::isnan(d)) sum += std::min(d, 1.0), count += 1.0;
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : kNaN;
-  }
-
-  /// Share of the time in which the motions agree.
-  double agreeing(const RunAlignment& alignment, double step) const {
-    double agree = 0.0, count = 0.0;
-    for (double t = 0.0; t <= first_.length_s; t += step) {
-      const double d = squared(first_at(t), second_at(alignment.second_at(t)));
-      if (!std::isnan(d)) agree += d <= kSameMotion * kSameMotion, count += 1.0;
-    }
-    return count > 0.0 ? agree / count : 0.0;
-  }
-
-  /// Time to add to `at` in the second run so that it is where the first is at `t`, by the speed there; NaN
-  /// where it rests.
-  double correction(double t, double at, double slow) const {
-    const double h = 0.5 * second_.period_s;
-    const auto a = first_at(t), b = second_at(at), before = second_at(at - h), after = second_at(at + h);
-    double over = 0.0, under = 0.0;
-    for (std::size_t j = 0; j < a.size(); ++j) {
-      const double speed = (after[j] - before[j]) / (2.0 * h);
-      over += speed * (a[j] - b[j]);
-      under += speed * speed;
-    }
-    return std::sqrt(under) > slow ? over / under : kNaN;
-  }
-
-  double rms_speed() const {
-    double sum = 0.0, count = 0.0;
-    const double step = first_.length_s / kCoarse;
-    for (double t = step; t <= first_.length_s; t += step) {
-      const double d = squared(first_at(t), first_at(t - step));
-      if (!std::isnan(d)) sum += d, count += 1.0;
-    }
-    return count > 0.0 ? std::sqrt(sum / count * static_cast<double>(scale_.size())) / step : 0.0;
-  }
-
-  /// Noise of the motions, scaled, all joints together.
-  double noise() const {
-    double sum = 0.0;
-    for (std::size_t j = 0; j < scale_.size(); ++j)
-      for (const RunSignals* run : {&first_, &second_}) {
-        const double one = scale_[j] * noise_of(run->motion[j].values);
-        sum += one * one;
-      }
-    return std::sqrt(sum / static_cast<double>(scale_.size()));
-  }
-
- private:
-  static double spread(const std::vector<double>& values) {
-    double sum = 0.0, squares = 0.0, count = 0.0;
-    for (const double v : values)
-      if (std::isfinite(v)) sum += v, squares += v * v, count += 1.0;
-    return count > 0.0 ? std::sqrt(std::max(squares / count - sum / count * (sum / count), 0.0)) : 0.0;
-  }
-
-  std::vector<double> at(const RunSignals& run, double t) const {
-    std::vector<double> values;
-    for (std::size_t j = 0; j < scale_.size(); ++j)
-      values.push_back(scale_[j] *
-                       value_between(run.motion[j].time, run.motion[j].values, t, kGap * run.period_s).value);
-    return values;
-  }
-
-  const RunSignals &first_, &second_;
-  std::vector<double> scale_;
-};
-
-double coarse_step(const RunSignals& first, const RunSignals& second) {
-  const double longer = std::max(first.length_s, second.length_s);
-  return std::max(longer / kCoarse, std::max(first.period_s, second.period_s));
-}
-
-/// A shift and its cost.
-struct ShiftCost {
-  double shift = 0.0, cost = 0.0;
-};
-
-/// Shifts that are better than those beside them and not much worse than the best, smallest first.
-std::vector<ShiftCost> likely_shifts(const Motions& motions, const RunSignals& first,
-                                     const RunSignals& second) {
-  const double step = coarse_step(first, second);
-  const double most = std::max(first.length_s, second.length_s) * kLeastOverlap;
-  const auto steps = static_cast<int>(most / step);
-  std::vector<ShiftCost> all, likely;
-  for (int i = -steps; i <= steps; ++i) all.push_back({i * step, motions.cost(i * step, 3.0 * step)});
-  double least = std::numeric_limits<double>::infinity();
-  for (const ShiftCost& one : all) least = std::min(least, one.cost);
-  for (std::size_t i = 1; i + 1 < all.size(); ++i)
-    if (all[i].cost <= std::max(kNearlyAsGood * least, kAgreeing) && all[i].cost <= all[i - 1].cost &&
-        all[i].cost <= all[i + 1].cost)
-      likely.push_back(all[i]);
-  std::stable_sort(likely.begin(), likely.end(), [](const ShiftCost& a, const ShiftCost& b) {
-    return std::abs(a.shift) < std::abs(b.shift);
-  });
-  likely.resize(std::min(likely.size(), kRefined));
-  return likely;
-}
-
-double refined_shift(const Motions& motions, const RunSignals& first, double shift, double step) {
-  const double slow = kSlow * motions.rms_speed();
-  const double fine = std::max(first.period_s, first.length_s / kFine);
-  double most = 2.0 * step;
-  for (int i = 0; i < kRefinements; ++i, most /= 2.0) {
-    std::vector<double> corrections;
-    for (double t = 0.0; t <= first.length_s; t += fine)
-      if (const double c = motions.correction(t, t + shift, slow); std::abs(c) <= most)
-        corrections.push_back(c);
-    if (corrections.empty()) break;
-    std::nth_element(corrections.begin(), corrections.begin() + corrections.size() / 2, corrections.end());
-    shift += corrections[corrections.size() / 2];
-  }
-  return shift;
-}
-
-/// Of a motion that repeats, the smallest of the shifts that are as good.
-double best_shift(const Motions& motions, const RunSignals& first, const RunSignals& second) {
-  const double step = coarse_step(first, second);
-  std::vector<ShiftCost> refined;
-  double least = std::numeric_limits<double>::infinity();
-  for (const ShiftCost& likely : likely_shifts(motions, first, second)) {
-    const double shift = refined_shift(motions, first, likely.shift, step);
-    refined.push_back({shift, motions.cost(shift, 3.0 * step)});
-    least = std::min(least, refined.back().cost);
-  }
-  for (const ShiftCost& one : refined)
-    if (one.cost <= 2.0 * least + kAgreeing * kOutlier) return one.shift;
-  return 0.0;
-}
-
-MotionSamples sampled(const Motions& motions, const RunSignals& run, bool is_first, double step) {
+MotionSamples sampled(const MotionPair& motions, const RunSignals& run, bool is_first, double step) {
   MotionSamples samples;
   for (double t = 0.0; t <= run.length_s; t += step) {
     std::vector<double> now = is_first ? motions.first_at(t) : motions.second_at(t);
@@ -209,8 +32,8 @@ MotionSamples sampled(const Motions& motions, const RunSignals& run, bool is_fir
   return samples;
 }
 
-RunAlignment warp_of(const Motions& motions, const RunSignals& first, const RunSignals& second) {
-  const double step = coarse_step(first, second), speed = motions.rms_speed();
+RunAlignment warp_of(const MotionPair& motions, const RunSignals& first, const RunSignals& second) {
+  const double step = motions.coarse_step(), speed = motions.rms_speed();
   const auto places =
       warped_places(sampled(motions, first, true, step), sampled(motions, second, false, step));
   RunAlignment warp;
@@ -279,13 +102,14 @@ double RunAlignment::rate_at(double at) const {
 }
 
 RunAlignment align_runs(const RunSignals& first, const RunSignals& second, AlignmentKind wanted) {
-  const Motions motions(first, second);
+  const MotionPair motions(first, second);
   const std::string basis = first.by_reference ? "references" : "positions (no references were recorded)";
-  const double step = coarse_step(first, second);
+  const double step = motions.coarse_step();
   RunAlignment plain;
   const auto judge = [&](RunAlignment& alignment) {
-    alignment.left_rms = motions.left(alignment, step);
-    alignment.agreeing = motions.agreeing(alignment, step);
+    const auto fit = motions.fit([&](double t) { return alignment.second_at(t); }, step);
+    alignment.left_rms = fit.left_rms;
+    alignment.agreeing = fit.agreeing;
     alignment.parts = !first.by_reference && alignment.agreeing >= kAgreesAWhile;
   };
   judge(plain);

@@ -18,6 +18,10 @@ constexpr double kOtherPace = 0.02;  // a torque is judged while the second run 
 constexpr double kErrors = 3.0;      // how often errors of interpolation and time may be exceeded
 constexpr double kRounding = 1e-9;   // of the largest value: what the arithmetic alone may make
 
+/// Standard deviation of the difference of two residuals of healthy logs, each 1; at rest, where third
+/// differences mostly look, they are less.
+const double kHealthyResiduals = std::sqrt(2.0);
+
 double largest_of(const std::vector<double>& values) {
   double largest = 0.0;
   for (const double v : values)
@@ -45,7 +49,8 @@ class OneDifference {
     found_.joint = first.joint;
     const double a = noise_of(first.values), b = noise_of(second.values);
     const double rounding = kRounding * std::max(largest_of(first.values), largest_of(second.values));
-    found_.noise = std::max(std::sqrt(a * a + b * b), rounding);
+    const double known = first.quantity == "residual" ? kHealthyResiduals : rounding;
+    found_.noise = std::max(std::sqrt(a * a + b * b), known);
     found_.threshold = all.sigmas * found_.noise;
   }
 

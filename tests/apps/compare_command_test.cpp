@@ -57,6 +57,22 @@ TEST(CompareCommand, ShowsResidualsOfBothWithAModel) {
   EXPECT_NE(read_file(folder.file("page.html")).find("Residual of joint 1"), std::string::npos);
 }
 
+TEST(CompareCommand, ResidualsOfHealthyRunsOfDifferentMotionsAreTheSame) {
+  const BatchWorld world;
+  world.add_log("a.csv", 8.0, false, 11);
+  world.add_log("b.csv", 8.0, false, 12);
+  world.add_log("bad.csv", 8.0, true, 13);
+  const auto verdict = [&](const std::string& second) {
+    return std::string(
+        Json::parse(run_program({"compare", world.logs() + "/a.csv", world.logs() + "/" + second, "--model",
+                                 world.model(), "--json", "-"})
+                        .out)["verdict"]);
+  };
+  EXPECT_EQ(verdict("b.csv"), "The runs are different motions; their residuals are the same within noise.");
+  EXPECT_NE(verdict("bad.csv").find("their residuals differ from 4."), std::string::npos)
+      << verdict("bad.csv");
+}
+
 TEST(CompareCommand, WhatCannotBeComparedIsSaid) {
   const TemporaryFolder folder;
   const std::string a = write_run(folder, "a.csv", 1, false);

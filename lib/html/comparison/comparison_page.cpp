@@ -84,6 +84,15 @@ NamedPlot plot_of(const SignalDifference& signal, const std::string& unit, const
   return {fmt::format("{}-{}{}", signal.quantity, signal.joint, suffix), plot};
 }
 
+/// Where the page is too narrow for the table, keys scroll it, too.
+std::string scrolling(std::string table) {
+  const std::string plain = "<div class=\"wide\">";
+  if (table.starts_with(plain))
+    table.replace(0, plain.size(),
+                  "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"Differences\">");
+  return table;
+}
+
 std::string difference_table(const RunComparison& comparison, const std::vector<char>& turns) {
   std::vector<HtmlRow> rows;
   for (const SignalDifference& s : comparison.signals)
@@ -94,9 +103,9 @@ std::string difference_table(const RunComparison& comparison, const std::vector<
                     !s.judged                  ? "not judged"
                     : std::isnan(s.diverges_s) ? "-"
                                                : seconds_text(s.diverges_s)});
-  return html_table(
+  return scrolling(html_table(
       {"signal", "joint", "unit", "rms", "largest", "at", "threshold", "beyond it", "leaves the noise"},
-      rows);
+      rows));
 }
 
 std::string top(const RunComparison& c) {

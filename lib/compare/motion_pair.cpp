@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "lib/compare/motion_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/compare/signal_value.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kCoarse = 1200;          // samples when the shift is looked for
+constexpr double kGap = 4.0;           // sample periods without a sample
+constexpr double kLeastSpread = 1e-9;  // rad or m: a joint that stays does not divide by nothing
+
+double spread(const std::vector<double>& values) {
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) sum += v, squares += v * v, count += 1.0;
+  return count > 0.0 ? std::sqrt(std::max(squares / count - sum / count * (sum / count), 0.0)) : 0.0;
+}
+
+}  // namespace
+
+MotionPair::MotionPair(const RunSignals& first, const RunSignals& second) : first_(first), second_(second) {
+  for (const RunSignal& signal : first.motion)
+    scale_.push_back(1.0 / std::max(spread(signal.values), kLeastSpread));
+}
+
+void MotionPair::Tally::add(double d) {
+  if (std::isnan(d)) return;
+  squares += std::min(d, 1.0);
+  agree += d <= kSameMotion * kSameMotion;
+  count += 1.0;
+}
+
+MotionPair::Fit MotionPair::Tally::fit() const {
+  if (count == 0.0) return {kNaN, 0.0};
+  return {std::sqrt(squares / count), agree / count};
+}
+
+double MotionPair::cost(double shift, double step) const {
+  double sum = 0.0, count = 0.0;
+  for (double t = std::max(0.0, -shift); t <= first_.length_s; t += step) {
+    const double d = squared(first_at(t), second_at(t + shift));
+    if (std::isnan(d)) continue;
+    sum += std::min(d, kOutlier);
+    count += 1.0;
+  }
+  const double shorter = std::min(first_.length_s, second_.length_s);
+  return count * step < kLeastOverlap * shorter ? std::numeric_limits<double>::infinity() : sum / count;
+}
+
+double MotionPair::squared(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < a.size(); ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum / static_cast<double>(a.size());
+}
+
+double MotionPair::correction(double t, double at, double slow) const {
+  const double h = 0.5 * second_.period_s;
+  const auto a = first_at(t), b = second_at(at), before = second_at(at - h), after = second_at(at + h);
+  double over = 0.0, under = 0.0;
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const double speed = (after[j] - before[j]) / (2.0 * h);
+    over += speed * (a[j] - b[j]);
+    under += speed * speed;
+  }
+  return std::sqrt(under) > slow ? over / under : kNaN;
+}
+
+double MotionPair::rms_speed() const {
+  double sum = 0.0, count = 0.0;
+  const double step = first_.length_s / kCoarse;
+  for (double t = step; t <= first_.length_s; t += step) {
+    const double d = squared(first_at(t), first_at(t - step));
+    if (!std::isnan(d)) sum += d, count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count * static_cast<double>(scale_.size())) / step : 0.0;
+}
+
+double MotionPair::noise() const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < scale_.size(); ++j)
+    for (const RunSignals* run : {&first_, &second_}) {
+      const double one = scale_[j] * noise_of(run->motion[j].values);
+      sum += one * one;
+    }
+  return std::sqrt(sum / static_cast<double>(scale_.size()));
+}
+
+std::vector<double> MotionPair::at(const RunSignals& run, double t) const {
+  std::vector<double> values;
+  for (std::size_t j = 0; j < scale_.size(); ++j)
+    values.push_back(scale_[j] *
+                     value_between(run.motion[j].time, run.motion[j].values, t, kGap * run.period_s).value);
+  return values;
+}
+
+double MotionPair::coarse_step() const {
+  const double longer = std::max(first_.length_s, second_.length_s);
+  return std::max(longer / kCoarse, std::max(first_.period_s, second_.period_s));
+}
+
+}  // namespace faultline
