@@ -9,37 +9,14 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "apps/robot_log.hpp"
-#include "formats/log_formats.hpp"
-#include "lib/batch/choose_models.hpp"
-#include "lib/batch/merge_batches.hpp"
-#include "lib/batch/run_batch.hpp"
+#include "apps/work/batching.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
-
-struct BatchArguments {
-  std::vector<std::string> paths, models;  ///< of --model: MODEL or DIR=MODEL
-  std::string cases;
-  std::string folder, json, shard;
-  BatchOptions options;
-};
-
-/// "3/8": I from 1 to N or from 0 to N-1, so that both ways of numbering tasks do.
-void take_shard(const std::string& text, BatchOptions& options) {
-  if (text.empty()) return;
-  int i = 0, n = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || n < 1 || i < 0 || i > n)
-    throw Error(ErrorCode::usage, "--shard " + text, "is no part I/N with I from 1 to N, such as 2/8");
-  options.shard = i % n;
-  options.shards = n;
-}
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -68,83 +45,43 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
   return summary.status;
 }
 
-/// Models, and the folders whose logs they are for.
-struct BatchModels {
-  std::vector<ModelPaths> files;
-  std::vector<std::string> folders;  ///< of each; empty: for all other logs
-};
-
-BatchModels models_of(const BatchArguments& arguments) {
-  BatchModels models;
-  for (const std::string& given : arguments.models) {
-    const std::size_t split = given.find('=');
-    const bool plain = split == std::string::npos || std::filesystem::exists(given);
-    const std::string path = plain ? given : given.substr(split + 1);
-    if (path.empty() || (!plain && split == 0))
-      throw Error(ErrorCode::usage, "--model " + given, "names no folder or no model; give DIR=MODEL");
-    models.files.push_back({path, arguments.cases});
-    models.folders.push_back(plain ? "" : given.substr(0, split));
-  }
-  if (!arguments.cases.empty() && models.files.size() > 1)
-    throw Error(ErrorCode::usage, "--cases " + arguments.cases,
+/// Models as they were given on the command line, with the case base of the only one.
+void take_models(const std::vector<std::string>& given, const std::string& cases, BatchRequest& request) {
+  for (const std::string& argument : given) request.models.push_back(batch_model_of(argument));
+  if (cases.empty()) return;
+  if (given.size() > 1)
+    throw Error(ErrorCode::usage, "--cases " + cases,
                 "is for a batch of one model; of several, each has its case base beside it");
-  return models;
+  request.models.front().files.cases = cases;
 }
 
-std::vector<ModelFiles> load(const BatchModels& models) {
+std::vector<ModelFiles> load(const std::vector<BatchModel>& models) {
   std::vector<ModelFiles> loaded;
-  for (const ModelPaths& paths : models.files)
-    loaded.push_back(load_model_files(paths.model, paths.case_base()));
+  for (const BatchModel& model : models)
+    loaded.push_back(load_model_files(model.files.model, model.files.case_base()));
   return loaded;
 }
 
-/// Of a folder of results that a batch writes.
-void writes_batch(FileUse& files, const std::string& folder) {
-  for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
-    files.writes("-o", folder + "/" + name);
-  files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
-}
+struct BatchArguments : BatchRequest {
+  std::vector<std::string> given;  ///< of --model: MODEL or DIR=MODEL
+  std::string cases;
+};
 
-void claim_files(const BatchArguments& arguments, const BatchModels& models,
-                 const std::vector<BatchLog>& logs) {
-  FileUse files;
-  for (const BatchLog& log : logs) files.reads("the log", log.path);
-  for (const ModelPaths& model : models.files) files.reads(model);
-  writes_batch(files, arguments.folder);
-  files.writes("--json", arguments.json).claim();
-}
-
-int merge_shards(const std::vector<std::string>& folders, const std::string& into, const std::string& json) {
-  FileUse files;
-  for (const std::string& folder : folders) files.reads_below("the results of a shard", folder);
-  writes_batch(files, into);
-  files.writes("--json", json).claim();
-  return report(merge_batches(folders, into), into, json);
-}
-
-int run_command(BatchArguments arguments, ColorChoice color) {
-  BatchOptions& options = arguments.options;
-  take_shard(arguments.shard, options);
-  std::vector<BatchLog> logs = find_logs(arguments.paths, log_extensions());
-  if (logs.empty())
-    throw Error(ErrorCode::input, arguments.paths.front(),
-                "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
-  const BatchModels models = models_of(arguments);
-  choose_models(logs, models.folders);
-  claim_files(arguments, models, logs);
-  const std::vector<ModelFiles> loaded = load(models);
-  const OpenLog open = [](const std::string& path, const Robot& robot) {
-    return open_robot_log(path, robot);
-  };
+int run_command(BatchArguments request, ColorChoice color) {
+  BatchOptions& options = request.options;
+  take_shard(request.shard, options);
+  take_models(request.given, request.cases, request);
+  const std::vector<BatchLog> logs = claimed_logs(request);
+  const std::vector<ModelFiles> models = load(request.models);
   BatchResult result;
   {
     ProgressBar bar(color);
     options.progress = progress_to(bar);
-    result = run_batch(logs, open, loaded, arguments.folder, options);
+    result = run_batch_on(logs, models, request);
   }
   const int done = result.summary.all.logs - result.diagnosed;
   if (done > 0) tell(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
-  return report(result.summary, arguments.folder, arguments.json);
+  return report(result.summary, request.folder, request.json);
 }
 
 void add_merge(CLI::App& batch, Program& program) {
@@ -155,14 +92,16 @@ void add_merge(CLI::App& batch, Program& program) {
   merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
   add_file_option(*merge, "--json", *json, "Write the summary as JSON");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
-  merge->callback([=, &program] { program.run = [=] { return merge_shards(*folders, *into, *json); }; });
+  merge->callback([=, &program] {
+    program.run = [=] { return report(merge_shards(*folders, *into, *json), *into, *json); };
+  });
 }
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
   command
       .add_option(
-          "--model", arguments.models,
+          "--model", arguments.given,
           "Model made by faultline learn; DIR=MODEL for the logs below folder DIR (may be given often)")
       ->type_name("[DIR=]MODEL")
       ->allow_extra_args(false);
@@ -184,7 +123,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
 
 void refuse_incomplete(const BatchArguments& arguments) {
   if (arguments.paths.empty()) throw CLI::RequiredError("PATH (a log or a folder)");
-  if (arguments.models.empty()) throw CLI::RequiredError("--model");
+  if (arguments.given.empty()) throw CLI::RequiredError("--model");
   if (arguments.folder.empty()) throw CLI::RequiredError("-o,--output");
 }
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "apps/options.hpp"
+#include "apps/work/model_paths.hpp"
 
 namespace faultline {
 

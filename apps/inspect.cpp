@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
@@ -14,7 +13,6 @@
 #include "apps/suggestion/robot_guess.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/outgoing/json_text.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -70,12 +68,7 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
   if (arguments.suggest == "-") return kNothingFound;
   int status = kNothingFound;
   const auto inspections = inspect_all(arguments, color, status);
-  if (!arguments.json.empty()) {
-    nlohmann::ordered_json json{{"schema", "faultline/inspection/1"},
-                                {"logs", nlohmann::ordered_json::array()}};
-    for (const Inspection& inspection : inspections) json["logs"].push_back(inspection_json(inspection));
-    write_file(arguments.json, json_text(json));
-  }
+  if (!arguments.json.empty()) write_file(arguments.json, inspections_json(inspections));
   if (!arguments.html.empty() && !inspections.empty())
     write_file(arguments.html, inspection_page(inspections));
   const bool in_color = use_color(color, stdout);

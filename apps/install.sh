@@ -29,6 +29,8 @@ test_packages=(
   chromium fonts-dejavu-core
   # what is written is held against docs/schemas, and the documentation is built as a site
   python3-jsonschema mkdocs
+  # the Python module, its frames and the pictures of its example
+  pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib
   # CI checks the format of the sources
   clang-format
 )

@@ -6,21 +6,17 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "apps/carried_cases.hpp"
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/labels.hpp"
 #include "apps/learned_text.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/robot_log.hpp"
-#include "lib/cases/case_file.hpp"
-#include "lib/cases/possible_labels.hpp"
+#include "apps/work/learning.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/twin/twin_json.hpp"
@@ -36,41 +32,14 @@ struct LearnArguments : ModelPaths {
   LearnOptions options;
 };
 
-/// The logs that the user named, open, by what they are known to show.
-struct OpenLogs {
-  std::vector<std::unique_ptr<LogSource>> owners;
-  std::vector<LogSource*> healthy;
-  std::vector<LabelledLog> labelled;
-};
-
-/// The label of a log, if there is one that this robot can have. Throws Error(usage).
-std::optional<LogLabel> checked_label(const std::vector<LogLabel>& labels, const Robot& robot,
-                                      const std::string& log) {
-  const LogLabel* const found = label_of(labels, log);
-  if (!found) return {};
-  LogLabel label = *found;
-  label.label = with_tip(label.label, robot.joints());
-  check_place(robot.joints(), label.label, log + ", by its label");
-  return label;
-}
-
 OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   std::vector<LogLabel> labels;
   if (!arguments.labels.empty()) labels = read_labels(arguments.labels);
   OpenLogs open;
-  for (const std::string& log : arguments.logs) {
-    open.owners.push_back(open_robot_log(log, robot));
-    const std::optional<LogLabel> label = checked_label(labels, robot, log);
-    if (!label && !labels.empty())
+  for (const std::string& log : arguments.logs)
+    if (!open.add(log, open_robot_log(log, robot), labels, robot))
       tell(printable(log) + " is not named in " + printable(arguments.labels) + "; it counts as healthy");
-    if (label && label->label.kind != FaultKind::none)
-      open.labelled.push_back({open.owners.back().get(), label->label, label->onset_s});
-    else
-      open.healthy.push_back(open.owners.back().get());
-  }
-  if (open.healthy.empty())
-    throw Error(ErrorCode::usage, "faultline learn",
-                "all logs are labelled with faults; at least one log of a healthy run is needed");
+  open.require_healthy();
   return open;
 }
 
@@ -83,32 +52,6 @@ void claim_files(const LearnArguments& arguments) {
       .writes_case_base("--cases", arguments.case_base())
       .writes("--json", arguments.json)
       .claim();
-}
-
-/// Fails before the work begins rather than after it.
-void check_writable(const LearnArguments& arguments, const Robot& robot) {
-  const std::string path = arguments.case_base();
-  if (has_case_base(path))
-    check_can_carry_over(path, robot.joints());
-  else
-    const AtomicFile cases(path);
-  const AtomicFile model(arguments.model);
-}
-
-/// The case base first: it alone holds what nothing can make again. A kill between the two leaves two
-/// identities, which load_model_files() notices and learning again mends.
-std::optional<CarriedCases> write_model(Learned& learned, const LearnArguments& arguments) {
-  const std::string text = model_to_json(learned.model);
-  model_from_json(text, arguments.model);  // what is written can be read
-  AtomicFile model(arguments.model);
-  model.write(text);
-  std::optional<CarriedCases> carried;
-  replace_case_base(arguments.case_base(), [&](const CaseBase* there) {
-    if (there) carried = carry_over(*there, learned.cases);
-    return learned.cases;
-  });
-  model.commit();
-  return carried;
 }
 
 int show_twin(const LearnArguments& arguments) {
@@ -126,7 +69,7 @@ int run_learn(const LearnArguments& arguments, ColorChoice color) {
   check_writable(arguments, robot);
   ProgressBar bar(color);
   Learned learned = learn(logs.healthy, logs.labelled, robot, arguments.options, bar.callback());
-  const std::optional<CarriedCases> carried = write_model(learned, arguments);
+  const std::optional<CarriedCases> carried = write_model(learned.model, learned.cases, arguments);
   if (!arguments.json.empty()) write_file(arguments.json, learned_json(learned, carried));
   if (arguments.json != "-")
     print(learned_text(learned, arguments.model, arguments.case_base()) + carried_text(carried));

@@ -8,8 +8,6 @@
 
 namespace faultline {
 
-std::string ModelPaths::case_base() const { return cases.empty() ? case_base_path(model) : cases; }
-
 CLI::Option* add_model_option(CLI::App& command, ModelPaths& paths, const std::string& what) {
   return command.add_option("--model", paths.model, what)->type_name("MODEL");
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/work/model_paths.hpp"
 #include "lib/diagnosis/diagnose_options.hpp"
 
 namespace CLI {
@@ -16,13 +17,6 @@ class Option;
 /// Options that several commands have.
 namespace faultline {
 
-/// A model and its case base.
-struct ModelPaths {
-  std::string model;
-  std::string cases;  ///< empty: beside the model
-
-  std::string case_base() const;
-};
 CLI::Option* add_model_option(CLI::App& command, ModelPaths& paths,
                               const std::string& what = "Model made by faultline learn");
 /// `what` begins the help; that MODEL.cases.db is the default ends it.

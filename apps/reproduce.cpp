@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/reproduce.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/folder.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "lib/core/atomic_file.hpp"
+#include "apps/work/reproduction.hpp"
 #include "lib/reproduce/page/figure_text.hpp"
 
 namespace faultline {
@@ -24,15 +20,6 @@ struct ReproduceArguments {
   bool json = false;
   ReproduceOptions options;
 };
-
-/// Pictures first, the pages that name them last.
-void write_reproduction(const std::filesystem::path& folder, const Reproduction& reproduction,
-                        const std::string& json) {
-  for (const Figure& figure : reproduction.figures)
-    write_file((folder / (figure.id + ".svg")).string(), render_svg(figure.plot));
-  write_file((folder / "index.md").string(), reproduction_markdown(reproduction));
-  write_file((folder / "index.json").string(), json);
-}
 
 std::string goal_line(const Goal& goal) {
   return fmt::format("  {:<3}  {} {} (to reach: {} {} {})\n       {}\n", goal.reached() ? "yes" : "NO",
@@ -55,16 +42,11 @@ std::string summary(const Reproduction& reproduction, const std::string& folder)
 }
 
 int run_reproduce(const ReproduceArguments& arguments, ColorChoice color) {
-  arguments.options.check();
-  make_folder(arguments.folder);
-  Reproduction reproduction;
-  {
+  const ReproducedFolder made = [&] {
     ProgressBar bar(color);
-    reproduction = reproduce(arguments.options, bar.callback());
-  }
-  const std::string json = reproduction_json(reproduction);
-  write_reproduction(arguments.folder, reproduction, json);
-  print(arguments.json ? json : summary(reproduction, arguments.folder));
+    return reproduce_into(arguments.folder, arguments.options, bar.callback());
+  }();
+  print(arguments.json ? made.json : summary(made.reproduction, arguments.folder));
   return kNothingFound;
 }
 

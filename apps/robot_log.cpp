@@ -4,21 +4,26 @@
 #include <utility>
 
 #include "formats/open_log.hpp"
+#include "lib/log/mapped_source.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
 
 namespace faultline {
 
-std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
-                                          const LogSelection& parts) {
-  OpenLogOptions options;
-  options.parts = parts;
+std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const Robot& robot, int run) {
+  MappedSourceOptions options;
   options.columns = robot.log.columns;
-  options.recording = robot.log.recording;
+  options.run = run;
   options.keep_extra = false;
-  std::unique_ptr<LogSource> log = coupled(open_log(path, options), robot.log.coupling);
+  std::unique_ptr<LogSource> log =
+      coupled(std::make_unique<MappedSource>(std::move(reader), options), robot.log.coupling);
   if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;
   return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s, robot.torque_gain);
+}
+
+std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
+                                          const LogSelection& parts) {
+  return robot_log_of(open_parts(path, parts, robot.log.recording), robot, parts.run);
 }
 
 }  // namespace faultline

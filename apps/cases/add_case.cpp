@@ -5,10 +5,7 @@
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/cases/case_date.hpp"
-#include "apps/cases/case_text.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/terminal.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"
@@ -22,6 +19,9 @@ namespace faultline {
 namespace {
 
 Case case_told(const CasesArguments& arguments, const CaseBase& base) {
+  if (!arguments.diagnosis_text.empty())
+    return case_from_json(arguments.diagnosis_text, "the diagnosis", arguments.fault_id,
+                          base.feature_names());
   if (!arguments.diagnosis.empty())
     return case_from_json(read_file(arguments.diagnosis), arguments.diagnosis, arguments.fault_id,
                           base.feature_names());
@@ -107,7 +107,7 @@ Added add_to(CaseBase& base, const CasesArguments& arguments) {
 
 }  // namespace
 
-int add_case(const CasesArguments& arguments) {
+CasesAnswer add_case(const CasesArguments& arguments) {
   FileUse()
       .reads("the report", arguments.diagnosis)
       .writes_case_base("the case base", arguments.path())
@@ -119,9 +119,9 @@ int add_case(const CasesArguments& arguments) {
       added = add_to(there, arguments);
       base = there;
     });
-  if (!added.message.empty()) tell(added.message);
-  print_case(base, base.at(added.id), arguments, case_line(base, base.at(added.id)));
-  return kNothingFound;
+  CasesAnswer answer = answer_with(base, base.at(added.id));
+  answer.note = added.message;
+  return answer;
 }
 
 }  // namespace faultline

@@ -3,14 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/cases/case_date.hpp"
 #include "apps/cases/case_text.hpp"
-#include "apps/exit_status.hpp"
-#include "apps/terminal.hpp"
 #include "lib/cases/carry_over.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_hash.hpp"
@@ -33,16 +30,16 @@ bool is_asked_for(const CaseBase& base, const Case& c, const CasesArguments& arg
   return arguments.joint == 0 || c.label.joint == arguments.joint;
 }
 
-/// Changes the base in one transaction and prints the case whose id `change` returns.
-int change_and_print(const CasesArguments& arguments, const std::function<std::int64_t(CaseBase&)>& change) {
+/// Changes the base in one transaction; the answer is the case whose id `change` returns.
+CasesAnswer changed_by(const CasesArguments& arguments,
+                       const std::function<std::int64_t(CaseBase&)>& change) {
   CaseBase changed;
   std::int64_t id = 0;
   change_case_base(arguments.path(), [&](CaseBase& base) {
     id = change(base);
     changed = base;
   });
-  print_case(changed, changed.at(id), arguments, case_line(changed, changed.at(id)));
-  return kNothingFound;
+  return answer_with(changed, changed.at(id));
 }
 
 /// Who says it; a date is that of today only where something new is said.
@@ -69,12 +66,11 @@ std::optional<FaultLabel> CasesArguments::label(const CaseBase& base) const {
   return label;
 }
 
-void print_case(const CaseBase& base, const Case& c, const CasesArguments& arguments,
-                const std::string& text) {
-  print(arguments.json ? to_json(base, c).dump(2) + "\n" : text);
+CasesAnswer answer_with(const CaseBase& base, const Case& c, const std::string& before) {
+  return {to_json(base, c), before + case_line(base, c)};
 }
 
-int list_cases(const CasesArguments& arguments) {
+CasesAnswer list_cases(const CasesArguments& arguments) {
   const CaseBase base = read_case_base(arguments.path());
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::string text;
@@ -82,25 +78,20 @@ int list_cases(const CasesArguments& arguments) {
   for (const Case& c : base.cases()) {
     if (!is_asked_for(base, c, arguments)) continue;
     ++shown;
-    if (arguments.json)
-      json.push_back(to_json(base, c));
-    else
-      text += case_line(base, c);
+    json.push_back(to_json(base, c));
+    text += case_line(base, c);
   }
-  print(arguments.json ? json.dump(2) + "\n"
-                       : text + fmt::format("{} of {} cases\n", shown, base.cases().size()));
-  return kNothingFound;
+  return {std::move(json), text + fmt::format("{} of {} cases\n", shown, base.cases().size())};
 }
 
-int show_case(const CasesArguments& arguments) {
+CasesAnswer show_case(const CasesArguments& arguments) {
   const CaseBase base = read_case_base(arguments.path());
   const Case& c = base.at(arguments.id);
-  print_case(base, c, arguments, case_text(base, c));
-  return kNothingFound;
+  return {to_json(base, c), case_text(base, c)};
 }
 
-int confirm_case(const CasesArguments& arguments) {
-  return change_and_print(arguments, [&](CaseBase& base) {
+CasesAnswer confirm_case(const CasesArguments& arguments) {
+  return changed_by(arguments, [&](CaseBase& base) {
     const Case& c = base.at(arguments.id);
     const FaultLabel label = arguments.label(base).value_or(c.decision);
     base.confirm(c.id, label, arguments.done, signature_for(arguments, c, CaseOutcome::confirmed, label));
@@ -108,8 +99,8 @@ int confirm_case(const CasesArguments& arguments) {
   });
 }
 
-int reject_case(const CasesArguments& arguments) {
-  return change_and_print(arguments, [&](CaseBase& base) {
+CasesAnswer reject_case(const CasesArguments& arguments) {
+  return changed_by(arguments, [&](CaseBase& base) {
     const Case& c = base.at(arguments.id);
     const FaultLabel was = arguments.label(base).value_or(FaultLabel{FaultKind::unknown, 0});
     base.reject(c.id, was, arguments.done, signature_for(arguments, c, CaseOutcome::rejected, was));
@@ -117,7 +108,7 @@ int reject_case(const CasesArguments& arguments) {
   });
 }
 
-int delete_case(const CasesArguments& arguments) {
+CasesAnswer delete_case(const CasesArguments& arguments) {
   CaseBase base = read_case_base(arguments.path());
   const Case deleted = base.at(arguments.id);
   change_case_base(arguments.path(), [&](CaseBase& there) {
@@ -125,9 +116,10 @@ int delete_case(const CasesArguments& arguments) {
       throw Error(ErrorCode::usage, arguments.path(), "was changed meanwhile; look at the case again");
     there.remove(deleted.id);
   });
-  print_case(base, deleted, arguments, "deleted " + case_line(base, deleted));
-  if (is_made_by_learn(deleted)) tell("learn had made this case, and makes it again when it is run again");
-  return kNothingFound;
+  CasesAnswer answer = answer_with(base, deleted, "deleted ");
+  if (is_made_by_learn(deleted))
+    answer.note = "learn had made this case, and makes it again when it is run again";
+  return answer;
 }
 
 }  // namespace faultline

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "apps/options.hpp"
+#include "apps/work/model_paths.hpp"
 #include "lib/cases/case_base.hpp"
 
+/// The actions of faultline cases without what they print.
 namespace faultline {
 
 /// What the actions of faultline cases are asked for.
 struct CasesArguments : ModelPaths {
-  bool json = false;
   std::int64_t id = 0;
   std::string fault, outcome, origin, done, by, date, robot, diagnosis, file = "-";
+  std::string diagnosis_text;  ///< a diagnosis as JSON in place of the file of that name
   int joint = 0, fault_id = 1;
   bool replace = false, merge = false, confirmed = false;
 
@@ -24,17 +26,24 @@ struct CasesArguments : ModelPaths {
   std::optional<FaultLabel> label(const CaseBase& base) const;
 };
 
-void print_case(const CaseBase& base, const Case& c, const CasesArguments& arguments,
-                const std::string& text);
+/// What an action did, for programs and for people.
+struct CasesAnswer {
+  nlohmann::ordered_json json;  ///< null where there is nothing to tell
+  std::string text;
+  std::string note{};  ///< what the user would not expect; empty: nothing
+};
 
-// One function an action; each returns the exit status.
-int list_cases(const CasesArguments& arguments);
-int show_case(const CasesArguments& arguments);
-int add_case(const CasesArguments& arguments);
-int confirm_case(const CasesArguments& arguments);
-int reject_case(const CasesArguments& arguments);
-int delete_case(const CasesArguments& arguments);
-int export_cases(const CasesArguments& arguments);
-int import_cases(const CasesArguments& arguments);
+/// A case as an answer; `before` begins its line.
+CasesAnswer answer_with(const CaseBase& base, const Case& c, const std::string& before = "");
+
+// One function an action.
+CasesAnswer list_cases(const CasesArguments& arguments);
+CasesAnswer show_case(const CasesArguments& arguments);
+CasesAnswer add_case(const CasesArguments& arguments);
+CasesAnswer confirm_case(const CasesArguments& arguments);
+CasesAnswer reject_case(const CasesArguments& arguments);
+CasesAnswer delete_case(const CasesArguments& arguments);
+CasesAnswer export_cases(const CasesArguments& arguments);
+CasesAnswer import_cases(const CasesArguments& arguments);
 
 }  // namespace faultline

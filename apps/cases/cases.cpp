@@ -4,19 +4,33 @@
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/commands.hpp"
+#include "apps/exit_status.hpp"
+#include "apps/options.hpp"
 #include "lib/cases/case_file.hpp"
 
 namespace faultline {
 namespace {
 
-using Arguments = std::shared_ptr<CasesArguments>;
+struct CasesCommand : CasesArguments {
+  bool json = false;
+};
+using Arguments = std::shared_ptr<CasesCommand>;
+using Action = CasesAnswer (*)(const CasesArguments&);
+
+int run_action(const CasesCommand& arguments, Action action) {
+  const CasesAnswer answer = action(arguments);
+  if (!answer.note.empty()) tell(answer.note);
+  if (!answer.json.is_null()) print(arguments.json ? answer.json.dump(2) + "\n" : answer.text);
+  return kNothingFound;
+}
 
 CLI::App* add_action(CLI::App* cases, Program& program, const Arguments& arguments, const std::string& name,
-                     const std::string& what, int (*action)(const CasesArguments&)) {
+                     const std::string& what, Action action) {
   CLI::App* command = cases->add_subcommand(name, what);
   command->fallthrough();
-  command->callback(
-      [arguments, action, &program] { program.run = [arguments, action] { return action(*arguments); }; });
+  command->callback([arguments, action, &program] {
+    program.run = [arguments, action] { return run_action(*arguments, action); };
+  });
   return command;
 }
 
@@ -53,7 +67,7 @@ void add_signature(CLI::App* command, const Arguments& arguments) {
 }
 
 void add_revision(CLI::App* cases, Program& program, const Arguments& arguments, const std::string& name,
-                  const std::string& what, const std::string& label, int (*action)(const CasesArguments&)) {
+                  const std::string& what, const std::string& label, Action action) {
   CLI::App* command = add_action(cases, program, arguments, name, what, action);
   command->add_option("ID", arguments->id, "Number of the case")->required();
   add_label(command, arguments, label);
@@ -94,7 +108,7 @@ void add_writing_actions(CLI::App* cases, Program& program, const Arguments& arg
 }  // namespace
 
 void add_cases(CLI::App& app, Program& program) {
-  auto arguments = std::make_shared<CasesArguments>();
+  auto arguments = std::make_shared<CasesCommand>();
   CLI::App* cases = app.add_subcommand("cases", "Read and revise the case base of a model");
   cases->fallthrough();
   cases->require_subcommand(1);

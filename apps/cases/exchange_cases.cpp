@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "apps/cases/case_actions.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
-#include "apps/terminal.hpp"
 #include "lib/cases/carry_over.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"
@@ -74,15 +71,16 @@ void bind_to_model(CaseBase& imported, const std::string& path) {
 
 }  // namespace
 
-int export_cases(const CasesArguments& arguments) {
+CasesAnswer export_cases(const CasesArguments& arguments) {
   FileUse().reads(ModelPaths{arguments.model, arguments.path()}).writes("-o", arguments.file).claim();
   const CaseBase base = read_case_base(arguments.path());
   const CaseBase exported = arguments.confirmed ? confirmed_of(base) : base;
   write_file(arguments.file, to_cases_json(exported));
+  CasesAnswer answer;
   if (arguments.confirmed)
-    tell(fmt::format("{} of {} cases were confirmed or corrected in the field", exported.cases().size(),
-                     base.cases().size()));
-  return kNothingFound;
+    answer.note = fmt::format("{} of {} cases were confirmed or corrected in the field",
+                              exported.cases().size(), base.cases().size());
+  return answer;
 }
 
 /// What --replace drops, told before it is gone.
@@ -99,7 +97,7 @@ std::string replaced_text(const std::string& path) {
   }
 }
 
-int import_cases(const CasesArguments& arguments) {
+CasesAnswer import_cases(const CasesArguments& arguments) {
   FileUse()
       .reads("the export", arguments.file)
       .reads("the model", arguments.model)
@@ -119,12 +117,10 @@ int import_cases(const CasesArguments& arguments) {
   else
     write_case_base(path, imported);
   const std::size_t read = imported.cases().size();
-  const nlohmann::ordered_json json = {{"read", read}, {"added", merged.added}, {"updated", merged.updated}};
   const std::string updated = merged.updated > 0 ? fmt::format(", {} updated", merged.updated) : "";
-  print(arguments.json ? json.dump(2) + "\n"
-                       : fmt::format("{} read, {} added{}{}\n", counted(std::ssize(imported.cases()), "case"),
-                                     merged.added, updated, replaced));
-  return kNothingFound;
+  return {{{"read", read}, {"added", merged.added}, {"updated", merged.updated}},
+          fmt::format("{} read, {} added{}{}\n", counted(std::ssize(imported.cases()), "case"), merged.added,
+                      updated, replaced)};
 }
 
 }  // namespace faultline

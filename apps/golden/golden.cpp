@@ -4,36 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
-#include "apps/progress.hpp"
-#include "apps/robot_log.hpp"
-#include "lib/golden/golden_folder.hpp"
 
 namespace faultline {
-
-std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model) {
-  return open_robot_log(path, model.robot);
-}
-
-ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set) {
-  return arguments.model.empty() ? load_golden_model(arguments.folder, set)
-                                 : load_model_and_cases(arguments.model, arguments.case_base());
-}
-
-GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
-                     ColorChoice color) {
-  ProgressBar bar(color);
-  return replay(replay_logs(arguments.folder, set), subject, open_golden_log,
-                {set.trace_points, arguments.threads}, bar.callback());
-}
-
-void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set) {
-  const std::string what = "the golden folder's", folder = arguments.folder + "/";
-  files.reads(what, golden_file(arguments.folder));
-  for (const GoldenLog& log : set.logs)
-    files.reads(what, folder + log.log.path).reads(what, folder + log.trace.path);
-  files.reads(ModelPaths{folder + set.model.path, folder + set.cases.path}).reads(arguments);
-}
 
 int golden_status(const GoldenCheck& check) {
   if (check.damaged()) return kFileError;

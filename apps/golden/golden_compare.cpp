@@ -3,6 +3,7 @@
 
 #include "apps/file_use.hpp"
 #include "apps/golden/golden.hpp"
+#include "apps/progress.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/golden/check_text.hpp"
@@ -21,10 +22,17 @@ bool is_result(const std::string& text) {
   return text.substr(0, 200).find("\"faultline/golden-check/") != std::string::npos;
 }
 
+/// With the folder's own model.
+GoldenRun own_side(const CompareArguments& arguments, const GoldenSet& set, ColorChoice color) {
+  ProgressBar bar(color);
+  return golden_run(arguments, set, load_golden_model(arguments.folder, set), bar.callback());
+}
+
 GoldenRun side(const std::string& path, const CompareArguments& arguments, const GoldenSet& set,
                ColorChoice color) {
+  ProgressBar bar(color);
   if (const std::string text = read_file(path); is_result(text)) return run_from_json(text, path);
-  return golden_run(arguments, set, load_model_and_cases(path, case_base_path(path)), color);
+  return golden_run(arguments, set, load_model_and_cases(path, case_base_path(path)), bar.callback());
 }
 
 int run_compare(const CompareArguments& arguments, ColorChoice color) {
@@ -34,9 +42,8 @@ int run_compare(const CompareArguments& arguments, ColorChoice color) {
   for (const std::string& path : arguments.sides) files.reads(ModelPaths{path, ""});
   files.writes("--json", arguments.json).claim();
   const GoldenRun first = side(arguments.sides[0], arguments, set, color);
-  const GoldenRun second = arguments.sides.size() > 1
-                               ? side(arguments.sides[1], arguments, set, color)
-                               : golden_run(arguments, set, load_golden_model(arguments.folder, set), color);
+  const GoldenRun second = arguments.sides.size() > 1 ? side(arguments.sides[1], arguments, set, color)
+                                                      : own_side(arguments, set, color);
   const GoldenCheck check = compare_runs(set, first, second);
   if (!arguments.json.empty()) write_file(arguments.json, render_check_json(check, second));
   const bool in_color = use_color(color, stdout);

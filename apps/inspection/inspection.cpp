@@ -195,17 +195,22 @@ std::string verdict_sentence_of(const Inspection& inspection) {
                      warned > 0 ? ", " + counted(warned, "warning") : "");
 }
 
-Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
-                       const LogSelection& parts) {
-  auto reader = open_parts(path, parts, robot ? robot->log.recording : RecordingChoice{});
+Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optional<Robot>& robot,
+                           const Progress& progress, int run) {
   MappedSourceOptions options;
   if (robot && !reader->canonical()) options.columns = robot->log.columns;
-  options.run = parts.run;
+  options.run = run;
   const auto columns = reader->columns();
-  const std::string why_not = why_no_match(columns, options.columns, path);
+  const std::string why_not = why_no_match(columns, options.columns, reader->identity().path);
   if (!why_not.empty()) return inspect_table(*reader, why_not);
   MappedSource source(std::move(reader), options);
   return inspect_joint_log(source, columns, robot, progress);
+}
+
+Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
+                       const LogSelection& parts) {
+  return inspect_columns(open_parts(path, parts, robot ? robot->log.recording : RecordingChoice{}), robot,
+                         progress, parts.run);
 }
 
 }  // namespace faultline

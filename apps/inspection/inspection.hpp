@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
+#include "lib/log/raw_reader.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -57,7 +59,14 @@ std::string verdict_sentence_of(const Inspection& inspection);
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
                        const LogSelection& parts = {});
 
+/// The same of columns that are open already; what they mean says the robot, `run` counts where the clock
+/// restarts.
+Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optional<Robot>& robot,
+                           const Progress& progress, int run = 1);
+
 std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);
+/// Of several logs, schema "faultline/inspection/1".
+std::string inspections_json(const std::vector<Inspection>& inspections);
 
 }  // namespace faultline

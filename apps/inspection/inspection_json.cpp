@@ -5,6 +5,7 @@
 #include "apps/inspection/inspection.hpp"
 #include "lib/core/issue_json.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -123,6 +124,11 @@ Json inspection_json(const Inspection& inspection) {
   json["by_joint"] = list_of<Json>(inspection.checkup.joints, joint_json);
   json["analyses"] = list_of<Json>(inspection.analyses, analysis_json);
   return json;
+}
+
+std::string inspections_json(const std::vector<Inspection>& inspections) {
+  return json_text(
+      Json{{"schema", "faultline/inspection/1"}, {"logs", list_of<Json>(inspections, inspection_json)}});
 }
 
 }  // namespace faultline

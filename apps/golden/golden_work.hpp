@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/work/model_paths.hpp"
+#include "lib/golden/accept.hpp"
+#include "lib/golden/check.hpp"
+#include "lib/golden/record.hpp"
+#include "lib/golden/replay.hpp"
+
+/// The actions of faultline golden without what they print.
+namespace faultline {
+
+/// What the actions of faultline golden have in common; without --model the folder's own model is meant.
+struct GoldenArguments : ModelPaths {
+  std::string folder;
+  std::string json, junit;
+  int threads = 0;
+};
+
+/// Opens a log as the model's robot file says.
+std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model);
+
+/// That of --model, else the folder's.
+ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set);
+/// Replays the folder's logs.
+GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
+                     const Progress& progress);
+class FileUse;
+/// Adds what an action reads: the folder's files as `set` names them, and --model with its case base.
+void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set);
+
+struct RecordArguments : GoldenArguments {
+  std::vector<std::string> logs;
+  RecordOptions options;
+};
+/// Takes tables of labels out of the logs, as a shell that names runs/*.csv names its labels.csv, too, and
+/// returns them. Throws Error(usage) when no log is left.
+std::vector<std::string> skip_label_tables(std::vector<std::string>& logs);
+Recorded record_folder(const RecordArguments& arguments, const Progress& progress);
+
+struct CheckedFolder {
+  GoldenRun run;
+  GoldenCheck check;
+};
+/// Replays all logs of the folder and compares, and writes --json and --junit where asked for.
+CheckedFolder check_folder(const GoldenArguments& arguments, const Progress& progress);
+
+struct AcceptArguments : GoldenArguments {
+  std::vector<std::string> names;
+  bool all = false, same_verdict = false;
+
+  bool accepts() const { return all || same_verdict || !names.empty(); }
+  bool has_new_model() const { return !model.empty(); }
+};
+
+/// What differs, and what of it is to be accepted.
+struct AcceptPlan {
+  GoldenSet set;
+  ModelAndCases subject;
+  GoldenRun run;
+  GoldenCheck check, part;             ///< all, and the items that were named
+  std::vector<std::string> otherwise;  ///< of --same-verdict: what stays, as something else is found in it
+  std::vector<std::string> names;      ///< that change
+
+  bool is_refused(const AcceptArguments& arguments) const {
+    return !arguments.accepts() || (arguments.has_new_model() && !otherwise.empty());
+  }
+};
+AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progress);
+/// Makes the plan's names what is expected; for a plan that is not refused.
+void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments);
+
+}  // namespace faultline

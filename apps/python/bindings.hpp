@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace faultline {
+
+// One function a concept, each in its own file: puts its types and functions into the module.
+void bind_errors(pybind11::module_& module);
+void bind_log(pybind11::module_& module);
+void bind_model(pybind11::module_& module);
+void bind_diagnosis(pybind11::module_& module);
+void bind_learn(pybind11::module_& module);
+void bind_identify(pybind11::module_& module);
+void bind_inspect(pybind11::module_& module);
+void bind_batch(pybind11::module_& module);
+void bind_golden(pybind11::module_& module);
+void bind_cases(pybind11::module_& module);
+void bind_simulate(pybind11::module_& module);
+
+}  // namespace faultline

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnosis/diagnosis.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "apps/python/bindings.hpp"
+#include "apps/python/curve_arrays.hpp"
+#include "apps/python/loaded_model.hpp"
+#include "apps/python/log_handle.hpp"
+#include "lib/core/error.hpp"
+#include "lib/html/report_formats.hpp"
+#include "lib/log/prefetch.hpp"
+#include "lib/pipeline/diagnose.hpp"
+#include "lib/report/text.hpp"
+
+namespace faultline {
+namespace {
+
+namespace py = pybind11;
+
+/// A diagnosis with what its second looks at the log need.
+struct MadeDiagnosis {
+  SharedModel model;
+  std::shared_ptr<const LogHandle> log;
+  DiagnoseOptions options;
+  Diagnosis diagnosis;
+
+  /// Reads the log again. Throws Error(input) when it is not the one that was diagnosed any more.
+  template <typename Look>
+  auto look_again(const py::object& progress, Look look) const {
+    return watched(progress, [&](WorkWatch& watch) {
+      const auto source = prefetched(log->open(model->model.robot, watch, true));
+      auto seen = look(*source);
+      if (source->identity().sha256 != diagnosis.log.sha256)
+        throw Error(ErrorCode::input, log->name(), "was changed since it was diagnosed; diagnose it again");
+      return seen;
+    });
+  }
+};
+
+/// The one of `all` that is called so. Throws Error(usage).
+template <typename All>
+auto named(const char* option, const std::string& name, const All& all) {
+  std::string names;
+  for (const auto one : all) {
+    if (name == to_string(one)) return one;
+    names += (names.empty() ? "" : " or ") + std::string(to_string(one));
+  }
+  throw Error(ErrorCode::usage, option, "\"" + name + "\" is not known; expected " + names);
+}
+
+std::shared_ptr<MadeDiagnosis> make_diagnosis(const std::shared_ptr<LogHandle>& log,
+                                              const std::shared_ptr<LoadedModel>& model,
+                                              const std::string& classify, const std::string& criterion,
+                                              int g, const py::object& progress) {
+  DiagnoseOptions options;
+  options.mode = named("classify", classify, kClassifyModes);
+  options.criterion = named("criterion", criterion, kCriterionKinds);
+  options.g = g;
+  if (g < 0) throw Error(ErrorCode::usage, "g", "must not be negative");
+  Diagnosis diagnosis = watched(progress, [&](WorkWatch& watch) {
+    const auto source = prefetched(log->open(model->model.robot, watch, true));
+    return diagnose(*source, model->model, model->cases, options);
+  });
+  return std::make_shared<MadeDiagnosis>(MadeDiagnosis{model, log, options, std::move(diagnosis)});
+}
+
+std::string render(const MadeDiagnosis& made, const std::string& format, const py::object& progress) {
+  const ReportFormat& chosen = report_format(format);
+  if (chosen.second_pass)
+    return made.look_again(progress, [&](LogSource& source) {
+      return chosen.render(report_source(source, made.model->model, made.diagnosis, made.options));
+    });
+  const py::gil_scoped_release others_run;
+  return chosen.render({made.diagnosis, {}});
+}
+
+std::string text(const MadeDiagnosis& made, int width, bool unicode, bool color) {
+  TimelineOptions options;
+  options.width = width;
+  options.unicode = unicode;
+  options.color = color;
+  return render_text(made.diagnosis, options);
+}
+
+py::dict curves(const MadeDiagnosis& made, int bins, const py::object& progress) {
+  RunCurvesOptions options;
+  if (bins < 1) throw Error(ErrorCode::usage, "bins", "must be at least 1");
+  options.whole_bins = bins;
+  options.detail_bins = bins;
+  options.all_details = std::max(options.all_details, bins * options.most_details);
+  return curve_arrays(made.look_again(progress, [&](LogSource& source) {
+    return run_curves(source, made.model->model, made.diagnosis, options);
+  }));
+}
+
+}  // namespace
+
+void bind_diagnosis(py::module_& module) {
+  py::class_<MadeDiagnosis, std::shared_ptr<MadeDiagnosis>>(module, "Diagnosis",
+                                                            "The result of diagnosing a log.")
+      .def("render", &render, py::arg("format"), py::arg("progress"),
+           "A report: json, csv, html, md or junit. The page reads the log once more.")
+      .def("text", &text, py::arg("width"), py::arg("unicode"), py::arg("color"), "The report of a terminal.")
+      .def(
+          "sentence", [](const MadeDiagnosis& made) { return verdict_sentence(made.diagnosis); },
+          "The verdict in one sentence.")
+      .def("curves", &curves, py::arg("bins"), py::arg("progress"),
+           "The course of the run as arrays, by a second pass over the log.");
+  module.def("diagnose", &make_diagnosis, py::arg("log"), py::arg("model"), py::arg("classify"),
+             py::arg("criterion"), py::arg("g"), py::arg("progress"), "Finds the faults in one log.");
+}
+
+}  // namespace faultline

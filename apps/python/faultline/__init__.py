@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""Fault diagnosis of SCARA robots from recorded joint logs.
+
+    import faultline
+    model = faultline.learn(["healthy_1.csv", "healthy_2.csv"], robot="robot.toml").model
+    diagnosis = model.diagnose("bad.csv")
+    print(diagnosis.verdict, [(fault.kind, fault.joint, fault.onset_s) for fault in diagnosis.faults])
+
+Logs are paths, dicts of NumPy arrays, pandas DataFrames or faultline.Log. NumPy, pandas and matplotlib are
+imported only by what needs them.
+"""
+from . import cases, golden
+from ._batch import BatchResult, batch, merge_batches
+from ._diagnosis import Curves, Diagnosis, Fault, diagnose
+from ._faultline import version as __version__
+from ._identification import Identification, identify
+from ._inspection import Inspection, inspect
+from ._log import Log, open_log
+from ._model import Learned, Model, learn, load_model
+from ._record import Record
+from ._simulation import reproduce, simulate
+from .errors import Error, InputError, InternalError, OutputError, UsageError
+
+__all__ = [
+    "BatchResult",
+    "Curves",
+    "Diagnosis",
+    "Error",
+    "Fault",
+    "Identification",
+    "InputError",
+    "Inspection",
+    "InternalError",
+    "Learned",
+    "Log",
+    "Model",
+    "OutputError",
+    "Record",
+    "UsageError",
+    "__version__",
+    "batch",
+    "cases",
+    "diagnose",
+    "golden",
+    "identify",
+    "inspect",
+    "learn",
+    "load_model",
+    "merge_batches",
+    "open_log",
+    "reproduce",
+    "simulate",
+]

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""Diagnosing a log."""
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
+
+from . import _faultline
+from ._arguments import PathLike, Progress, path_of
+from ._log import LogLike, log_of
+from ._record import Record, Result, frame_of
+
+if TYPE_CHECKING:
+    from ._model import Model
+
+NO_NESTED = ("precedents", "could_also_be", "evidence", "opinions")
+
+
+class Fault(Record):
+    """A fault that was found: kind, joint (None: of no joint), onset_s, alarm_s, end_s, confidence, opinions,
+    decided_by, precedents, could_also_be, evidence, next_check."""
+
+    id: int
+    kind: str
+    joint: Optional[int]
+    onset_s: Optional[float]
+    alarm_s: Optional[float]
+    end_s: Optional[float]
+    confidence: float
+    decided_by: str
+    next_check: str
+    opinions: Record
+    precedents: List[Record]
+    could_also_be: List[Record]
+    evidence: List[Record]
+
+
+class Curves:
+    """The course of a run in bins, as NumPy arrays by name: `whole`, and `faults`, a stretch around each of
+    the first faults. Signals (t, q1, q1_predicted, dq1, tau1, tau1_required ...) have two values a bin, its
+    extremes; residuals (t_residual, residual1 ...) one, the largest in the bin, where `healthy_residual` is
+    the largest of each joint in healthy logs."""
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.whole: Dict[str, Any] = found["whole"]
+        self.faults: List[Dict[str, Any]] = found["faults"]
+        self.healthy_residual: List[float] = found["healthy_residual"]
+        self.by_reference: bool = found["by_reference"]
+        self.alarm_ratio: float = found["alarm_ratio"]
+
+    def to_dataframe(self) -> Any:
+        """The residuals of the whole run as a pandas DataFrame: t, residual1, ..."""
+        import pandas
+
+        named = {name: self.whole[name] for name in self.whole if name.startswith("residual")}
+        return pandas.DataFrame({"t": self.whole.get("t_residual", []), **named})
+
+    def __repr__(self) -> str:
+        return f"faultline.Curves({len(self.whole.get('t', ()))} points, {len(self.faults)} faults)"
+
+
+class Diagnosis(Result):
+    """What was found in a log; attributes are the members of the JSON report: verdict (healthy, faulty or
+    inconclusive), verdict_reason, faults, residuals, condition, cannot_see, log, model, program."""
+
+    _parts = {"faults": Fault}
+    verdict: str
+    faults: List[Fault]
+    residuals: List[Record]
+    condition: List[Record]
+    cannot_see: List[str]
+    log: Record
+    model: Record
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.render("json", None))
+        self._made = made
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in one sentence."""
+        return self._made.sentence()
+
+    def text(self, *, width: int = 80, unicode: bool = True, color: bool = False) -> str:
+        """The report of the terminal."""
+        return self._made.text(width, unicode, color)
+
+    def to_html(self, *, progress: Progress = None) -> str:
+        """The self-contained page with plots. Reads the log once more."""
+        return self._made.render("html", progress)
+
+    def to_csv(self) -> str:
+        """One row a fault."""
+        return self._made.render("csv", None)
+
+    def to_markdown(self) -> str:
+        """For an issue tracker."""
+        return self._made.render("md", None)
+
+    def to_junit(self) -> str:
+        """JUnit XML for a CI server."""
+        return self._made.render("junit", None)
+
+    def to_dataframe(self) -> Any:
+        """The faults as a pandas DataFrame, a row each."""
+        return frame_of(
+            [{k: v for k, v in fault.to_dict().items() if k not in NO_NESTED} for fault in self.faults]
+        )
+
+    def curves(self, *, bins: int = 2000, progress: Progress = None) -> Curves:
+        """The course of the run as arrays, in at most so many bins. Reads the log once more."""
+        return Curves(self._made.curves(bins, progress))
+
+    def _repr_html_(self) -> str:
+        import html
+
+        return f"<pre>{html.escape(self.text())}</pre>"
+
+
+def diagnose(
+    log: LogLike,
+    model: Union["Model", PathLike],
+    *,
+    cases: Optional[PathLike] = None,
+    classify: str = "evidence",
+    criterion: str = "log_odds",
+    g: int = 0,
+    progress: Progress = None,
+) -> Diagnosis:
+    """Finds the faults in one log. `model` is a Model, or the path of one with its case base `cases` (beside
+    it by default). `classify` is evidence or samples (the paper's way, with `criterion` log_odds or
+    consecutive and `g`)."""
+    from ._model import Model
+
+    loaded = model if isinstance(model, Model) else Model(path_of(model), cases=cases)
+    return loaded.diagnose(log, classify=classify, criterion=criterion, g=g, progress=progress)
+
+
+def diagnosed(
+    log: LogLike, handle: Any, classify: str, criterion: str, g: int, progress: Progress
+) -> Diagnosis:
+    """The same with a model of the compiled part."""
+    return Diagnosis(_faultline.diagnose(log_of(log)._handle, handle, classify, criterion, g, progress))

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""Identifying a robot."""
+from typing import Any, Iterable, List, Optional, Union
+
+from . import _faultline
+from ._arguments import PathLike, Progress, path_of
+from ._log import LogLike, handles_of
+from ._record import Record, Result, frame_of
+
+
+class Identification(Result):
+    """What was identified; attributes are the members of its JSON (schema faultline/identification/1):
+    status, base_parameters, physical_parameters, condition_number, residual_rms, fit_r2, logs ..."""
+
+    status: str
+    base_parameters: List[Record]
+    physical_parameters: List[Record]
+    condition_number: Optional[float]
+    logs: List[Record]
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.json())
+        self._made = made
+
+    def text(self) -> str:
+        """The summary of the terminal."""
+        return self._made.text()
+
+    def to_html(self) -> str:
+        """The page with plots."""
+        return self._made.html()
+
+    def to_dataframe(self) -> Any:
+        """The base parameters as a pandas DataFrame, a row each."""
+        return frame_of([parameter.to_dict() for parameter in self.base_parameters])
+
+    def robot_text(self, *, urdf: bool = False) -> str:
+        """The identified robot as a robot file, or as URDF."""
+        return self._made.robot_text("robot.urdf" if urdf else "robot.toml")
+
+
+def identify(
+    logs: Union[LogLike, Iterable[LogLike]],
+    robot: PathLike,
+    *,
+    output: Optional[PathLike] = None,
+    method: str = "automatic",
+    keep_all: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Identification:
+    """Identifies a robot's parameters from logs of healthy runs. With `output` the identified robot is
+    written there, as URDF for .urdf. `method` is automatic, weak_form or output_error."""
+    return Identification(
+        _faultline.identify(
+            handles_of(logs), path_of(robot), path_of(output), method, keep_all, threads, progress
+        )
+    )

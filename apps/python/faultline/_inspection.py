@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""Looking at a log."""
+import json
+from typing import Any, List, Optional
+
+from . import _faultline
+from ._arguments import PathLike, Progress, path_of
+from ._log import LogLike, log_of
+from ._record import Record, Result, frame_of
+
+
+class Inspection(Result):
+    """What a log holds; attributes are those of its entry in the JSON (schema faultline/inspection/1):
+    verdict, joint_log, joints, rows, channels, issues, lacking, analyses ..."""
+
+    verdict: str
+    joints: int
+    rows: int
+    channels: List[Record]
+    issues: List[Record]
+    analyses: List[Record]
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.json())
+        self._members = json.loads(self._text)["logs"][0]
+        self._made = made
+
+    def text(self, *, color: bool = False) -> str:
+        """The report of the terminal."""
+        return self._made.text(color)
+
+    def to_html(self) -> str:
+        """The page with pictures of all channels."""
+        return self._made.html()
+
+    def to_dataframe(self) -> Any:
+        """The channels as a pandas DataFrame, a row each."""
+        return frame_of([channel.to_dict() for channel in self.channels])
+
+
+def inspect(log: LogLike, *, robot: Optional[PathLike] = None, progress: Progress = None) -> Inspection:
+    """Tells what is in a log and what is wrong with it. `robot` is a robot file that says what columns are."""
+    return Inspection(_faultline.inspect(log_of(log)._handle, path_of(robot), progress))

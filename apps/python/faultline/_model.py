@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""Models: learned, loaded, used."""
+from typing import Any, Dict, Iterable, Mapping, Optional, Tuple, Union
+
+from . import _faultline
+from ._arguments import PathLike, Progress, path_of
+from ._diagnosis import Diagnosis, diagnosed
+from ._log import LogLike, handles_of
+from ._record import Record, Result
+
+Labels = Union[PathLike, Mapping[str, Tuple[str, int, float]], None]
+"""A table file,fault,joint,onset_s, or (fault, joint, onset_s) by name of a log."""
+
+
+class Model:
+    """A learned model with its case base: read once, for any number of logs and threads. `cases` is the case
+    base, beside the model by default."""
+
+    def __init__(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
+        self._handle = _faultline.Model(path_of(path), path_of(cases))
+
+    @classmethod
+    def _of(cls, handle: Any) -> "Model":
+        model = cls.__new__(cls)
+        model._handle = handle
+        return model
+
+    @property
+    def path(self) -> str:
+        """Where it was read; "" for one that was learned and not written."""
+        return self._handle.path
+
+    @property
+    def cases(self) -> str:
+        """The file of its case base."""
+        return self._handle.cases
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return self._handle.name
+
+    @property
+    def sha256(self) -> str:
+        """Of the model file."""
+        return self._handle.sha256
+
+    @property
+    def joints(self) -> int:
+        """Axes of the robot."""
+        return self._handle.joints
+
+    @property
+    def sample_period_s(self) -> float:
+        """Of the logs that it was learned from, s."""
+        return self._handle.sample_period_s
+
+    @property
+    def has_mechanics(self) -> bool:
+        """False for a model of logs without torque: it knows how joints follow their references."""
+        return self._handle.has_mechanics
+
+    def diagnose(
+        self,
+        log: LogLike,
+        *,
+        classify: str = "evidence",
+        criterion: str = "log_odds",
+        g: int = 0,
+        progress: Progress = None,
+    ) -> Diagnosis:
+        """Finds the faults in one log; see faultline.diagnose."""
+        return diagnosed(log, self._handle, classify, criterion, g, progress)
+
+    def robot_text(self) -> str:
+        """The identified robot as a robot file."""
+        return self._handle.robot_text()
+
+    def to_json(self) -> str:
+        """The text of the model file."""
+        return self._handle.json()
+
+    def save(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
+        """Writes model and case base. Cases that people put into a base that is there are carried over."""
+        self._handle.save(path_of(path), path_of(cases))
+
+    def __repr__(self) -> str:
+        return f"faultline.Model({self.path or self.name!r})"
+
+
+class Learned(Result):
+    """What learning found; attributes are the members of its JSON (schema faultline/learning/1): name,
+    identification, doubts, validation, sources, cases ..."""
+
+    name: str
+    identification: Record
+    validation: Record
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.json())
+        self._made = made
+        self._model: Optional[Model] = None
+
+    @property
+    def model(self) -> Model:
+        """The model, ready to diagnose with."""
+        if self._model is None:
+            self._model = Model._of(self._made.model())
+        return self._model
+
+    def text(self) -> str:
+        """The summary of the terminal."""
+        return self._made.text()
+
+
+def load_model(path: PathLike, *, cases: Optional[PathLike] = None) -> Model:
+    """Reads a model and its case base."""
+    return Model(path, cases=cases)
+
+
+def learn(
+    logs: Union[LogLike, Iterable[LogLike]],
+    robot: PathLike,
+    *,
+    output: Optional[PathLike] = None,
+    cases: Optional[PathLike] = None,
+    labels: Labels = None,
+    runs_per_label: int = 14,
+    alarms_per_hour: float = 0.01,
+    keep_all: bool = False,
+    force: bool = False,
+    seed: int = 1,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Learned:
+    """Learns a model of one robot from logs of healthy runs, and labelled ones of faults if there are any.
+    `robot` is a robot file or the axes alone, such as "RRP". With `output` the model is written there, and
+    its case base beside it or to `cases`. The other options are those of `faultline learn`."""
+    options: Dict[str, Any] = {
+        "runs_per_label": runs_per_label,
+        "alarms_per_hour": alarms_per_hour,
+        "keep_all": keep_all,
+        "force": force,
+        "seed": seed,
+        "threads": threads,
+    }
+    in_memory = dict(labels) if isinstance(labels, Mapping) else {}
+    label_file = "" if isinstance(labels, Mapping) else path_of(labels)
+    return Learned(
+        _faultline.learn(
+            handles_of(logs),
+            path_of(robot),
+            path_of(output),
+            path_of(cases),
+            label_file,
+            in_memory,
+            options,
+            progress,
+        )
+    )

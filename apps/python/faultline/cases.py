@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""The case base of a model: read and revised.
+
+Each function takes `model` (a Model, or the path of one) or `cases`, the file of the case base.
+"""
+import json
+from typing import Any, Dict, List, Optional, Union
+
+from . import _faultline
+from ._arguments import PathLike, path_of
+from ._diagnosis import Diagnosis
+from ._model import Model
+from ._record import Record
+
+__all__ = ["Case", "add", "confirm", "delete", "export", "import_", "list", "reject", "show"]
+
+ModelLike = Union[Model, PathLike, None]
+
+
+class Case(Record):
+    """A case; attributes are the members of its JSON: id, kind, joint, outcome, what_was_done ... `note` says
+    what was not to be expected, or ""."""
+
+    id: int
+
+
+def _act(action: str, model: ModelLike, cases: Optional[PathLike], **given: Any) -> Any:
+    arguments: Dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if cases is not None:
+        arguments["cases"] = path_of(cases)
+    elif isinstance(model, Model):
+        arguments.update(model=model.path, cases=model.cases)
+        if action != "import" and action != "export":
+            del arguments["model"]
+    if model is not None and not isinstance(model, Model):
+        arguments["model"] = path_of(model)
+    text, _, note = _faultline.cases(action, arguments)
+    return json.loads(text), note
+
+
+def _case(answer: Any) -> Case:
+    return Case({**answer[0], "note": answer[1]})
+
+
+def list(
+    model: ModelLike = None,
+    *,
+    cases: Optional[PathLike] = None,
+    fault: Optional[str] = None,
+    joint: Optional[int] = None,
+    outcome: Optional[str] = None,
+    origin: Optional[str] = None,
+    by: Optional[str] = None,
+    robot: Optional[str] = None,
+) -> List[Case]:
+    """The cases, those of a fault, joint, outcome, origin, person or robot only where one is named."""
+    found, _ = _act(
+        "list", model, cases, fault=fault, joint=joint, outcome=outcome, origin=origin, by=by, robot=robot
+    )
+    return [Case(case) for case in found]
+
+
+def show(id: int, model: ModelLike = None, *, cases: Optional[PathLike] = None) -> Case:
+    """One case in full."""
+    return _case(_act("show", model, cases, id=id))
+
+
+def add(
+    diagnosis: Union[Diagnosis, PathLike, None] = None,
+    model: ModelLike = None,
+    *,
+    cases: Optional[PathLike] = None,
+    fault_id: int = 1,
+    fault: Optional[str] = None,
+    joint: Optional[int] = None,
+    done: Optional[str] = None,
+    by: Optional[str] = None,
+    date: Optional[str] = None,
+    robot: Optional[str] = None,
+) -> Case:
+    """Adds a diagnosed fault (of a Diagnosis, or of a JSON report) as a case; with `fault`, what it really
+    was, it is confirmed. An event that is a case already is not added again; what is new about it is kept."""
+    text = diagnosis.to_json() if isinstance(diagnosis, Diagnosis) else None
+    report = None if diagnosis is None or isinstance(diagnosis, Diagnosis) else path_of(diagnosis)
+    return _case(
+        _act(
+            "add",
+            model,
+            cases,
+            diagnosis=report,
+            diagnosis_text=text,
+            fault_id=fault_id,
+            fault=fault,
+            joint=joint,
+            done=done,
+            by=by,
+            date=date,
+            robot=robot,
+        )
+    )
+
+
+def confirm(
+    id: int,
+    model: ModelLike = None,
+    *,
+    cases: Optional[PathLike] = None,
+    fault: Optional[str] = None,
+    joint: Optional[int] = None,
+    done: Optional[str] = None,
+    by: Optional[str] = None,
+    date: Optional[str] = None,
+) -> Case:
+    """Says that a case was decided right, or with `fault` what it was."""
+    return _case(_act("confirm", model, cases, id=id, fault=fault, joint=joint, done=done, by=by, date=date))
+
+
+def reject(
+    id: int,
+    model: ModelLike = None,
+    *,
+    cases: Optional[PathLike] = None,
+    fault: Optional[str] = None,
+    joint: Optional[int] = None,
+    done: Optional[str] = None,
+    by: Optional[str] = None,
+    date: Optional[str] = None,
+) -> Case:
+    """Says that a case was decided wrong, with `fault` what it was."""
+    return _case(_act("reject", model, cases, id=id, fault=fault, joint=joint, done=done, by=by, date=date))
+
+
+def delete(id: int, model: ModelLike = None, *, cases: Optional[PathLike] = None) -> Case:
+    """Removes a case for good; returns it."""
+    return _case(_act("delete", model, cases, id=id))
+
+
+def export(
+    path: PathLike, model: ModelLike = None, *, cases: Optional[PathLike] = None, confirmed: bool = False
+) -> None:
+    """Writes all cases, or those that people confirmed, as JSON without loss."""
+    _act("export", model, cases, file=path_of(path), confirmed=confirmed)
+
+
+def import_(
+    path: PathLike,
+    model: ModelLike = None,
+    *,
+    cases: Optional[PathLike] = None,
+    replace: bool = False,
+    merge: bool = False,
+) -> Record:
+    """Makes a case base from an export, or merges it into one: read, added, updated."""
+    found, _ = _act("import", model, cases, file=path_of(path), replace=replace, merge=merge)
+    return Record(found)

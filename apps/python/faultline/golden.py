@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""Golden logs: record what is expected of logs, and check that it stays so."""
+from typing import Any, Iterable, List, Optional, Union
+
+from . import _faultline
+from ._arguments import PathLike, Progress, path_of, paths_of
+from ._record import Record, Result
+
+__all__ = ["Accepted", "Check", "Recorded", "accept", "check", "record"]
+
+
+class Recorded(Result):
+    """A golden folder that was made: logs (name, verdict, events), identified, skipped (tables of labels)."""
+
+    logs: List[Record]
+    identified: bool
+
+
+class Check(Result):
+    """What a golden folder says now against what is expected; attributes are the members of the JSON (schema
+    faultline/golden-check/1)."""
+
+    def __init__(self, answer: Any) -> None:
+        super().__init__(answer[0])
+        self._table = answer[1]
+
+    def text(self) -> str:
+        """The report of the terminal."""
+        return self._table
+
+
+class Accepted(Record):
+    """What was accepted: `accepted`, and `left`, in which something else is found than expected."""
+
+    accepted: List[str]
+    left: List[str]
+
+
+def record(
+    logs: Union[PathLike, Iterable[PathLike]],
+    model: PathLike,
+    output: PathLike,
+    *,
+    cases: Optional[PathLike] = None,
+    identify: bool = True,
+    trace_points: int = 500,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Recorded:
+    """Makes a golden folder: logs, model and what faultline says now."""
+    return Recorded(
+        _faultline.golden_record(
+            paths_of(logs, "golden.record"),
+            path_of(model),
+            path_of(cases),
+            path_of(output),
+            identify,
+            trace_points,
+            threads,
+            progress,
+        )
+    )
+
+
+def check(
+    folder: PathLike,
+    *,
+    model: Optional[PathLike] = None,
+    cases: Optional[PathLike] = None,
+    junit: Optional[PathLike] = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Check:
+    """Replays all golden logs and compares; changes nothing. `model` stands in for the folder's; `junit` is
+    where JUnit XML is written."""
+    return Check(
+        _faultline.golden_check(
+            path_of(folder), path_of(model), path_of(cases), path_of(junit), threads, progress
+        )
+    )
+
+
+def accept(
+    folder: PathLike,
+    names: Iterable[str] = (),
+    *,
+    all: bool = False,
+    same_verdict: bool = False,
+    model: Optional[PathLike] = None,
+    cases: Optional[PathLike] = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Accepted:
+    """Makes what differs what is expected: of the named logs, of all, or of those that differ in numbers and
+    reasons only."""
+    chosen = [names] if isinstance(names, str) else list(names)
+    accepted, left = _faultline.golden_accept(
+        path_of(folder), chosen, all, same_verdict, path_of(model), path_of(cases), threads, progress
+    )
+    return Accepted({"accepted": accepted, "left": left})

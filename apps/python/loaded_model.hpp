@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "apps/work/model_paths.hpp"
+#include "lib/cases/case_base.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// A model with its case base, read once for any number of logs; nothing changes it.
+struct LoadedModel {
+  ModelPaths paths;  ///< where it was read; empty for one that was learned and not written
+  Model model;
+  CaseBase cases;
+};
+using SharedModel = std::shared_ptr<const LoadedModel>;
+
+}  // namespace faultline

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/python/column_reader.hpp"
+#include "apps/python/watched_work.hpp"
+#include "formats/open_log.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// A log as Python names it: a file with its parts, or columns in memory.
+class LogHandle {
+ public:
+  LogHandle(std::string path, LogSelection parts) : name_(std::move(path)), parts_(std::move(parts)) {}
+  /// Keeps the arrays alive; None stands for a column of text.
+  LogHandle(std::string name, const std::vector<std::string>& names, const std::vector<std::string>& units,
+            const pybind11::list& arrays, int run);
+
+  const std::string& name() const { return name_; }
+  bool is_file() const { return arrays_.empty(); }
+  const LogSelection& parts() const { return parts_; }
+  /// All files that it is made of; none for columns.
+  std::vector<std::string> files() const;
+
+  /// The columns as they are. Throws as open_parts().
+  std::unique_ptr<RawReader> open_columns(const RecordingChoice& choice = {}) const;
+  /// As a log of this robot, see open_robot_log().
+  std::unique_ptr<LogSource> open(const Robot& robot) const;
+  /// The same, ending when the work is to end, and without what would read ahead.
+  std::unique_ptr<LogSource> open(const Robot& robot, WorkWatch& watch, bool tells) const;
+
+ private:
+  std::string name_;
+  LogSelection parts_;
+  std::vector<ColumnView> columns_;
+  std::vector<pybind11::object> arrays_;  ///< whose memory the columns are
+};
+
+/// A robot file or an order of axes; nothing for an empty name.
+std::optional<Robot> robot_named(const std::string& robot);
+
+}  // namespace faultline

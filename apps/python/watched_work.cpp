@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "apps/python/watched_work.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <thread>
+
+namespace faultline {
+namespace {
+
+namespace py = pybind11;
+
+constexpr auto kPause = std::chrono::milliseconds(50);
+
+/// Takes signals and tells; throws what Python raises.
+void serve(const py::object& progress, WorkWatch& watch) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  const auto told = watch.take();
+  if (told && !progress.is_none()) progress(told->first, told->second);
+}
+
+class InterruptibleSource : public LogSource {
+ public:
+  InterruptibleSource(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells)
+      : log_(std::move(log)), watch_(watch), tells_(tells) {}
+
+  bool next(Log& segment) override {
+    watch_.check();
+    const bool more = log_->next(segment);
+    const double share = log_->share_read();
+    if (tells_ && std::isfinite(share)) watch_.tell("reading " + log_->identity().path, share);
+    return more;
+  }
+  void rewind() override { log_->rewind(); }
+  const LogIdentity& identity() const override { return log_->identity(); }
+  const Issues& issues() const override { return log_->issues(); }
+  double share_read() const override { return log_->share_read(); }
+
+ private:
+  std::unique_ptr<LogSource> log_;
+  WorkWatch& watch_;
+  bool tells_;
+};
+
+}  // namespace
+
+void WorkWatch::tell(const std::string& what, double share) {
+  check();
+  const std::lock_guard lock(mutex_);
+  told_ = {what, share};
+}
+
+void WorkWatch::finish() {
+  const std::lock_guard lock(mutex_);
+  done_ = true;
+  changed_.notify_all();
+}
+
+bool WorkWatch::wait() {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, kPause, [this] { return done_; });
+}
+
+std::optional<std::pair<std::string, double>> WorkWatch::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(told_, std::nullopt);
+}
+
+void run_watched(const py::object& progress, const std::function<void(WorkWatch&)>& work) {
+  WorkWatch watch;
+  std::exception_ptr of_work, of_python;
+  std::thread worker([&] {
+    try {
+      work(watch);
+    } catch (...) {
+      of_work = std::current_exception();
+    }
+    watch.finish();
+  });
+  for (bool done = false; !done;) {
+    {
+      const py::gil_scoped_release others_run;
+      done = watch.wait();
+      if (done) worker.join();
+    }
+    try {
+      if (!of_python) serve(progress, watch);
+    } catch (...) {
+      of_python = std::current_exception();
+      watch.stop();
+    }
+  }
+  if (of_python) std::rethrow_exception(of_python);
+  if (of_work) std::rethrow_exception(of_work);
+}
+
+std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells) {
+  return std::make_unique<InterruptibleSource>(std::move(log), watch, tells);
+}
+
+}  // namespace faultline
