@@ -18,11 +18,13 @@ class Model:
 
     def __init__(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
         self._handle = _faultline.Model(path_of(path), path_of(cases))
+        self._has_own_cases = cases is not None
 
     @classmethod
     def _of(cls, handle: Any) -> "Model":
         model = cls.__new__(cls)
         model._handle = handle
+        model._has_own_cases = False
         return model
 
     @property

@@ -29,9 +29,10 @@ def _act(action: str, model: ModelLike, cases: Optional[PathLike], **given: Any)
     if cases is not None:
         arguments["cases"] = path_of(cases)
     elif isinstance(model, Model):
-        arguments.update(model=model.path, cases=model.cases)
-        if action != "import" and action != "export":
-            del arguments["model"]
+        if model._has_own_cases:
+            arguments["cases"] = model.cases
+        else:
+            arguments["model"] = model.path
     if model is not None and not isinstance(model, Model):
         arguments["model"] = path_of(model)
     text, _, note = _faultline.cases(action, arguments)

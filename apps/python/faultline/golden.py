@@ -18,7 +18,10 @@ class Recorded(Result):
 
 class Check(Result):
     """What a golden folder says now against what is expected; attributes are the members of the JSON (schema
-    faultline/golden-check/1)."""
+    faultline/golden-check/1): `result` (same, different or damaged), `items` ..."""
+
+    result: str
+    items: List[Record]
 
     def __init__(self, answer: Any) -> None:
         super().__init__(answer[0])

@@ -14,8 +14,8 @@ class Inspecting(InFolder):
         self.assertEqual(seen.to_json().encode(), program("inspect", log, "--json", "-"))
         self.assertEqual(seen.to_html().encode(), program("inspect", log, "--html", "-"))
         self.assertEqual(seen.joints, 3)
-        self.assertEqual(seen.channels[0].name, "t")
-        self.assertEqual(list(seen.to_dataframe()["name"])[:2], ["t", "q1"])
+        self.assertEqual(seen.channels[0].name, "q1")
+        self.assertEqual(list(seen.to_dataframe()["name"])[:2], ["q1", "q2"])
 
     def test_a_frame_is_inspected_as_its_file(self):
         of_file, of_frame = faultline.inspect(LOGS / "locked_1.csv"), faultline.inspect(
@@ -95,17 +95,17 @@ class GoldenLogs(InFolder):
         )
         check = faultline.golden.check(folder, junit=self.folder / "junit.xml")
         self.assertEqual(check.to_json().encode(), program("golden", "check", folder, "--json", "-"))
-        self.assertTrue(check.same)
+        self.assertEqual(check.result, "same")
         self.assertIn("<testsuite", (self.folder / "junit.xml").read_text())
         text = (folder / "golden.toml").read_text()
         (folder / "golden.toml").write_text(text.replace('"locked"', '"free_swinging"'))
         changed = faultline.golden.check(folder)
-        self.assertFalse(changed.same)
+        self.assertEqual(changed.result, "different")
         self.assertIn("locked_1.csv", changed.text())
         left = faultline.golden.accept(folder, same_verdict=True)
         self.assertEqual((left.accepted, left.left), ([], ["locked_1.csv"]))
         self.assertEqual(faultline.golden.accept(folder, ["locked_1"]).accepted, ["locked_1.csv"])
-        self.assertTrue(faultline.golden.check(folder).same)
+        self.assertEqual(faultline.golden.check(folder).result, "same")
         with self.assertRaisesRegex(faultline.UsageError, "one of them"):
             faultline.golden.accept(folder)
 
