@@ -173,14 +173,13 @@ TEST(House, ElementaryFunctionsAreOurOwn) {
   }
 }
 
-/// Whatever is linked in, Ceres and templates of Eigen among it, takes from outside only functions that have
-/// one right result: roots, rounding, remainders.
-TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
+/// How many symbols were looked at.
+int expect_exact_functions(const std::string& binary) {
   static const std::regex inexact(
       "(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p|b)?|pow|hypot|cbrt|erfc?|[lt]gamma|fma|"
       "c(abs|exp|log|pow|sqrt|sin|cos))(f|l)?(@.*)?");
-  std::FILE* symbols = popen("nm --dynamic --undefined-only '" FAULTLINE_PROGRAM "'", "r");
-  ASSERT_NE(symbols, nullptr);
+  std::FILE* symbols = popen(("nm --dynamic --undefined-only '" + binary + "'").c_str(), "r");
+  if (symbols == nullptr) return 0;
   char line[4096];
   int count = 0;
   while (std::fgets(line, sizeof line, symbols) != nullptr) {
@@ -188,10 +187,26 @@ TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
     std::string kind, name;
     if (!(words >> kind >> name)) continue;
     ++count;
-    EXPECT_FALSE(std::regex_match(name, inexact)) << name << ": see lib/core/elementary/for_libraries.cpp";
+    EXPECT_FALSE(std::regex_match(name, inexact))
+        << name << " in " << binary << ": see lib/core/elementary/for_libraries.cpp";
   }
   EXPECT_EQ(pclose(symbols), 0) << "nm, of binutils, reads the program";
-  EXPECT_GT(count, 100);
+  return count;
+}
+
+/// Whatever is linked in, Ceres and templates of Eigen among it, takes from outside only functions that have
+/// one right result: roots, rounding, remainders.
+TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
+  EXPECT_GT(expect_exact_functions(FAULTLINE_PROGRAM), 100);
+}
+
+TEST(House, ThePythonModuleTakesNoInexactFunctionFromTheCLibrary) {
+  const fs::path package = fs::path(FAULTLINE_PYTHON_DIR) / "faultline";
+  if (!fs::is_directory(package)) GTEST_SKIP() << "the Python module is not built";
+  for (const auto& entry : fs::directory_iterator(package))
+    if (entry.path().extension() == ".so") {
+      EXPECT_GT(expect_exact_functions(entry.path()), 100);
+    }
 }
 
 }  // namespace

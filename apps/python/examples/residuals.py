@@ -32,6 +32,7 @@ def draw(diagnosis, picture):
         axis.legend(loc="upper left", fontsize="small")
     axes[-1, 0].set_xlabel("time, s")
     figure.suptitle(diagnosis.sentence)
+    figure.supylabel("velocity residual, 1 = usual when healthy")
     figure.tight_layout()
     figure.savefig(picture, dpi=100)
 
