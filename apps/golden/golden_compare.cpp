@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-struct CompareArguments : GoldenArguments {
+struct GoldenCompareArguments : GoldenArguments {
   std::vector<std::string> sides;
 };
 
@@ -23,19 +23,19 @@ bool is_result(const std::string& text) {
 }
 
 /// With the folder's own model.
-GoldenRun own_side(const CompareArguments& arguments, const GoldenSet& set, ColorChoice color) {
+GoldenRun own_side(const GoldenCompareArguments& arguments, const GoldenSet& set, ColorChoice color) {
   ProgressBar bar(color);
   return golden_run(arguments, set, load_golden_model(arguments.folder, set), bar.callback());
 }
 
-GoldenRun side(const std::string& path, const CompareArguments& arguments, const GoldenSet& set,
+GoldenRun side(const std::string& path, const GoldenCompareArguments& arguments, const GoldenSet& set,
                ColorChoice color) {
   ProgressBar bar(color);
   if (const std::string text = read_file(path); is_result(text)) return run_from_json(text, path);
   return golden_run(arguments, set, load_model_and_cases(path, case_base_path(path)), bar.callback());
 }
 
-int run_compare(const CompareArguments& arguments, ColorChoice color) {
+int run_compare(const GoldenCompareArguments& arguments, ColorChoice color) {
   const GoldenSet set = load_golden(arguments.folder);
   FileUse files;
   reads_golden(files, arguments, set);
@@ -54,7 +54,7 @@ int run_compare(const CompareArguments& arguments, ColorChoice color) {
 }  // namespace
 
 void add_golden_compare(CLI::App* golden, Program& program) {
-  auto arguments = std::make_shared<CompareArguments>();
+  auto arguments = std::make_shared<GoldenCompareArguments>();
   CLI::App* command =
       golden->add_subcommand("compare", "Compare two models, or two program versions, on one golden folder");
   command->fallthrough();

@@ -18,8 +18,9 @@ using Answer = std::tuple<std::string, std::string, int>;
 /// Models with the folder of each, "" for all other logs.
 using FolderModels = std::vector<std::pair<std::string, std::shared_ptr<LoadedModel>>>;
 
-Answer run(const std::vector<std::string>& paths, const FolderModels& models, const std::string& folder, bool html, bool identify, int threads, const std::string& shard,
-           bool wait, const py::object& progress) {
+Answer run(const std::vector<std::string>& paths, const FolderModels& models, const std::string& folder,
+           bool html, bool identify, int threads, const std::string& shard, bool wait,
+           const py::object& progress) {
   BatchRequest request;
   std::vector<ModelFiles> loaded;
   for (const auto& [of, model] : models) {

@@ -95,7 +95,7 @@ std::shared_ptr<LoadedModel> model_of(const LearnedModel& made) {
                   made.learned.cases});
 }
 
-std::string text(const LearnedModel& made) {
+std::string learning_text(const LearnedModel& made) {
   const bool is_written = !made.paths.model.empty();
   return learned_text(made.learned, is_written ? made.paths.model : "not written",
                       is_written ? made.paths.case_base() : "not written") +
@@ -109,7 +109,7 @@ void bind_learn(py::module_& module) {
       .def(
           "json", [](const LearnedModel& made) { return learned_json(made.learned, made.carried); },
           "A summary, schema faultline/learning/1.")
-      .def("text", &text, "The summary for a person.")
+      .def("text", &learning_text, "The summary for a person.")
       .def("model", &model_of, "The model with its case base.");
   module.def("learn", &learn_logs, py::arg("logs"), py::arg("robot"), py::arg("output"), py::arg("cases"),
              py::arg("label_file"), py::arg("labels"), py::arg("options"), py::arg("progress"),

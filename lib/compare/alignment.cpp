@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/compare/best_shift.hpp"
 #include "lib/compare/motion_pair.hpp"
+#include "lib/compare/signal_value.hpp"
 #include "lib/compare/warp.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBetter = 0.5;  // a shift or a warp leaves at most this share of what was left without
 constexpr double kAgreesAWhile = 0.25;  // of the time, by positions: runs of one motion that a fault parts
 constexpr double kMoreAgreeing = 0.2;   // of the time: what a shift must gain then
@@ -85,7 +84,7 @@ RunAlignment finished(RunAlignment alignment, const std::string& basis, double w
 
 double RunAlignment::second_at(double at) const {
   if (!warped()) return at + shift_s;
-  if (at < first_s.front() || at > first_s.back()) return kNaN;
+  if (at < first_s.front() || at > first_s.back()) return kNotKnown;
   const auto next =
       static_cast<std::size_t>(std::lower_bound(first_s.begin(), first_s.end(), at) - first_s.begin());
   if (next == 0) return second_s.front();

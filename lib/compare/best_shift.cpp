@@ -8,8 +8,8 @@
 namespace faultline {
 namespace {
 
-constexpr int kFine = 20000;           // samples when it is refined
-constexpr int kRefinements = 6;
+constexpr int kFine = 20000;  // samples when it is refined
+constexpr int kShiftRefinements = 6;
 constexpr std::size_t kRefined = 8;    // shifts that are refined
 constexpr double kNearlyAsGood = 4.0;  // as the best, before they are
 constexpr double kAgreeing = 1e-4;     // squared distance, in shares of the motion, of motions that agree
@@ -44,7 +44,7 @@ double refined_shift(const MotionPair& motions, const RunSignals& first, double 
   const double slow = kSlow * motions.rms_speed();
   const double fine = std::max(first.period_s, first.length_s / kFine);
   double most = 2.0 * step;
-  for (int i = 0; i < kRefinements; ++i, most /= 2.0) {
+  for (int i = 0; i < kShiftRefinements; ++i, most /= 2.0) {
     std::vector<double> corrections;
     for (double t = 0.0; t <= first.length_s; t += fine)
       if (const double c = motions.correction(t, t + shift, slow); std::abs(c) <= most)

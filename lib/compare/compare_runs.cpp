@@ -13,7 +13,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kGap = 4.0;         // sample periods without a sample
 constexpr double kOtherPace = 0.02;  // a torque is judged while the second run is no more faster or slower
 constexpr double kErrors = 3.0;      // how often errors of interpolation and time may be exceeded
 constexpr double kRounding = 1e-9;   // of the largest value: what the arithmetic alone may make
@@ -73,7 +72,7 @@ class OneDifference {
  private:
   void add(double t, double value) {
     const double at = all_.alignment.second_at(t), rate = all_.alignment.rate_at(t);
-    ValueBetween other = value_between(second_.time, second_.values, at, kGap * all_.second_period_s);
+    ValueBetween other = value_between(second_.time, second_.values, at, kGapPeriods * all_.second_period_s);
     if (found_.quantity == "velocity") other.value *= rate;
     const double d = other.value - value;
     found_.time.push_back(t);
@@ -95,7 +94,7 @@ class OneDifference {
   /// What times that are not known better make of the signal's slope.
   double time_error(double at) const {
     if (all_.alignment.uncertain_s <= 0.0) return 0.0;
-    const double h = all_.second_period_s, gap = kGap * h;
+    const double h = all_.second_period_s, gap = kGapPeriods * h;
     const double slope = (value_between(second_.time, second_.values, at + h, gap).value -
                           value_between(second_.time, second_.values, at - h, gap).value) /
                          (2.0 * h);

@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/compare/signal_value.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kCoarse = 1200;          // samples when the shift is looked for
-constexpr double kGap = 4.0;           // sample periods without a sample
 constexpr double kLeastSpread = 1e-9;  // rad or m: a joint that stays does not divide by nothing
 
 double spread(const std::vector<double>& values) {
@@ -37,7 +34,7 @@ void MotionPair::Tally::add(double d) {
 }
 
 MotionPair::Fit MotionPair::Tally::fit() const {
-  if (count == 0.0) return {kNaN, 0.0};
+  if (count == 0.0) return {kNotKnown, 0.0};
   return {std::sqrt(squares / count), agree / count};
 }
 
@@ -68,7 +65,7 @@ double MotionPair::correction(double t, double at, double slow) const {
     over += speed * (a[j] - b[j]);
     under += speed * speed;
   }
-  return std::sqrt(under) > slow ? over / under : kNaN;
+  return std::sqrt(under) > slow ? over / under : kNotKnown;
 }
 
 double MotionPair::rms_speed() const {
@@ -94,8 +91,9 @@ double MotionPair::noise() const {
 std::vector<double> MotionPair::at(const RunSignals& run, double t) const {
   std::vector<double> values;
   for (std::size_t j = 0; j < scale_.size(); ++j)
-    values.push_back(scale_[j] *
-                     value_between(run.motion[j].time, run.motion[j].values, t, kGap * run.period_s).value);
+    values.push_back(
+        scale_[j] *
+        value_between(run.motion[j].time, run.motion[j].values, t, kGapPeriods * run.period_s).value);
   return values;
 }
 

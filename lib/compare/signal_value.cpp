@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNormalMad = 1.4826;      // standard deviation of normal noise over its median magnitude
 constexpr double kThirdDifference = 20.0;  // variance of 1 -3 3 -1 of white noise of variance 1
 constexpr double kUniform = 12.0;          // variance of values cut to steps of 1: 1 / 12
@@ -38,11 +36,11 @@ bool has_gap(const std::vector<double>& time, std::size_t begin, std::size_t end
 
 ValueBetween value_between(const std::vector<double>& time, const std::vector<double>& values, double at,
                            double gap_s) {
-  if (time.empty() || !(at >= time.front()) || at > time.back()) return {kNaN, kNaN};
+  if (time.empty() || !(at >= time.front()) || at > time.back()) return {kNotKnown, kNotKnown};
   const auto after = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), at) - time.begin());
   if (time[after] == at) return {values[after], 0.0};
   const std::size_t left = after - 1;
-  if (time[after] - time[left] > gap_s) return {kNaN, kNaN};
+  if (time[after] - time[left] > gap_s) return {kNotKnown, kNotKnown};
   const std::size_t begin = left > 0 ? left - 1 : 0, end = std::min(after + 2, time.size());
   const double line = through(time, values, left, after + 1, at);
   const double wide = through(time, values, begin, end, at);

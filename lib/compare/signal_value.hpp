@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace faultline {
+
+/// Stands for a value, or a time, that there is none of.
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// Sample periods without a sample that are a gap.
+inline constexpr double kGapPeriods = 4.0;
 
 /// A signal between its samples.
 struct ValueBetween {

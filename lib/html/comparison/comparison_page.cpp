@@ -19,7 +19,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kBins = 700;        // of a curve
+constexpr int kCurveBins = 700;   // of a curve
 constexpr double kAround = 0.08;  // of the run, shown before and after the first divergence
 constexpr int kRedPen = 1;
 
@@ -40,14 +40,14 @@ PlotSeries curve(const std::string& name, const SignalDifference& signal, const 
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < signal.time.size(); ++i)
     if (signal.time[i] >= span.from && signal.time[i] <= span.to) rows.push_back(i);
-  if (rows.size() <= 2 * static_cast<std::size_t>(kBins)) {
+  if (rows.size() <= 2 * static_cast<std::size_t>(kCurveBins)) {
     for (const std::size_t i : rows) series.x.push_back(signal.time[i]), series.y.push_back(values[i]);
     return series;
   }
-  EnvelopeBuilder builder(kBins);
-  const double per_s = kBins / (span.to - span.from);
+  EnvelopeBuilder builder(kCurveBins);
+  const double per_s = kCurveBins / (span.to - span.from);
   for (const std::size_t i : rows)
-    builder.add(std::min(static_cast<int>((signal.time[i] - span.from) * per_s), kBins - 1), values[i]);
+    builder.add(std::min(static_cast<int>((signal.time[i] - span.from) * per_s), kCurveBins - 1), values[i]);
   const Envelope envelope = builder.envelope();
   for (std::size_t i = 0; i < envelope.values.size(); ++i) {
     series.x.push_back(span.from + (0.5 * static_cast<double>(i) + 0.25) / per_s);
