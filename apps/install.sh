@@ -29,14 +29,14 @@ test_packages=(
   chromium fonts-dejavu-core
   # what is written is held against docs/schemas, and the documentation is built as a site
   python3-jsonschema mkdocs
-  # the Python module, its frames and the pictures of its example
-  pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib
+  # the frames of the Python module and the pictures of its example
+  python3-numpy python3-pandas python3-matplotlib
   # CI checks the format of the sources
   clang-format
 )
 release_packages=(
-  # Debian packages
-  dpkg-dev file git
+  # Debian packages, that of the Python module and its wheel
+  dpkg-dev file git pybind11-dev python3-dev
 )
 [ "${1:-}" = --tests ] && packages+=("${test_packages[@]}" "${release_packages[@]}")
 [ "${1:-}" = --release ] && packages+=("${release_packages[@]}")

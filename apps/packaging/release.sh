@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes what is handed out of the last commit: the Debian packages, the source archive and their checksums.
+# Makes what is handed out of the last commit: the Debian packages, the Python wheel, the source archive and their
+# checksums.
 # The same commit gives the same bytes on the same Debian release.
 # Usage: bash apps/packaging/release.sh [FOLDER]     FOLDER is dist by default
 set -euo pipefail
@@ -27,12 +28,12 @@ tar -xzf "$work/$source_archive" -C "$work"
 # A name that does not change, so that no path of this machine or run gets into the program.
 cmake -S "$work/faultline-$version" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFAULTLINE_TESTS=OFF \
   -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$work=." >&2
-cmake --build "$work/build" --parallel "$(nproc)" >&2
+cmake --build "$work/build" --parallel "$(nproc)" --target all faultline_wheel >&2
 (cd "$work/build" && cpack -B "$work" >&2)
 
 mkdir -p "$out"
-rm -f "$out"/faultline_*.deb "$out"/libfaultline-dev_*.deb "$out"/python3-faultline_*.deb "$out"/faultline-*.tar.gz
-cp "$work"/*.deb "$work/$source_archive" "$out"
-(cd "$out" && sha256sum -- *.deb "$source_archive" >SHA256SUMS)
+rm -f "$out"/faultline_*.deb "$out"/libfaultline-dev_*.deb "$out"/python3-faultline_*.deb "$out"/faultline-*.tar.gz "$out"/faultline-*.whl
+cp "$work"/*.deb "$work"/build/dist/*.whl "$work/$source_archive" "$out"
+(cd "$out" && sha256sum -- *.deb *.whl "$source_archive" >SHA256SUMS)
 echo "Of commit $commit, in $out:"
-(cd "$out" && ls -1s --block-size=K -- *.deb "$source_archive" SHA256SUMS)
+(cd "$out" && ls -1s --block-size=K -- *.deb *.whl "$source_archive" SHA256SUMS)

@@ -20,6 +20,7 @@
 namespace faultline {
 
 namespace py = pybind11;
+using Json = nlohmann::ordered_json;
 
 LogHandle::LogHandle(std::string name, const std::vector<std::string>& names,
                      const std::vector<std::string>& units, const py::list& arrays, int run)
@@ -103,7 +104,6 @@ py::tuple read_channels(const LogHandle& handle, const std::string& robot, bool 
     units[one.name.c_str()] = one.unit;
     channels[one.name.c_str()] = owned_array(std::move(one.values));
   }
-  using Json = nlohmann::ordered_json;
   const std::string facts = json_text(Json{{"path", read.identity.path},
                                            {"sha256", read.identity.sha256},
                                            {"format", read.identity.format},

@@ -142,15 +142,29 @@ TEST_F(JsonSchemas, ABatchAndItsMergedShards) {
                          file("summary.json")})
                 .status,
             3);
-  std::vector<SchemaAndDocument> documents = {{"batch-summary-1", file("summary.json")},
+  std::vector<SchemaAndDocument> documents = {{"batch-summary-2", file("summary.json")},
                                               {"batch-row-1", file("all/index.ndjson")},
-                                              {"batch-1", file("part1/.batch/finished.json")}};
+                                              {"batch-2", file("part1/.batch/finished.json")}};
   for (const auto& entry : fs::directory_iterator(file("all/logs")))
     if (entry.path().extension() == ".json") documents.push_back({"diagnosis-1", entry.path().string()});
   ASSERT_GE(documents.size(), 5u);
   const SchemaVerdict verdict = judge_by_schema(documents);
   if (!verdict.can_judge) GTEST_SKIP() << verdict.text;
   EXPECT_TRUE(verdict.valid) << verdict.text;
+}
+
+TEST_F(JsonSchemas, ComparisonsByTimeByMotionAndOfOneRunWithItself) {
+  const std::string bench = kSamples + "bench/", robot = bench + "robot.toml";
+  const auto compare = [&](const std::string& first, const std::string& second, const std::string& json,
+                           std::vector<std::string> more) {
+    more.insert(more.begin(), {"compare", bench + first, bench + second, "--json", json});
+    EXPECT_LE(run_program(more).status, 1);
+  };
+  compare("healthy_2.csv", "torque_loss_1.csv", file("faulty.json"), {"--model", model_});
+  compare("healthy_2.csv", "healthy_3.csv", file("warped.json"), {"--align", "motion"});
+  compare("healthy_2.csv", "healthy_2.csv", file("same.json"), {"--align", "time"});
+  EXPECT_FOLLOWS_SCHEMA({"comparison-1", file("faulty.json")}, {"comparison-1", file("warped.json")},
+                        {"comparison-1", file("same.json")});
 }
 
 TEST_F(JsonSchemas, GoldenLogsThatAreAsExpectedAndThatDiffer) {
