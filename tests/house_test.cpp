@@ -115,6 +115,25 @@ std::string code_of(const std::string& line) {
 }
 
 /// Constants that run over several lines are named in their first.
+/// So that the builds that compile each file alone prove that each header needs nothing before it.
+TEST(House, ASourceIncludesItsOwnHeaderFirst) {
+  static const std::regex include("#include [<\"]([^>\"]+)[>\"]");
+  int checked = 0;
+  for (const fs::path& path : sources({"lib", "formats"})) {
+    fs::path header = path;
+    header.replace_extension(".hpp");
+    if (path.extension() != ".cpp" || !fs::exists(header)) continue;
+    for (const std::string& line : lines_of(path)) {
+      std::smatch first;
+      if (!std::regex_search(line, first, include)) continue;
+      EXPECT_EQ(first[1].str(), fs::relative(header, kRoot).string()) << path;
+      break;
+    }
+    ++checked;
+  }
+  EXPECT_GT(checked, 400);
+}
+
 TEST(House, NumbersThatDecideHaveNames) {
   static const std::regex literal(R"((^|[^\w.])(\d+\.\d*(e[-+]?\d+)?|\d+e[-+]?\d+))");
   int checked = 0;

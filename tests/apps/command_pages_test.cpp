@@ -99,8 +99,8 @@ TEST(DocumentationCpp, TheProgramOutsideTheTreeCompiles) {
   ASSERT_NE(code.find("faultline::diagnose("), std::string::npos);
   fs::create_directory_symlink(FAULTLINE_SOURCE_DIR, folder.file("faultline"));  // as it is installed
   const std::string command = "c++ -std=c++20 -fsyntax-only -I'" + std::string(FAULTLINE_SOURCE_DIR) +
-                              "' -I'" + folder.path().string() + "' -isystem /usr/include/eigen3 '" + folder.write("main.cpp", code) + "' >'" +
-                              log + "' 2>&1";
+                              "' -I'" + folder.path().string() + "' -isystem /usr/include/eigen3 '" +
+                              folder.write("main.cpp", code) + "' >'" + log + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
 }
 

@@ -73,11 +73,14 @@ class Batches(InFolder):
         self.assertEqual(merged.to_json(), whole.to_json())
 
     def test_folders_have_models_of_their_own(self):
-        mine = faultline.batch(LOGS, {LOGS.name: MODEL}, self.folder / "mine")
-        theirs = program("batch", LOGS, "--model", f"{LOGS.name}={MODEL}", "-o", self.folder / "theirs", "--json", "-")
+        mine = faultline.batch(LOGS, {LOGS.name: MODEL}, self.folder / "mine", cases=CASES)
+        theirs = program(
+            "batch", LOGS, "--model", f"{LOGS.name}={MODEL}", "--cases", CASES, "-o", self.folder / "theirs",
+            "--json", "-"
+        )
         self.assertEqual(mine.to_json().encode(), theirs)
         with self.assertRaisesRegex(faultline.UsageError, "elsewhere"):
-            faultline.batch(LOGS, {"elsewhere": MODEL}, self.folder / "none")
+            faultline.batch(LOGS, {"elsewhere": load_model()}, self.folder / "none")
 
     def test_a_model_that_is_nowhere_is_refused(self):
         with self.assertRaisesRegex(faultline.Error, "missing.json"):
