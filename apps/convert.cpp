@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/diagnosis_events.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/file_use.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/progress.hpp"
+#include "apps/work/diagnosis_events.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
 #include "formats/provenance.hpp"
@@ -73,7 +73,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
     options.recording = meaning.recording;
   }
   std::vector<LogEvent> events;
-  if (!arguments.diagnosis.empty()) events = events_of_diagnosis(arguments.diagnosis);
+  if (!arguments.diagnosis.empty()) events = events_of_file(arguments.diagnosis);
   const auto source = open_log(arguments.log, options);
   const auto writer = create_log(arguments.out);
   {

@@ -11,6 +11,8 @@
 #include "apps/options.hpp"
 #include "apps/report_options.hpp"
 #include "apps/robot_log.hpp"
+#include "apps/work/diagnosis_recording.hpp"
+#include "lib/core/error.hpp"
 #include "lib/log/prefetch.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/report/text.hpp"
@@ -18,10 +20,13 @@
 namespace faultline {
 namespace {
 
+constexpr const char* kRecordingOption = "--mcap";
+
 struct DiagnoseArguments : ModelPaths {
   std::string log;
   LogSelection parts;
   std::vector<RequestedReport> reports = all_reports();
+  std::string recording;  ///< of --mcap
   DiagnoseOptions options;
 };
 
@@ -32,15 +37,18 @@ void claim_files(const DiagnoseArguments& arguments) {
       .reads(arguments);
   for (const RequestedReport& report : arguments.reports)
     files.writes(std::string("--") + report.format->name, report.path);
-  files.claim();
+  files.writes(kRecordingOption, arguments.recording).claim();
 }
 
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
+  if (arguments.recording == "-")
+    throw Error(ErrorCode::usage, kRecordingOption, "writes a file, not to standard output; give it a name");
   claim_files(arguments);
   const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
   const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
   const Diagnosis diagnosis = diagnose(*log, model, cases, arguments.options);
   write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
+  if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
   TimelineOptions timeline;
   timeline.color = use_color(color, stdout);
   if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
@@ -56,6 +64,11 @@ void add_diagnose(CLI::App& app, Program& program) {
   add_model_option(*command, *arguments)->required();
   add_cases_option(*command, *arguments);
   add_report_options(*command, arguments->reports);
+  command
+      ->add_option(
+          kRecordingOption, arguments->recording,
+          "Write the log with predictions, residuals, evidence and events as MCAP (Foxglove, PlotJuggler)")
+      ->type_name("F");
   add_diagnose_options(*command, arguments->options);
   add_log_selection(*command, arguments->parts);
   command->footer(

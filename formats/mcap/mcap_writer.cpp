@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
+#include "formats/mcap/mcap_curves.hpp"
 #include "formats/mcap/mcap_events.hpp"
 #include "formats/mcap/mcap_file.hpp"
+#include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "lib/core/error.hpp"
@@ -41,7 +44,7 @@ bool has(const Log& log, const StatesTopic& topic) {
          !signals(log, topic.effort).empty();
 }
 
-void take_row(const JointSignals& values, int row, std::vector<double>& out) {
+void take_row(const JointSignals& values, std::size_t row, std::vector<double>& out) {
   out.clear();
   for (const std::vector<double>& joint : values) out.push_back(joint[row]);
 }
@@ -59,13 +62,32 @@ std::vector<std::string> extra_names(const Log& log) {
   return names;
 }
 
-class McapWriter : public LogWriter {
+class McapWriter : public McapRecording {
  public:
   explicit McapWriter(const std::string& path) : path_(path), file_(path) {}
 
-  void write(const Log& segment) override {
+  void write(const Log& segment) override { write(segment, {}); }
+
+  void write(const Log& segment, const ComputedRows& computed) override {
     if (!states_) begin(segment);
-    for (int row = 0; row < segment.rows(); ++row) write_row(segment, row);
+    std::size_t next = 0;
+    for (int row = 0; row < segment.rows(); ++row) {
+      write_row(segment, row);
+      for (; next < computed.row.size() && computed.row[next] == row; ++next)
+        write_computed(computed.signals, next, stamp_of(segment.time[row]));
+    }
+  }
+
+  void write(const NamedCurves& curves) override {
+    const std::uint16_t channel = file_.add_topic(curves_topic(curves));
+    for (std::size_t point = 0; point < curves.time.size(); ++point) {
+      const std::int64_t stamp = stamp_of(curves.time[point]);
+      file_.message(channel, static_cast<std::uint64_t>(stamp), curves_message(stamp, curves, point));
+    }
+  }
+
+  void note(const std::string& name, const std::string& json) override {
+    file_.metadata(name, kMcapProvenanceKey, json);
   }
 
   void note_provenance(const std::string& provenance) override {
@@ -93,9 +115,21 @@ class McapWriter : public LogWriter {
     extra_channel_ = add_topic(kExtraTopic);
   }
 
-  std::uint16_t add_topic(const char* name) {
+  std::uint16_t add_topic(const std::string& name) {
     return file_.add_topic(
         {name, JointStateEncoder::kType, "ros2msg", JointStateEncoder::kDefinition, "cdr"});
+  }
+
+  void write_computed(const std::vector<ComputedSignals>& signals, std::size_t at, std::int64_t stamp) {
+    for (const ComputedSignals& computed : signals) {
+      auto channel = computed_channels_.find(computed.topic);
+      if (channel == computed_channels_.end())
+        channel = computed_channels_.emplace(computed.topic, add_topic(computed.topic)).first;
+      take_row(computed.position, at, row_.position);
+      take_row(computed.velocity, at, row_.velocity);
+      take_row(computed.effort, at, row_.effort);
+      put(*states_, channel->second, stamp);
+    }
   }
 
   void write_row(const Log& log, int row) {
@@ -138,6 +172,7 @@ class McapWriter : public LogWriter {
   std::optional<JointStateEncoder> states_, extra_;
   std::vector<std::uint16_t> channels_;  ///< by kTopics; 0 for what the log has not
   std::uint16_t extra_channel_ = 0;
+  std::map<std::string, std::uint16_t> computed_channels_;  ///< by topic
   JointRow row_;
   std::string message_;
 };
@@ -145,5 +180,9 @@ class McapWriter : public LogWriter {
 }  // namespace
 
 std::unique_ptr<LogWriter> create_mcap(const std::string& path) { return std::make_unique<McapWriter>(path); }
+
+std::unique_ptr<McapRecording> create_mcap_recording(const std::string& path) {
+  return std::make_unique<McapWriter>(path);
+}
 
 }  // namespace faultline

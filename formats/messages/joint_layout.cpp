@@ -140,6 +140,7 @@ class Layouter {
   void add_other(int s, const std::vector<int>& order) {
     const JointStream& stream = streams_[s];
     const std::string& topic = topics_[stream.topic].name;
+    if (is_computed(topic)) return add_nothing(s);
     const std::vector<int> same = same_joints(stream, order);
     const bool torques = stream.effort && !stream.position && !stream.velocity;
     if (!same.empty() && is_command(topic) && !has_reference_) {
@@ -152,6 +153,10 @@ class Layouter {
     } else {
       add_stream(s, kMeasured, {});
     }
+  }
+
+  void add_nothing(int s) {
+    for (JointColumns& columns : layout_.of_stream[s]) columns.assign(streams_[s].joints.size(), -1);
   }
 
   /// The joints of the log in a stream; empty when it lacks some.

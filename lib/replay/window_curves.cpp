@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/replay/expected_joint.hpp"
+
 namespace faultline {
 namespace {
 
@@ -108,12 +110,11 @@ void WindowCurves::take_prediction(const Log& segment, int row, const Residuals&
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto joint = static_cast<Eigen::Index>(j);
     Joint& to = joints_[j];
+    const ExpectedJoint expected = expected_joint(healthy, segment, row, residuals, i, static_cast<int>(j));
     to.residual.add(bin, std::abs(residuals.velocity(joint, i)));
-    to.q_predicted.add(bin, segment.q[j][row] - residuals.position(joint, i) * healthy.position_rms[joint]);
-    if (!segment.dq.empty())
-      to.dq_predicted.add(bin,
-                          segment.dq[j][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint]);
-    to.tau_required.add(bin, residuals.tau(joint, i) + residuals.torque(joint, i));
+    to.q_predicted.add(bin, expected.q);
+    if (!segment.dq.empty()) to.dq_predicted.add(bin, expected.dq);
+    to.tau_required.add(bin, expected.tau_required);
   }
 }
 

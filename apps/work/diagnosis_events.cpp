@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/diagnosis_events.hpp"
+#include "apps/work/diagnosis_events.hpp"
 
 #include <fmt/format.h>
 
@@ -41,15 +41,19 @@ void add_events(const json& fault, std::vector<LogEvent>& events) {
 
 }  // namespace
 
-std::vector<LogEvent> events_of_diagnosis(const std::string& path) {
-  const json diagnosis = json::parse(read_file(path, kMostBytes), nullptr, false);
+std::vector<LogEvent> events_of_file(const std::string& path) {
+  return events_of_diagnosis(read_file(path, kMostBytes), path);
+}
+
+std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
+  const json diagnosis = json::parse(report, nullptr, false);
   std::vector<LogEvent> events;
   try {
-    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, path, "");
+    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
     for (const json& fault : diagnosis.at("faults")) add_events(fault, events);
   } catch (const std::exception&) {
     throw Error(
-        ErrorCode::input, path,
+        ErrorCode::input, where,
         std::string("is no diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
   }
   std::stable_sort(events.begin(), events.end(),

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// Writes the log that was diagnosed as MCAP with what the diagnosis computed from it (docs/formats-mcap.md),
+/// by a further pass over it. Throws Error(output).
+void write_recording(const std::string& path, LogSource& log, const Model& model, const Diagnosis& diagnosis);
+
+}  // namespace faultline

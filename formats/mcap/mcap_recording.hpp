@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formats/log_writer.hpp"
+
+namespace faultline {
+
+/// Signals of the joints that were computed from a log, under a topic of their own.
+struct ComputedSignals {
+  std::string topic;
+  JointSignals position, velocity, effort;  ///< joints x ComputedRows::row; empty for what there is none of
+};
+
+/// What was computed from rows of a segment.
+struct ComputedRows {
+  std::vector<int> row;  ///< of the segment, ascending
+  std::vector<ComputedSignals> signals;
+};
+
+/// Named values over time, under a topic of their own.
+struct NamedCurves {
+  std::string topic;
+  std::vector<std::string> names;
+  std::vector<double> time;                 ///< s
+  std::vector<std::vector<double>> values;  ///< names x time; NaN where there is none
+};
+
+/// A log in MCAP with what was computed from it. Names of topics are those of own_topics.hpp.
+class McapRecording : public LogWriter {
+ public:
+  using LogWriter::write;
+  /// A segment, each row with what was computed from it.
+  virtual void write(const Log& segment, const ComputedRows& computed) = 0;
+  /// As JSON messages, null for NaN. After all rows.
+  virtual void write(const NamedCurves& curves) = 0;
+  /// A text under a name and the key "json", which programs show as metadata. After all rows.
+  virtual void note(const std::string& name, const std::string& json) = 0;
+};
+
+std::unique_ptr<McapRecording> create_mcap_recording(const std::string& path);
+
+}  // namespace faultline
