@@ -42,10 +42,10 @@ std::string page_of_today(const std::string& page, std::set<std::string>& comman
   return today + page.substr(at);
 }
 
-/// Commands that a text of --help lists under "Subcommands:".
+/// Commands that a text of --help lists under "Commands:".
 std::vector<std::string> subcommands_in(const std::string& help) {
   static const std::regex entry("\n  ([a-z]+)  +[A-Z]");
-  const std::size_t begin = help.find("Subcommands:");
+  const std::size_t begin = help.find("\nCommands:");
   if (begin == std::string::npos) return {};
   const std::string list = help.substr(begin, help.find("\n\n", begin) - begin);
   std::vector<std::string> names;
