@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Checks report, identification and inspection pages of the sample logs with axe-core, by the rules of WCAG 2 levels A
+# Checks report, identification, inspection, comparison and batch pages of the sample logs with axe-core, by the rules of WCAG 2 levels A
 # and AA, in Chromium at 320 to 2560 px, light and dark. axe-core is not part of the project: the caller names its axe.min.js.
 # Usage: AXE=path/to/axe.min.js [BUILD=build/release] bash tests/bench/accessibility.sh [PAGE.html...]
 set -euo pipefail
@@ -29,7 +29,12 @@ if [ ${#pages[@]} -eq 0 ]; then
     --html "$out/identify.html" >/dev/null
   "$build/faultline" inspect "$samples"/bench/stuck_encoder_3.csv "$samples"/bench/healthy_1.csv --robot "$robot" \
     --html "$out/inspect.html" >/dev/null || [ $? -eq 1 ]
-  pages+=("$out/identify.html" "$out/inspect.html")
+  "$build/faultline" compare "$samples"/bench/healthy_2.csv "$samples"/bench/torque_loss_1.csv --model "$model" \
+    --html "$out/compare.html" >/dev/null || [ $? -eq 1 ]
+  rm -rf "$out/batch"
+  "$build/faultline" batch "$samples/golden/logs" "$samples/bench" --model "$model" --cases "$cases" -o "$out/batch" \
+    --identify >/dev/null 2>&1 || [ $? -eq 1 ]
+  pages+=("$out/identify.html" "$out/inspect.html" "$out/compare.html" "$out/batch/index.html")
 fi
 status=0
 for page in "${pages[@]}"; do "$build/tests/faultline_open_report" "$page" --axe "$AXE" || status=1; done
