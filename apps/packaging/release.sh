@@ -26,8 +26,8 @@ export SOURCE_DATE_EPOCH
 git archive --format=tar --prefix="faultline-$version/" HEAD | gzip -9n >"$work/$source_archive"
 tar -xzf "$work/$source_archive" -C "$work"
 # A name that does not change, so that no path of this machine or run gets into the program.
-cmake -S "$work/faultline-$version" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFAULTLINE_TESTS=OFF \
-  -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$work=." >&2
+(cd "$work/faultline-$version" && cmake --preset release -B "$work/build" -DFAULTLINE_TESTS=OFF \
+  -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$work=." >&2)
 cmake --build "$work/build" --parallel "$(nproc)" --target all faultline_wheel >&2
 (cd "$work/build" && cpack -B "$work" >&2)
 

@@ -24,11 +24,11 @@ using LabelKey = std::pair<int, int>;
 LabelKey key_of(const FaultLabel& label) { return {static_cast<int>(label.kind), label.joint}; }
 
 /// Sums of squares of one feature: within the faults, and about the mean of all.
-struct Spread {
+struct ValueSpread {
   double within = 0.0, total = 0.0, count = 0.0, groups = 0.0;
 };
 
-Spread spread_of(std::span<const Case> cases, std::size_t feature) {
+ValueSpread spread_of(std::span<const Case> cases, std::size_t feature) {
   std::map<LabelKey, Moments> groups;
   Moments all;
   for (const Case& c : cases) {
@@ -37,7 +37,7 @@ Spread spread_of(std::span<const Case> cases, std::size_t feature) {
     groups[key_of(c.label)].add(x);
     all.add(x);
   }
-  Spread spread;
+  ValueSpread spread;
   for (const auto& [label, moments] : groups) spread.within += moments.squares;
   spread.total = all.squares;
   spread.count = all.count;
@@ -45,7 +45,7 @@ Spread spread_of(std::span<const Case> cases, std::size_t feature) {
   return spread;
 }
 
-void learn_feature(Feature& feature, const Spread& spread) {
+void learn_feature(Feature& feature, const ValueSpread& spread) {
   if (spread.count <= spread.groups || !(spread.total > 0.0)) {
     feature.weight = 0.0;  // the same in all cases, or never twice in one fault: it tells nothing
     return;
