@@ -215,6 +215,20 @@ TEST(BatchIndexInChromium, AllFoldersAreInTheLegendAndParametersHaveIntervals) {
   EXPECT_NE(told.find("(95 %: "), std::string::npos) << told;
 }
 
+TEST(BatchIndexInChromium, ATrendThatNoLogTellsIsNotDrawn) {
+  NEEDS_CHROMIUM;
+  const auto draws_friction = [](const char* parameter) -> bool {
+    std::vector<BatchRow> all = rows(20);
+    for (BatchRow& row : all) row.condition = {{parameter, 3.0, 1.0, "%"}};
+    OpenIndex index(all);
+    index.show_trends();
+    return index.page.evaluate(
+        "[...document.querySelectorAll('figure')].some(f => f.textContent.startsWith('Friction'))");
+  };
+  EXPECT_TRUE(draws_friction("friction_2"));
+  EXPECT_FALSE(draws_friction("torque_offset_2"));
+}
+
 TEST(BatchIndexInChromium, TenThousandLogsOpenFilterAndScrollAndHostileNamesStayText) {
   NEEDS_CHROMIUM;
   auto all = rows(10000);

@@ -44,18 +44,20 @@ const faultlineTrends = (() => {
     const values = new Map();
     for (const row of judged)
       for (const [name, value, half] of row[list]) {
-        if (!wanted(data.parameters[name])) continue;
+        if (!wanted(name)) continue;
         if (!values.has(name)) values.set(name, []);
         values.get(name).push({row, value, half});
       }
     return Array.from(values, ([name, all]) => level(data.parameters[name], all)).filter((c) => c.points.length);
   }
 
+  const isFriction = (index) => /^friction_\d+$/.test(data.parameters[index]);
+
   function friction() {
     return shares('condition', (name, all) => ({
       name: 'joint ' + name.split('_').pop(),
       points: all.map(({row, value, half}) => ({at: row.at, row, y: value, half: half || 0})),
-    }), (name) => /^friction_\d+$/.test(name));
+    }), isFriction);
   }
 
   // From the median of the logs of the same model; those near zero have no such share.
@@ -85,7 +87,8 @@ const faultlineTrends = (() => {
        make: () => groups(model, (key) => data.models[key] || '-')},
       {title: 'Residual by folder', log: true, has: several(folder), make: () => groups(folder, (key) => key || '(files)')},
       {title: 'Faults', zero: true, has: true, make: () => [curve('faults', (row) => [row.faults.length])]},
-      {title: 'Friction, % from identified', has: judged.some((row) => row.condition.length), make: friction},
+      {title: 'Friction, % from identified', make: friction,
+       has: judged.some((row) => row.condition.some(([name]) => isFriction(name)))},
       {title: 'Parameters, % from their median', has: judged.some((row) => row.parameters.length), make: parameters},
     ];
     return judged.length < 2 ? [] : all.filter((panel) => panel.has);
