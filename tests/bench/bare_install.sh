@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # How long a bare Debian 12 takes to its first diagnosis, from the package or from source; and whether the package
-# leaves nothing behind. Needs root, debootstrap and a mirror in this machine's apt sources.
+# leaves nothing behind. Needs root and debootstrap; MIRROR names another mirror of Debian.
 # Usage: bash tests/bench/bare_install.sh deb FOLDER-OF-RELEASE.SH   or   bash tests/bench/bare_install.sh source
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -12,9 +12,10 @@ work=$(mktemp -d)
 root=$work/bare
 leave() { umount "$root/proc" 2>/dev/null || true; rm -rf "$work"; }
 trap leave EXIT
-mirror=$(grep -rhoE 'https?://[^ ]+' /etc/apt/sources.list /etc/apt/sources.list.d | grep -v security | head -1)
+mirror=${MIRROR:-http://deb.debian.org/debian}
 debootstrap --variant=minbase bookworm "$root" "$mirror" >"$work/debootstrap.log" 2>&1
-cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d "$root/etc/apt/"
+echo "deb $mirror bookworm main" >"$root/etc/apt/sources.list"
+for settings in $(grep -ls '^Acquire' /etc/apt/apt.conf.d/*); do cp "$settings" "$root/etc/apt/apt.conf.d/"; done  # proxies
 cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
 mount -t proc proc "$root/proc"
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C bash -c "$1"; }
