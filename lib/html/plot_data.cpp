@@ -7,6 +7,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/html/base64.hpp"
 
@@ -97,19 +98,6 @@ Json figure_json(const PageFigure& figure) {
           {"curves", curves},
           {"limits", limits},
           {"marks", marks}};
-}
-
-/// No "</script>" and no "<!--" can end or open anything.
-std::string inside_script(const std::string& json) {
-  std::string text;
-  text.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
 }
 
 }  // namespace

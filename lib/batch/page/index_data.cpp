@@ -9,6 +9,7 @@
 
 #include "lib/batch/page/index_trends.hpp"
 #include "lib/core/distributions.hpp"
+#include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
@@ -108,18 +109,6 @@ std::string row_json(const BatchRow& row, IndexNames& names) {
       number(row.start_s, kTimeDigits), number(row.end_s, kTimeDigits), number(row.sample_period_s),
       row.joints, row.warnings + row.severe, row.rows, numbers(row.residual_rms), numbers(row.residual_peak),
       parameters_json(row.condition, names.parameters), parameters_json(row.parameters, names.parameters));
-}
-
-std::string inside_script(const std::string& json) {
-  std::string text;
-  text.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
 }
 
 }  // namespace
