@@ -9,6 +9,7 @@ namespace faultline {
 void bind_errors(pybind11::module_& module);
 void bind_log(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
+void bind_networks(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 void bind_learn(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_faultline, module) {
   faultline::bind_errors(module);
   faultline::bind_log(module);
   faultline::bind_model(module);
+  faultline::bind_networks(module);
   faultline::bind_diagnosis(module);
   faultline::bind_learn(module);
   faultline::bind_identify(module);

@@ -43,6 +43,11 @@ MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& t
   return inputs;
 }
 
+MatrixXd network_outputs(const ResidualGenerator& generator, const Transitions& transitions) {
+  const MatrixXd inputs = generator.inputs.apply(network_inputs(generator, transitions));
+  return generator.outputs.invert(forward(generator.mlp, inputs));
+}
+
 MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions) {
   const Index n = generator.joints();
   MatrixXd change = MatrixXd::Zero(2 * n, transitions.count());
@@ -61,8 +66,7 @@ MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions&
   const Index n = generator.joints();
   MatrixXd change = base_change(generator, transitions);
   if (generator.kind == ResidualKind::physics) return change;
-  const MatrixXd inputs = generator.inputs.apply(network_inputs(generator, transitions));
-  const MatrixXd outputs = generator.outputs.invert(forward(generator.mlp, inputs));
+  const MatrixXd outputs = network_outputs(generator, transitions);
   // The network learned the nominal duration; a jittering clock stretches the change. A gap is NaN here.
   const Eigen::RowVectorXd stretch = transitions.duration.transpose() / generator.shape.step_s;
   if (!predicts_state(generator)) return change + (outputs.array().rowwise() * stretch.array()).matrix();

@@ -54,6 +54,11 @@ struct ResidualGenerator {
 /// inputs x transitions, not scaled.
 Eigen::MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& transitions);
 
+/// What the network puts out for each transition, in SI units: change of q and dq over the nominal duration
+/// (for kind `hybrid` what physics leaves over of it), or both after it (target `state`). 2 joints x
+/// transitions. Not for kind `physics`, which has no network.
+Eigen::MatrixXd network_outputs(const ResidualGenerator& generator, const Transitions& transitions);
+
 /// Change of q (upper half) and dq (lower half) over each transition that the part before the network
 /// predicts: physics for the kinds that have it, else zero. 2 joints x transitions.
 Eigen::MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions);

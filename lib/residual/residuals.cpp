@@ -24,6 +24,17 @@ MatrixXd torque_space(const Chain<double>& chain, const Transitions& transitions
 
 }  // namespace
 
+MatrixXd ratio_to_torque(const MatrixXd& torque, const MatrixXd& tau, const Eigen::VectorXd& torque_rms) {
+  const Eigen::ArrayXd eps2 = 9.0 * torque_rms.array().square();
+  return (torque.array() * tau.array() / (tau.array().square().colwise() + eps2)).matrix();
+}
+
+Transitions log_transitions(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
+  TransitionShape shape = generator.shape;
+  shape.derive_velocity = shape.derive_velocity || segment.dq.empty();
+  return collect_transitions(segment, shape, state);
+}
+
 Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions) {
   const Index n = generator.joints();
   const HealthyResiduals& healthy = generator.healthy;
@@ -36,17 +47,13 @@ Residuals residuals_of(const ResidualGenerator& generator, const Transitions& tr
   out.tau = transitions.mean_tau;
   out.position = healthy.position_rms.cwiseInverse().asDiagonal() * difference.topRows(n);
   out.velocity = healthy.velocity_rms.cwiseInverse().asDiagonal() * difference.bottomRows(n);
-  const Eigen::ArrayXd eps2 = 9.0 * healthy.torque_rms.array().square();
-  const auto tau = out.tau.array();
-  out.ratio = (out.torque.array() * tau / (tau.square().colwise() + eps2)).matrix();
+  out.ratio = ratio_to_torque(out.torque, out.tau, healthy.torque_rms);
   return out;
 }
 
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
   if (generator.joints() == 0 || segment.tau.empty()) return {};
-  TransitionShape shape = generator.shape;
-  shape.derive_velocity = shape.derive_velocity || segment.dq.empty();
-  return residuals_of(generator, collect_transitions(segment, shape, state));
+  return residuals_of(generator, log_transitions(generator, segment, state));
 }
 
 }  // namespace faultline

@@ -28,6 +28,11 @@ struct Residuals {
   int count() const { return static_cast<int>(row.size()); }
 };
 
+/// Residuals::ratio of torque-space residuals and torques, joints x samples; `torque_rms` is that of healthy
+/// residuals.
+Eigen::MatrixXd ratio_to_torque(const Eigen::MatrixXd& torque, const Eigen::MatrixXd& tau,
+                                const Eigen::VectorXd& torque_rms);
+
 using ResidualState = TransitionState;
 
 /// Residuals of all predictions that end in `segment`. Segments of one log are passed in order with the same
@@ -36,6 +41,8 @@ using ResidualState = TransitionState;
 /// has them from its positions; one without torque has no residuals. Throws Error(input) when the log is not
 /// of this robot.
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
+/// The transitions that it goes by, of a log that has torque.
+Transitions log_transitions(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
 Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions);
 
 }  // namespace faultline

@@ -6,8 +6,8 @@
     diagnosis = model.diagnose("bad.csv")
     print(diagnosis.verdict, [(fault.kind, fault.joint, fault.onset_s) for fault in diagnosis.faults])
 
-Logs are paths, dicts of NumPy arrays, pandas DataFrames or faultline.Log. NumPy, pandas and matplotlib are
-imported only by what needs them.
+Logs are paths, dicts of NumPy arrays, pandas DataFrames or faultline.Log. NumPy, pandas, matplotlib and
+onnx are imported only by what needs them.
 """
 from . import cases, golden
 from ._batch import BatchResult, batch, merge_batches
@@ -17,6 +17,7 @@ from ._identification import Identification, identify
 from ._inspection import Inspection, inspect
 from ._log import Log, open_log
 from ._model import Learned, Model, learn, load_model
+from ._onnx import OnnxFile
 from ._record import Record
 from ._simulation import reproduce, simulate
 from .errors import Error, InputError, InternalError, OutputError, UsageError
@@ -34,6 +35,7 @@ __all__ = [
     "Learned",
     "Log",
     "Model",
+    "OnnxFile",
     "OutputError",
     "Record",
     "UsageError",

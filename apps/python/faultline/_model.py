@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Models: learned, loaded, used."""
-from typing import Any, Dict, Iterable, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
-from . import _faultline
+from . import _faultline, _networks, _onnx
 from ._arguments import PathLike, Progress, path_of
 from ._diagnosis import Diagnosis, diagnosed
 from ._log import LogLike, handles_of
+from ._onnx import OnnxFile
 from ._record import Record, Result
 
 Labels = Union[PathLike, Mapping[str, Tuple[str, int, float]], None]
@@ -85,6 +86,28 @@ class Model:
     def save(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
         """Writes model and case base. Cases that people put into a base that is there are carried over."""
         self._handle.save(path_of(path), path_of(cases))
+
+    @property
+    def networks(self) -> List[str]:
+        """Names of its networks; none in a model of logs without torque."""
+        return [layout["name"] for layout in _onnx.layouts_of(self._handle)]
+
+    def network_inputs(self, network: str, log: LogLike, *, progress: Progress = None) -> Dict[str, Any]:
+        """What a network is given for a log, as NumPy matrices by name of the input: a row a prediction for
+        residual_mlp, a sample for sample_mlp and sample_rbfn, an episode that was found for evidence_mlp and
+        evidence_rbfn. SI units; NaN where something is missing."""
+        return _networks.inputs_in(self._handle, network, log, progress)
+
+    def network_outputs(self, network: str, inputs: Mapping[str, Any]) -> Any:
+        """What a network gives for matrices of its inputs by name, as a NumPy matrix with as many rows."""
+        return _networks.outputs_of(self._handle, network, inputs)
+
+    def to_onnx(self, folder: PathLike) -> List[OnnxFile]:
+        """Writes each of its networks as an ONNX file (opset 15, float64) into the folder, which is made, and
+        tells what was written. The scaling of inputs and outputs is in the graphs: they take and give what
+        network_inputs() and network_outputs() do. The same model gives the same bytes. Needs
+        python3-onnx."""
+        return _onnx.export(self._handle, path_of(folder))
 
     def __repr__(self) -> str:
         return f"faultline.Model({self.path or self.name!r})"
