@@ -29,8 +29,8 @@ test_packages=(
   chromium fonts-dejavu-core
   # what is written is held against docs/schemas, and the documentation is built as a site
   python3-jsonschema mkdocs
-  # the frames of the Python module and the pictures of its example
-  python3-numpy python3-pandas python3-matplotlib
+  # the frames of the Python module, the networks that it exports and the pictures of its example
+  python3-numpy python3-pandas python3-onnx python3-matplotlib
   # CI checks the format of the sources
   clang-format
 )

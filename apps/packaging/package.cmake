@@ -36,7 +36,7 @@ if(TARGET faultline_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${FAULTLINE_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-onnx, python3-matplotlib")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "What the program does, for Python: on files, NumPy arrays and pandas frames.")
 endif()
 include(CPack)

@@ -25,6 +25,8 @@ def metadata(version, readme):
         "Requires-Dist: numpy>=1.20\n"
         "Provides-Extra: frames\n"
         "Requires-Dist: pandas>=1.3; extra == 'frames'\n"
+        "Provides-Extra: onnx\n"
+        "Requires-Dist: onnx>=1.12; extra == 'onnx'\n"
         "Provides-Extra: plots\n"
         "Requires-Dist: matplotlib; extra == 'plots'\n"
         "Description-Content-Type: text/markdown\n"

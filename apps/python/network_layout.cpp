@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "apps/python/network_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "lib/classify/episode_features.hpp"
+#include "lib/core/error.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -87,6 +90,12 @@ NetworkLayout evidence_layout(const Model& model, const std::string& name, std::
     features.columns.push_back(name_of(feature));
     features.units.emplace_back(unit_in_features(feature.role));
   }
+  const int known = static_cast<int>(features.columns.size()), taken = model.episode_classifier.scaler.size();
+  if (taken != known)
+    throw Error(ErrorCode::input, model.name,
+                fmt::format("its evidence classifiers take {} features, this program collects {}; learn the "
+                            "model again",
+                            taken, known));
   layout.inputs.push_back(std::move(features));
   layout.output = of_classes("classes", model.episode_classifier.labels, std::move(output));
   return layout;

@@ -25,7 +25,8 @@ struct NetworkLayout {
   NetworkPort output{};
 };
 
-/// All networks that the model has; none where it has no mechanics.
+/// All networks that the model has; none where it has no mechanics. Throws Error(input) where the evidence
+/// classifiers were trained on other features than this program collects.
 std::vector<NetworkLayout> network_layouts(const Model& model);
 
 /// What the network called so gives, outputs x samples, for its inputs in the order of the layout, each

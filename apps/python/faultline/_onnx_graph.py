@@ -105,10 +105,10 @@ class Graph:
         return self.op("Add", spread, self.vector("output_offset", scaler["offset"]))
 
     def affine(self, values: str, weights: Sequence[Sequence[float]], bias: Sequence[float]) -> str:
-        """Weights of outputs x inputs."""
-        return self.op(
-            "Gemm", values, self.matrix("weights", weights), self.vector("bias", bias), transB=1
-        )
+        """Weights of outputs x inputs. The bias is taken away with its sign turned: runtimes fuse a product, a
+        sum and a tanh into an operator that some of them have in float32 only."""
+        product = self.op("MatMul", values, self.matrix("weights", list(zip(*weights))))
+        return self.op("Sub", product, self.vector("minus_bias", [-value for value in bias]))
 
     def mlp(self, values: str, mlp: Mapping[str, Any]) -> str:
         """A network of the model file, without its scalers."""
