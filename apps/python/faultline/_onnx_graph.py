@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Graphs of ONNX: what the networks need of it, in float64, of operators that runtimes have in float64.
+"""Graphs of ONNX: what the networks need of it, in float64, of operators that ONNX Runtime lists in
+float64 for the processor.
 
 Every value is a matrix with a row a sample; vectors hold a number a column.
 """
