@@ -4,9 +4,9 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/options.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/robot_log.hpp"
 #include "formats/open_log.hpp"
 #include "lib/compare/comparison_text.hpp"
 #include "lib/core/atomic_file.hpp"

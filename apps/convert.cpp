@@ -6,10 +6,10 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/progress.hpp"
 #include "apps/work/diagnosis_events.hpp"
+#include "apps/work/file_use.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
 #include "formats/provenance.hpp"

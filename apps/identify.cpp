@@ -13,10 +13,10 @@
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"

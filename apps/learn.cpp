@@ -7,15 +7,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/carried_cases.hpp"
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
-#include "apps/file_use.hpp"
-#include "apps/learned_text.hpp"
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/carried_cases.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/learned_text.hpp"
 #include "apps/work/learning.hpp"
+#include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"

@@ -5,7 +5,7 @@
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/cases/case_date.hpp"
-#include "apps/file_use.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"

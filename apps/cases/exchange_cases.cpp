@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "apps/cases/case_actions.hpp"
-#include "apps/file_use.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/cases/carry_over.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"

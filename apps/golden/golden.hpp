@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/commands.hpp"
-#include "apps/golden/golden_work.hpp"
 #include "apps/options.hpp"
+#include "apps/work/golden_work.hpp"
 
 namespace faultline {
 

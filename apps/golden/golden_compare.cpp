@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
-#include "apps/file_use.hpp"
 #include "apps/golden/golden.hpp"
 #include "apps/progress.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/golden/check_text.hpp"

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/golden/golden_work.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/watched_work.hpp"
+#include "apps/work/golden_work.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/golden/check_text.hpp"

@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/file_use.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/log_handle.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"

@@ -7,12 +7,12 @@
 #include <map>
 #include <utility>
 
-#include "apps/carried_cases.hpp"
-#include "apps/file_use.hpp"
-#include "apps/learned_text.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/loaded_model.hpp"
 #include "apps/python/log_handle.hpp"
+#include "apps/work/carried_cases.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/learned_text.hpp"
 #include "apps/work/learning.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/robot_file.hpp"

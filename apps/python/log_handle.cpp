@@ -8,7 +8,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/owned_array.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue_json.hpp"
 #include "lib/core/json_values.hpp"

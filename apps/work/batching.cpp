@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "apps/file_use.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/robot_log.hpp"
 #include "formats/log_formats.hpp"
 #include "lib/batch/choose_models.hpp"
 #include "lib/batch/merge_batches.hpp"

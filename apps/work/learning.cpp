@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "apps/carried_cases.hpp"
+#include "apps/work/carried_cases.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/atomic_file.hpp"

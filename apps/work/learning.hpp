@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/labels.hpp"
+#include "apps/work/labels.hpp"
 #include "apps/work/model_paths.hpp"
 #include "lib/cases/carry_over.hpp"
 #include "lib/pipeline/learn.hpp"

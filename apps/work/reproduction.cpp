@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "apps/folder.hpp"
+#include "apps/work/folder.hpp"
 #include "lib/core/atomic_file.hpp"
 
 namespace faultline {

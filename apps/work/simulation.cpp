@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/file_use.hpp"
-#include "apps/folder.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/folder.hpp"
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/transformed/coupled_source.hpp"

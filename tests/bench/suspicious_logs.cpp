@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "apps/robot_log.hpp"
+#include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/pipeline/model_doubts.hpp"

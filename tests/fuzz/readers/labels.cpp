@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/labels.hpp"
+#include "apps/work/labels.hpp"
 
 #include "tests/fuzz/readers/feeding.hpp"
 #include "tests/fuzz/readers/readers.hpp"

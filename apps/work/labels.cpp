@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/labels.hpp"
+#include "apps/work/labels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/golden/golden_work.hpp"
+#include "apps/work/golden_work.hpp"
 #include "lib/core/error.hpp"
 #include "lib/golden/default_tolerances.hpp"
 #include "lib/golden/golden_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/folder.hpp"
+#include "apps/work/folder.hpp"
 
 #include <filesystem>
 

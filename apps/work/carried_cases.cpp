@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/carried_cases.hpp"
+#include "apps/work/carried_cases.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

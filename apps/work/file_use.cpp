@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/file_use.hpp"
+#include "apps/work/file_use.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "apps/golden/golden_work.hpp"
+#include "apps/work/golden_work.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include "apps/file_use.hpp"
-#include "apps/folder.hpp"
-#include "apps/labels.hpp"
-#include "apps/robot_log.hpp"
+#include "apps/work/file_use.hpp"
+#include "apps/work/folder.hpp"
+#include "apps/work/labels.hpp"
+#include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/learned_text.hpp"
+#include "apps/work/learned_text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/carried_cases.hpp"
+#include "apps/work/carried_cases.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnosis/blind_spots.hpp"

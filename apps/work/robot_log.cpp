@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/robot_log.hpp"
+#include "apps/work/robot_log.hpp"
 
 #include <utility>
 
