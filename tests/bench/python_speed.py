@@ -7,28 +7,23 @@ import statistics
 import subprocess
 import sys
 
-import numpy
-
 import faultline
 
 GOLDEN = pathlib.Path("sample_logs/golden")
 MODEL = next(GOLDEN.glob("model-*.json"))
 CASES = next(GOLDEN.glob("cases-*.db"))
 ROWS = 600_000
+PERIOD_S = 0.073  # of the model
 MOST = 1.1
 
 
-def long_run():
-    """A healthy run over and over again."""
-    run = faultline.open_log(GOLDEN / "logs/healthy_quintic.csv").to_dict()
-    rows = len(run["t"])
-    times = -(-ROWS // rows)
-    out = {name: numpy.tile(values, times)[:ROWS].copy() for name, values in run.items()}
-    period = numpy.median(numpy.diff(run["t"]))
-    out["t"] = (
-        numpy.repeat(numpy.arange(times), rows) * (run["t"][-1] + period) + numpy.tile(run["t"], times)
-    )[:ROWS].copy()
-    return out
+def long_run(program, folder):
+    """A healthy run of the golden model's robot, simulated."""
+    spec = pathlib.Path("sample_logs/bench/spec.toml").read_text()
+    robot = spec[: spec.index("[[run]]")].replace('format = "csv"', 'format = "flog"')
+    (folder / "spec.toml").write_text(f'{robot}[[run]]\nname = "run"\nduration_s = {PERIOD_S * (ROWS - 1)}\n')
+    subprocess.run([program, "simulate", folder / "spec.toml", "-o", folder], stdout=subprocess.DEVNULL, check=True)
+    return faultline.open_log(folder / "run.flog").to_dict()
 
 
 def user_seconds(who):
@@ -59,13 +54,9 @@ def import_seconds(modules):
 def main(program, pairs, folder):
     for modules in ("faultline", "numpy, faultline", "numpy"):
         print(f"import {modules}: {import_seconds(modules):.3f} s")
-    columns = long_run()
+    columns = long_run(program, folder)
     logs = {"csv": folder / "run.csv", "flog": folder / "run.flog"}
-    with open(logs["csv"], "w") as file:
-        file.write(",".join(columns) + "\n")
-        for row in zip(*(values.tolist() for values in columns.values())):
-            file.write(",".join(map(repr, row)) + "\n")
-    subprocess.run([program, "convert", logs["csv"], logs["flog"]], stdout=subprocess.DEVNULL, check=True)
+    subprocess.run([program, "convert", logs["flog"], logs["csv"]], stdout=subprocess.DEVNULL, check=True)
     worst = 0.0
     for kind, log in logs.items():
         ratios, mine, theirs = [], [], []
