@@ -22,7 +22,7 @@ void add_global_options(CLI::App& app, Program& program) {
   app.add_option_function<std::string>(
          "--color", [&program](const std::string& when) { program.color = color_choice_from(when); },
          "Colours: auto (default), always or never; NO_COLOR is respected")
-      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("WHEN");
   app.fallthrough();  // --color may also stand after the subcommand
   app.require_subcommand(1);

@@ -44,6 +44,13 @@ std::vector<std::string> log_extensions() {
   return all;
 }
 
+std::vector<std::string> log_name_endings() {
+  std::vector<std::string> all = log_extensions();
+  for (const std::string& extension : log_extensions())
+    for (const char* packing : {".gz", ".zst"}) all.push_back(extension + packing);
+  return all;
+}
+
 std::vector<LogFormat> written_formats() {
   std::vector<LogFormat> written;
   std::copy_if(log_formats().rbegin(), log_formats().rend(), std::back_inserter(written),

@@ -31,6 +31,9 @@ const std::vector<LogFormat>& log_formats();
 /// Of all formats that are read.
 std::vector<std::string> log_extensions();
 
+/// How names of logs end: the extensions, also before that of a packed file (".csv.gz").
+std::vector<std::string> log_name_endings();
+
 /// Those that a log can be written in, the most general (CSV) first.
 std::vector<LogFormat> written_formats();
 

@@ -12,6 +12,21 @@ std::vector<const CommandDescription*> all_commands(const CommandDescription& co
   return all;
 }
 
+std::vector<const CommandDescription*> commands_with_words(const CommandDescription& program) {
+  std::vector<const CommandDescription*> commands = all_commands(program);
+  std::erase_if(commands, [&](const CommandDescription* command) {
+    return command == &program || command->own_name() == "help";
+  });
+  return commands;
+}
+
+std::vector<std::string> argument_choices(const CommandDescription& command) {
+  std::vector<std::string> choices;
+  for (const ArgumentDescription& argument : command.positionals)
+    choices.insert(choices.end(), argument.choices.begin(), argument.choices.end());
+  return choices;
+}
+
 std::vector<ArgumentDescription> options_known_to(const CommandDescription& command,
                                                   const CommandDescription& program) {
   std::vector<ArgumentDescription> options = command.options;

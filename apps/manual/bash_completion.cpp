@@ -10,9 +10,8 @@ namespace {
 /// Adds every command that has come to the path, so that options belong to the innermost.
 std::string bash_path_cases(const CommandDescription& program) {
   std::string text;
-  for (const CommandDescription* command : all_commands(program))
-    if (command != &program)
-      text += fmt::format("      \"{}\") path=\"{}\" ;;\n", command->name, command->name);
+  for (const CommandDescription* command : commands_with_words(program))
+    text += fmt::format("      \"{}\") path=\"{}\" ;;\n", command->name, command->name);
   return text;
 }
 
@@ -22,6 +21,7 @@ std::string bash_word_cases(const CommandDescription& program) {
   for (const CommandDescription* command : all_commands(program)) {
     std::string commands, flags;
     for (const CommandDescription& below : command->commands) commands += " " + below.own_name();
+    for (const std::string& choice : argument_choices(*command)) commands += " " + choice;
     for (const ArgumentDescription& option : options_known_to(*command, program))
       flags += fmt::format(" {}", fmt::join(option.flags, " "));
     text += fmt::format("    \"{}\") commands=\"{}\" flags=\"{}\" ;;\n", command->name,
@@ -48,9 +48,11 @@ std::string bash_value_cases(const CommandDescription& program) {
 std::string bash_completion(const CommandDescription& program) {
   return "# bash completion of " + program.name + "\n_" + program.name +
          "() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} path=" +
+         "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} path=" +
          program.name +
          " commands= flags= i\n"
+         "  if [[ $current == = ]]; then current=\n"
+         "  elif [[ $before == = ]]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
          "    case \"$path ${COMP_WORDS[i]}\" in\n" +
          bash_path_cases(program) +
@@ -59,7 +61,7 @@ std::string bash_completion(const CommandDescription& program) {
          "  case \"$path\" in\n" +
          bash_word_cases(program) +
          "  esac\n"
-         "  case \"$path ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
+         "  case \"$path $before\" in\n" +
          bash_value_cases(program) +
          "  esac\n"
          "  [[ $current == -* ]] && commands=$flags\n"

@@ -40,6 +40,14 @@ ArgumentDescription describe(const CLI::Option& option) {
   return argument;
 }
 
+/// Options of a command that only stands before others, such as `cases`, are options of those.
+void add_options_before(const CLI::App& command, CommandDescription& described) {
+  const CLI::App* before = command.get_parent();
+  if (!before || !before->get_parent() || before->get_require_subcommand_min() == 0) return;
+  for (const CLI::Option* option : before->get_options())
+    if (option != before->get_help_ptr()) described.options.push_back(describe(*option));
+}
+
 }  // namespace
 
 std::string CommandDescription::own_name() const { return name.substr(name.rfind(' ') + 1); }
@@ -53,6 +61,7 @@ CommandDescription describe_command(const CLI::App& command, const std::string& 
   for (const CLI::Option* option : command.get_options())
     if (!option->get_group().empty())
       (option->get_positional() ? described.positionals : described.options).push_back(describe(*option));
+  add_options_before(command, described);
   for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
     if (!below->get_group().empty())
       described.commands.push_back(describe_command(*below, described.name + " "));

@@ -19,7 +19,8 @@ std::string fish_quoted(const std::string& text) {
 /// Prints the commands typed so far, the words that `case` lists.
 std::string path_function(const CommandDescription& program) {
   std::string names;
-  for (const CommandDescription* command : all_commands(program)) names += " " + fish_quoted(command->name);
+  for (const CommandDescription* command : commands_with_words(program))
+    names += " " + fish_quoted(command->name);
   return fmt::format(
       "function __{0}_typed\n"
       "  set -l typed {0}\n"
@@ -47,6 +48,7 @@ std::string fish_completion(const CommandDescription& program) {
         fmt::format("complete -c {0} -n 'test (__{0}_typed) = \"{1}\"'", program.name, command->name);
     for (const CommandDescription& below : command->commands)
       text += fmt::format("{} -f -a {} -d {}\n", here, below.own_name(), fish_quoted(below.about));
+    for (const std::string& choice : argument_choices(*command)) text += here + " -f -a " + choice + "\n";
     for (const ArgumentDescription& option : options_known_to(*command, program)) {
       std::string values = option.value.empty() ? "" : " -r";
       if (!option.choices.empty())

@@ -36,6 +36,10 @@ std::string no_command(const CommandDescription& command, const std::string& wor
   return fmt::format("{} {} is no command; there are {}", command.name, word, fmt::join(names, ", "));
 }
 
+bool is_number(const std::string& word) {
+  return word.find_first_not_of("+-.0123456789eE") == std::string::npos;
+}
+
 }  // namespace
 
 std::string about_unknown_word(const CommandDescription& program, const std::vector<std::string>& words) {
@@ -51,6 +55,9 @@ std::string about_unknown_word(const CommandDescription& program, const std::vec
       if (!option && is_long)
         return fmt::format("{} is no option of {}{}", flag, command->name,
                            did_you_mean(nearest_name(flag, flags_of(*command))));
+      if (!option && !is_number(word))
+        return fmt::format("{} is no option of {}; a file of that name is given as ./{}", word, command->name,
+                           word);
       if (option && !option->value.empty() && flag == word) ++i;  // its value
       continue;
     }

@@ -16,8 +16,8 @@ std::string zsh_quoted(const std::string& text) {
 
 std::string zsh_path_cases(const CommandDescription& program) {
   std::string text;
-  for (const CommandDescription* command : all_commands(program))
-    if (command != &program) text += fmt::format("      ('{0}') typed='{0}' ;;\n", command->name);
+  for (const CommandDescription* command : commands_with_words(program))
+    text += fmt::format("      ('{0}') typed='{0}' ;;\n", command->name);
   return text;
 }
 
@@ -32,6 +32,7 @@ std::string zsh_word_cases(const CommandDescription& program) {
     std::string commands, options;
     for (const CommandDescription& below : command->commands)
       commands += offered(below.own_name(), below.about);
+    for (const std::string& choice : argument_choices(*command)) commands += " " + zsh_quoted(choice);
     for (const ArgumentDescription& option : options_known_to(*command, program))
       for (const std::string& flag : option.flags) options += offered(flag, option.help);
     text += fmt::format("    ('{}')\n      commands=({})\n      options=({}) ;;\n", command->name, commands,

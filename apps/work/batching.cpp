@@ -59,7 +59,7 @@ BatchModel batch_model_of(const std::string& argument) {
 }
 
 std::vector<BatchLog> claimed_logs(const BatchRequest& request) {
-  std::vector<BatchLog> logs = find_logs(request.paths, log_extensions());
+  std::vector<BatchLog> logs = find_logs(request.paths, log_name_endings());
   if (logs.empty())
     throw Error(ErrorCode::input, request.paths.front(),
                 "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTableOfLogs = "file,";  // labels files, reports as CSV, index.csv
 
-std::string lower_extension(const fs::path& path) {
-  std::string text = path.extension().string();
+std::string lower_name(const fs::path& path) {
+  std::string text = path.filename().string();
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -34,7 +34,7 @@ bool starts_as_table_of_logs(const fs::path& path) {
 
 class Finder {
  public:
-  explicit Finder(const std::vector<std::string>& extensions) : extensions_(extensions) {}
+  explicit Finder(const std::vector<std::string>& endings) : endings_(endings) {}
 
   void take(const std::string& given) {
     std::error_code error;
@@ -77,8 +77,10 @@ class Finder {
   }
 
   bool is_log(const fs::directory_entry& entry) const {
-    const std::string extension = lower_extension(entry.path());
-    if (std::find(extensions_.begin(), extensions_.end(), extension) == extensions_.end()) return false;
+    const std::string name = lower_name(entry.path());
+    if (std::none_of(endings_.begin(), endings_.end(),
+                     [&](const std::string& ending) { return name.ends_with(ending); }))
+      return false;
     std::error_code error;
     return !entry.is_directory(error) && !starts_as_table_of_logs(entry.path());
   }
@@ -92,15 +94,15 @@ class Finder {
     if (!fresh && name < place->second.name) place->second = log;
   }
 
-  const std::vector<std::string>& extensions_;
+  const std::vector<std::string>& endings_;
   std::map<std::string, BatchLog> found_;
 };
 
 }  // namespace
 
 std::vector<BatchLog> find_logs(const std::vector<std::string>& paths,
-                                const std::vector<std::string>& extensions) {
-  Finder finder(extensions);
+                                const std::vector<std::string>& endings) {
+  Finder finder(endings);
   for (const std::string& path : paths) finder.take(path);
   return finder.sorted();
 }

@@ -16,11 +16,11 @@ struct BatchLog {
 };
 
 /// The logs at `paths`, files and folders in any order, each once, sorted by name. A file that was given is
-/// taken whatever it is. Of a folder, with all below it, the files with one of `extensions` (".csv") are
-/// taken, but not hidden ones, tables that start with "file," (labels.csv and our reports) nor results of a
-/// batch. What cannot be read stays in the list: reading it says why. Throws Error(input) when a path is not
-/// there.
+/// taken whatever it is. Of a folder, with all below it, the files whose name ends in one of `endings`
+/// (".csv", ".csv.gz") are taken, but not hidden ones, tables that start with "file," (labels.csv and our
+/// reports) nor results of a batch. What cannot be read stays in the list: reading it says why. Throws
+/// Error(input) when a path is not there.
 std::vector<BatchLog> find_logs(const std::vector<std::string>& paths,
-                                const std::vector<std::string>& extensions);
+                                const std::vector<std::string>& endings);
 
 }  // namespace faultline

@@ -28,7 +28,7 @@ class FindLogs : public testing::Test {
   std::vector<std::string> found(const std::vector<std::string>& given) {
     std::vector<std::string> paths;
     for (const std::string& path : given) paths.push_back(folder_.file(path));
-    return names(find_logs(paths, {".csv", ".flog"}));
+    return names(find_logs(paths, {".csv", ".flog", ".csv.gz"}));
   }
   TemporaryFolder folder_;
 };
@@ -38,7 +38,9 @@ TEST_F(FindLogs, FoldersAreSearchedAndSortedByName) {
   add("runs/a/z.flog");
   add("runs/a/B.CSV");
   add("runs/readme.md");
-  EXPECT_EQ(found({"runs"}), (std::vector<std::string>{"runs/a/B.CSV", "runs/a/z.flog", "runs/b.csv"}));
+  add("runs/c.csv.gz");
+  add("runs/other.gz");
+  EXPECT_EQ(found({"runs"}), (std::vector<std::string>{"runs/a/B.CSV", "runs/a/z.flog", "runs/b.csv", "runs/c.csv.gz"}));
   EXPECT_EQ(found({"runs/"}), found({"runs"}));
   EXPECT_EQ(found({"runs/a/../a"}), (std::vector<std::string>{"a/B.CSV", "a/z.flog"}));
 }

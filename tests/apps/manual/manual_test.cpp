@@ -27,6 +27,9 @@ TEST(Manual, UnknownCommandsAndOptionsAreAnsweredWithTheNearest) {
   EXPECT_NE(said({"--color", "never", "golden", "chek", "g"}).find("faultline golden check?"),
             std::string::npos);
   EXPECT_NE(said({"diagnose", "--jsn", "x", "l"}).find("did you mean --json?"), std::string::npos);
+  EXPECT_EQ(said({"cases", "add", "r.json", "--joint", "-1", "--model", "m"}).find("no option"),
+            std::string::npos);
+  EXPECT_NE(said({"diagnose", "-dash.csv", "--model", "m"}).find("./-dash.csv"), std::string::npos);
   EXPECT_NE(said({"zzz"}).find("there are inspect, convert"), std::string::npos);
   EXPECT_NE(said({"help", "lern"}).find("did you mean faultline learn?"), std::string::npos);
 }
@@ -70,6 +73,10 @@ TEST(Manual, BashCompletesCommandsOptionsAndFewWords) {
   EXPECT_EQ(offered_by_bash(script, "faultline golden ch", 2), "check\n");
   EXPECT_EQ(offered_by_bash(script, "faultline diagnose run.csv --js", 3), "--json\n");
   EXPECT_EQ(offered_by_bash(script, "faultline diagnose --classify ''", 3), "evidence samples\n");
+  EXPECT_EQ(offered_by_bash(script, "faultline diagnose --classify = e", 4), "evidence\n");
+  EXPECT_EQ(offered_by_bash(script, "faultline diagnose --color ''", 3), "auto always never\n");
+  EXPECT_EQ(offered_by_bash(script, "faultline completion z", 2), "zsh\n");
+  EXPECT_EQ(offered_by_bash(script, "faultline help golden ch", 3), "check\n");
   EXPECT_EQ(offered_by_bash(script, "faultline diagnose --model ''", 3), "\n") << "files are the shell's own";
 }
 
