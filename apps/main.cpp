@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <regex>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
@@ -59,11 +60,17 @@ CommandDescription selected_command(const CLI::App& app) {
   return describe_command(*command, prefix);
 }
 
+/// The library prints the largest number there is with all its digits.
+std::string without_limits_of_double(const std::string& sentence) {
+  static const std::regex limits("not in range [0-9.]+ to 1[0-9]{300,}[0-9.]*");
+  return std::regex_replace(sentence, limits, "is too small");
+}
+
 /// What the library says of a command line, but of a word that is unknown, what was probably meant.
 std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
                               const std::vector<std::string>& words) {
   const std::string unknown = about_unknown_word(describe_command(app), words);
-  return (unknown.empty() ? error.what() : unknown) + "; see '" + selected_command(app).name + " --help'";
+  return (unknown.empty() ? without_limits_of_double(error.what()) : unknown) + "; see '" + selected_command(app).name + " --help'";
 }
 
 int run(int argc, char** argv) {

@@ -35,7 +35,7 @@ void add_events(const json& fault, std::vector<LogEvent>& events) {
       events.push_back({time->get<double>(), grave, what + text});
   };
   add("onset_s", "begins: ", true);
-  add("alarm_s", "could be told: ", false);
+  add("alarm_s", "alarm: ", false);
   add("end_s", "ends: ", false);
 }
 

@@ -25,6 +25,12 @@ std::string size_words(const EpisodeEvidence& observed, const Model& model, cons
   return size_text(label, best->size, turns);
 }
 
+/// The ratio of an episode is that of its likeliest hypothesis, which need not be the fault that was named.
+std::string whose_likelihood(const EpisodeEvidence& evidence, const Model& model, const FaultLabel& named) {
+  if (evidence.best < 0 || model.bank[evidence.best].label == named) return "the fault";
+  return "the likeliest fault (" + label_text(model.bank[evidence.best].label, " at joint ") + ")";
+}
+
 EvidenceItem remark(const char* name, std::string text) {
   return {.name = name, .unit = {}, .text = std::move(text)};
 }
@@ -37,9 +43,10 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   items.push_back(remark("decision", reason_in_words(decision, basis)));
   for (std::string& warning : warnings_of_cases(decision, basis.votes))
     items.push_back(remark("warning", std::move(warning)));
-  items.push_back({"log_likelihood_ratio", basis.episode.evidence, "nats",
-                   fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)",
-                               model.evidence.threshold)});
+  items.push_back(
+      {"log_likelihood_ratio", basis.episode.evidence, "nats",
+       fmt::format("log likelihood of {} over a healthy robot (alarm from {:.0f} on)",
+                   whose_likelihood(observed.evidence, model, decision.label), model.evidence.threshold)});
   if (decision.label.joint > 0)
     if (std::string size = size_words(observed.evidence, model, decision.label); !size.empty())
       items.push_back(remark("size", std::move(size)));

@@ -22,15 +22,28 @@ const faultlinePlots = (() => {
 
   // With as many decimals as tell neighbouring ticks of an axis apart.
   function tick(value, [low, high]) {
-    if (Math.abs(value) >= 1e6 || high - low < 1e-6) return short(value);
+    if (Math.abs(value) >= 1e6 || !(high > low)) return short(value);
     const decimals = Math.ceil(-Math.log10((high - low) / 12));
-    return value.toFixed(Math.min(Math.max(decimals, 0), 9)).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
+    return value.toFixed(Math.min(Math.max(decimals, 0), 12)).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
   }
 
   // With as many decimals as tell neighbouring rows apart.
   function moment(time, rows) {
     const step = rows.length > 1 ? (rows[rows.length - 1][0] - rows[0][0]) / (rows.length - 1) : 1;
     return time.toFixed(Math.min(Math.max(Math.ceil(-Math.log10(step)), 0), 6)) + ' s';
+  }
+
+  // Where the word of a line stands: beside it, on the side that crosses no other line, in the first row where it
+  // covers no other word.
+  function placedWord(x, width, area, lines, words) {
+    const right = {from: x + 4, to: x + 8 + width}, left = {from: x - 4 - width, to: x};
+    for (let row = 0; row < 3; ++row)
+      for (const {from, to} of [right, left]) {
+        const inside = from >= area.x && to <= area.x + area.w;
+        const crossed = row === 0 && lines.some((line) => line !== x && line > from && line < to);
+        if (inside && !crossed && !words.some((w) => w.row === row && w.from < to && from < w.to)) return {from, to, row};
+      }
+    return {...right, row: 0};
   }
 
   class Group {
@@ -156,20 +169,16 @@ const faultlinePlots = (() => {
       context.font = '12px sans-serif';
       const marks = this.figure.marks.map(([time, text]) => [graph.toDomXCoord(time), text])
         .filter(([x]) => x >= area.x && x <= area.x + area.w);
-      let taken = -Infinity;
-      marks.forEach(([x, text], i) => {
+      const lines = marks.map(([x]) => x), words = [];
+      for (const [x, text] of marks) {
         context.beginPath();
         context.moveTo(x, area.y);
         context.lineTo(x, area.y + area.h);
         context.stroke();
-        // A word that would reach into the next line stands on the other side, or below without room there.
-        const width = context.measureText(text).width + 8;
-        const next = i + 1 < marks.length ? marks[i + 1][0] : area.x + area.w;
-        const left = next - x < width && x - area.x > width;
-        context.textAlign = left ? 'right' : 'left';
-        context.fillText(text, left ? x - 4 : x + 4, area.y + (!left && x < taken ? 27 : 13));
-        if (!left && x >= taken) taken = x + width;
-      });
+        const word = placedWord(x, context.measureText(text).width, area, lines, words);
+        words.push(word);
+        context.fillText(text, word.from, area.y + 13 + 14 * word.row);
+      }
       context.restore();
     }
 

@@ -64,11 +64,15 @@ const faultlineTrendGroup = (() => {
     if (!place) return;
     group.goTo = goTo;
     tools(place);
+    const come = (figure) => {
+      if (!figure.plot) group.plots.push(figure.plot = new Plot(figure.panel, group, figure));
+      figure.plot.near = true;
+      figure.plot.draw();
+    };
     const seen = new IntersectionObserver((entries) => {
       for (const {target, isIntersecting} of entries) {
-        if (!target.plot && isIntersecting) group.plots.push(target.plot = new Plot(target.panel, group, target));
-        if (target.plot) target.plot.near = isIntersecting;
-        if (isIntersecting) target.plot.draw();
+        if (isIntersecting) come(target);
+        else if (target.plot) target.plot.near = false;
       }
     }, {rootMargin: '200px'});
     for (const panel of panels()) {
@@ -79,7 +83,7 @@ const faultlineTrendGroup = (() => {
     }
     new ResizeObserver(() => group.draw()).observe(place);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => group.draw());
-    addEventListener('beforeprint', () => { for (const plot of group.plots) plot.draw(); });
+    addEventListener('beforeprint', () => place.querySelectorAll('figure').forEach(come));
   }
 
   return {start, show: (passing) => document.getElementById('trends-live') && group.show(passing)};
