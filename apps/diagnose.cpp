@@ -47,11 +47,19 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
   const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
   const Diagnosis diagnosis = diagnose(*log, model, cases, arguments.options);
-  write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
-  if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
-  TimelineOptions timeline;
-  timeline.color = use_color(color, stdout);
-  if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
+  const auto tell_diagnosis = [&] {
+    TimelineOptions timeline;
+    timeline.color = use_color(color, stdout);
+    if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
+  };
+  try {
+    write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
+    if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
+  } catch (const Error&) {
+    tell_diagnosis();  // what was found is not lost with a file that cannot be written
+    throw;
+  }
+  tell_diagnosis();
   return diagnosis.verdict == Verdict::healthy ? kNothingFound : kFindings;
 }
 

@@ -70,7 +70,8 @@ std::string without_limits_of_double(const std::string& sentence) {
 std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
                               const std::vector<std::string>& words) {
   const std::string unknown = about_unknown_word(describe_command(app), words);
-  return (unknown.empty() ? without_limits_of_double(error.what()) : unknown) + "; see '" + selected_command(app).name + " --help'";
+  return (unknown.empty() ? without_limits_of_double(error.what()) : unknown) + "; see '" +
+         selected_command(app).name + " --help'";
 }
 
 int run(int argc, char** argv) {

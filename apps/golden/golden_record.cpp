@@ -24,8 +24,8 @@ std::string recorded_text(const Recorded& recorded, const std::string& folder) {
                         recorded.set.identification->logs.size());
   else
     text += "identification: none, " + printable(recorded.no_identification) + "\n";
-  return text + fmt::format("Recorded {} logs. Look at {}, then commit the folder.\n",
-                            recorded.set.logs.size(), printable(golden_file(folder)));
+  return text + fmt::format("Recorded {}. Look at {}, then commit the folder.\n",
+                            counted(std::ssize(recorded.set.logs), "log"), printable(golden_file(folder)));
 }
 
 int run_record(RecordArguments arguments, ColorChoice color) {

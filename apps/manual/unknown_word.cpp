@@ -55,7 +55,7 @@ std::string about_unknown_word(const CommandDescription& program, const std::vec
       if (!option && is_long)
         return fmt::format("{} is no option of {}{}", flag, command->name,
                            did_you_mean(nearest_name(flag, flags_of(*command))));
-      if (!option && !is_number(word))
+      if (!option && word.find('.') != std::string::npos && !is_number(word))
         return fmt::format("{} is no option of {}; a file of that name is given as ./{}", word, command->name,
                            word);
       if (option && !option->value.empty() && flag == word) ++i;  // its value

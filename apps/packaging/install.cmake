@@ -13,8 +13,12 @@ install(FILES ${PROJECT_BINARY_DIR}/completion/faultline.zsh DESTINATION ${CMAKE
 install(FILES ${PROJECT_BINARY_DIR}/completion/faultline.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
         COMPONENT program)
 install(DIRECTORY formats/presets sample_logs DESTINATION ${share} COMPONENT program)
-install(FILES README.md docs/changelog.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# The README links to docs/.
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN site EXCLUDE PATTERN build_site.sh EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libfaultline-dev RENAME copyright COMPONENT development)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-faultline RENAME copyright COMPONENT python EXCLUDE_FROM_ALL)
 
 # Headers stand in a folder of their own, so that "lib/log/log.hpp" finds itself and no other library.
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/faultline)

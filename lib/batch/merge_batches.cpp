@@ -59,7 +59,7 @@ void copy_results(const JournalEntry& entry, const BatchFolder& from, const Batc
 void refuse_missing(const std::map<int, JournalEntry>& entries, int logs) {
   for (int position = 0; position < logs; ++position)
     if (!entries.count(position))
-      throw Error(ErrorCode::input, "faultline batch merge",
+      throw Error(ErrorCode::input, "batch merge",
                   fmt::format("{} of {} logs are missing, the first at position {}; give the folders of all "
                               "shards",
                               logs - static_cast<int>(entries.size()), logs, position));

@@ -106,13 +106,16 @@ std::string to_text(const RunComparison& comparison, const std::vector<char>& tu
           "{}  residual of joint {} alone, rms: {} in the first run, {} in the second (1 as in healthy logs)\n",
           signal.joint == 1 ? "\n" : "", signal.joint, value_text(signal.first_rms),
           value_text(signal.second_rms));
-  text +=
-      "\n" +
-      wrapped(fmt::format("Threshold: {:.3g} times the noise of both signals, estimated from their third "
-                          "differences (of residuals at least that of healthy logs); a signal leaves it with "
-                          "three samples in a row.",
-                          comparison.sigmas),
-              "", kWidth);
+  const bool has_residuals =
+      std::any_of(comparison.signals.begin(), comparison.signals.end(),
+                  [](const SignalDifference& signal) { return signal.quantity == "residual"; });
+  text += "\n" +
+          wrapped(fmt::format("Threshold: {:.3g} times the noise of both signals, estimated from their third "
+                              "differences{}; a signal leaves it with "
+                              "three samples in a row.",
+                              comparison.sigmas,
+                              has_residuals ? " (of residuals at least that of healthy logs)" : ""),
+                  "", kWidth);
   for (const std::string& note : comparison.notes)
     text += wrapped("Note: " + printable(note) + ".", "", kWidth);
   return text;

@@ -65,9 +65,9 @@ Case parsed(const std::string& text, const std::string& where, int fault_id,
 Case case_from_json(const std::string& text, const std::string& where, int fault_id,
                     const std::vector<std::string>& feature_names) try {
   return parsed(text, where, fault_id, feature_names);
-} catch (const nlohmann::json::exception& error) {
+} catch (const nlohmann::json::exception&) {
   throw Error(ErrorCode::input, where,
-              std::string("is no JSON report of `faultline diagnose --json`: ") + error.what());
+              "is no JSON report; a case is made of what `faultline diagnose --json` wrote");
 } catch (const Error& error) {
   if (error.where() == where) throw;
   throw Error(ErrorCode::input, where,

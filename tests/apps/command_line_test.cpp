@@ -46,6 +46,13 @@ TEST(CommandLine, StandardOutputThatIsFullIsAFileError) {
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }
 
+TEST(CommandLine, AReaderThatHasSeenEnoughIsNoError) {
+  const ProgramRun run = run_command(
+      {"bash", "-c",
+       std::string("{ sleep 0.3; ") + FAULTLINE_PROGRAM + " --help; echo status $? >&2; } | true"});
+  EXPECT_EQ(run.err, "status 141\n");  // 128 and SIGPIPE
+}
+
 TEST(CommandLine, InspectHelpShowsAnExample) {
   const ProgramRun run = run_program({"inspect", "--help"});
   EXPECT_EQ(run.status, 0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/mcap_messages.hpp"
@@ -119,6 +120,17 @@ TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndAHealthyOneHasNoEvents) 
   const RecordedFile healthy = read_mcap(again);
   EXPECT_EQ(healthy.messages.count("/faultline/diagnosis"), 0u);
   EXPECT_EQ(healthy.messages.count("/faultline/residuals"), 1u);
+}
+
+TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
+  const std::string early = folder_.write(
+      "early.csv",
+      std::regex_replace(read_file(kSamples + "bench/healthy_2.csv"), std::regex("\n0,"), "\n-0.001,"));
+  const ProgramRun run = diagnose(early, {"--mcap", out_});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.out.find("No fault found"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("let the clock of the log start at 0"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(out_));
 }
 
 TEST_F(DiagnoseRecording, ItGoesToAFileThatIsNoInput) {
