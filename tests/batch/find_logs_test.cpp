@@ -40,7 +40,8 @@ TEST_F(FindLogs, FoldersAreSearchedAndSortedByName) {
   add("runs/readme.md");
   add("runs/c.csv.gz");
   add("runs/other.gz");
-  EXPECT_EQ(found({"runs"}), (std::vector<std::string>{"runs/a/B.CSV", "runs/a/z.flog", "runs/b.csv", "runs/c.csv.gz"}));
+  EXPECT_EQ(found({"runs"}),
+            (std::vector<std::string>{"runs/a/B.CSV", "runs/a/z.flog", "runs/b.csv", "runs/c.csv.gz"}));
   EXPECT_EQ(found({"runs/"}), found({"runs"}));
   EXPECT_EQ(found({"runs/a/../a"}), (std::vector<std::string>{"a/B.CSV", "a/z.flog"}));
 }
