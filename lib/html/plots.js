@@ -40,7 +40,7 @@ const faultlinePlots = (() => {
     for (let row = 0; row < 3; ++row)
       for (const {from, to} of [right, left]) {
         const inside = from >= area.x && to <= area.x + area.w;
-        const crossed = row === 0 && lines.some((line) => line !== x && line > from && line < to);
+        const crossed = row === 0 && lines.some((line) => line > Math.min(from, x) && line < Math.max(to, x) && line !== x);
         if (inside && !crossed && !words.some((w) => w.row === row && w.from < to && from < w.to)) return {from, to, row};
       }
     return {...right, row: 0};
