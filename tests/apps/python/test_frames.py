@@ -60,11 +60,38 @@ class Frames(InFolder):
         self.assertEqual(read["q1"].dtype, numpy.float64)
         self.assertEqual(list(read["q1"]), [0, 1, 2, 3, 4])
 
-    def test_values_missing_in_pandas_types_are_missing(self):
-        frame = pandas.DataFrame(
-            {"t": [0.0, 1.0, 2.0], "q1": pandas.array([1.5, None, 2.5], dtype="Float64")}
+    def expect_second_missing(self, values):
+        read = faultline.Log({"t": [0.0, 1.0, 2.0], "q1": values}).to_dict()["q1"]
+        numpy.testing.assert_array_equal(read, [1.0, numpy.nan, 3.0])
+
+    def test_what_a_mask_covers_is_missing(self):
+        mask = [False, True, False]
+        for kind in ("float64", "int16", "float32", object, "U2"):
+            self.expect_second_missing(numpy.ma.array([1, 99, 3], mask=mask).astype(kind))
+        masked = {name: numpy.ma.array(values) for name, values in self.arrays.items()}
+        self.expect_same(masked)
+        taken = faultline._log.columns_of(masked, {}).arrays[1]
+        self.assertTrue(numpy.shares_memory(taken, self.arrays["q1"]))
+        masked["tau2"] = numpy.ma.array(self.arrays["tau2"], copy=True)
+        masked["tau2"][5:9] = numpy.ma.masked
+        holed = numpy.where(masked["tau2"].mask, numpy.nan, self.arrays["tau2"])
+        self.assertEqual(
+            without_origin(self.model.diagnose(masked)),
+            without_origin(self.model.diagnose(dict(self.arrays, tau2=holed))),
         )
-        self.assertTrue(numpy.isnan(faultline.Log(frame).to_dict()["q1"][1]))
+        dates = numpy.ma.array(["2024-05-01", "2024-05-02", "2024-05-03"], dtype="M8[s]", mask=[0, 0, 1])
+        read = faultline.Log({"t": dates, "q1": [1.0, 2.0, 3.0]}).to_dict()
+        self.assertEqual(list(read["q1"]), [1.0, 2.0])
+
+    def test_values_missing_in_pandas_types_are_missing(self):
+        for kind in ("Float64", "Int64", "Float32", "UInt8", "string", object):
+            column = pandas.Series([1, pandas.NA, 3], dtype=kind)
+            for values in (column, column.array, column.to_numpy()):
+                self.expect_second_missing(values)
+            read = faultline.Log(pandas.DataFrame({"t": [0.0, 1.0, 2.0], "q1": column})).to_dict()["q1"]
+            numpy.testing.assert_array_equal(read, [1.0, numpy.nan, 3.0])
+        frame = pandas.read_csv(LOCKED, float_precision="round_trip")
+        self.expect_same(frame.convert_dtypes(convert_integer=False))
 
     def test_dates_and_durations_are_times(self):
         dates = pandas.to_datetime(["2024-05-01T10:00:00.25", "2024-05-01T10:00:00.50"])
@@ -73,6 +100,19 @@ class Frames(InFolder):
             self.assertEqual(faultline.Log({"t": times.to_numpy(), "q1": [0, 1]}).to_dict()["t"][0], first)
             indexed = pandas.DataFrame({"q1": [0.0, 1.0]}, index=times)
             self.assertEqual(faultline.Log(indexed).to_dict()["t"][0], first)
+
+    def test_dates_with_a_zone_are_times(self):
+        dates = pandas.to_datetime(["2024-05-01T10:00:00.25", "2024-05-01T10:00:00.50"])
+        for zone in ("UTC", "Europe/Berlin", "Asia/Kolkata"):
+            times = dates.tz_localize("UTC").tz_convert(zone)
+            logs = [{"t": values, "q1": [0, 1]} for values in (times, pandas.Series(times), times.to_numpy())]
+            logs.append({"t": list(times.to_pydatetime()), "q1": [0, 1]})
+            logs.append(pandas.DataFrame({"t": times, "q1": [0, 1]}))
+            for name in (None, "t"):
+                logs.append(pandas.DataFrame({"q1": [0, 1]}, index=times.rename(name)))
+            for log in logs:
+                read = faultline.Log(log).to_dict()["t"]
+                self.assertEqual(list(read), [1714557600.25, 1714557600.5])
 
     def test_columns_are_found_by_the_usual_names_and_units(self):
         named = {"timestamp": self.arrays["t"]}
