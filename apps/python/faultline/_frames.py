@@ -2,9 +2,10 @@
 """Columns in memory as contiguous arrays of float64: those that are that already are taken as they are."""
 import datetime
 import sys
-from typing import Any, List, Mapping, NamedTuple, Optional, Tuple
+from collections.abc import Mapping as MappingType
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
-from .errors import InputError
+from .errors import InputError, UsageError
 
 NANOSECONDS = 1_000_000_000
 
@@ -123,8 +124,20 @@ def _index_of(frame: Any) -> List[Tuple[str, Any]]:
     return []
 
 
-def columns_of(value: Any, units: Mapping[str, str]) -> Columns:
-    """The columns of a mapping of names to arrays, or of a DataFrame."""
+def _told_units(units: Any, names: List[str]) -> Dict[str, str]:
+    """The units by name of a column, checked."""
+    if not isinstance(units, MappingType):
+        raise UsageError("units", f'{units!r} is no dict of units by column, such as {{"q1": "deg"}}')
+    for name, unit in units.items():
+        if str(name) not in names:
+            raise UsageError("units", f'"{name}" is no column; there are {", ".join(names)}')
+        if not isinstance(unit, str):
+            raise UsageError(f"units, {name}", f'{unit!r} is no unit; give its symbol, such as "deg"')
+    return {str(name): unit for name, unit in units.items()}
+
+
+def columns_of(value: Any, units: Any) -> Columns:
+    """The columns of a mapping of names to arrays, or of a DataFrame; `units` of some by name."""
     if is_frame(value):
         columns = _index_of(value)
         columns += [(str(name), value.iloc[:, i]) for i, name in enumerate(value.columns)]
@@ -136,5 +149,6 @@ def columns_of(value: Any, units: Mapping[str, str]) -> Columns:
     if len(set(names)) != len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise InputError(f"column {twice}", "is there twice; give each column a name of its own")
+    given = _told_units(units, names)
     arrays, told = zip(*(_array_of(name, values) for name, values in columns))
-    return Columns(names, [units.get(name, unit) for name, unit in zip(names, told)], list(arrays))
+    return Columns(names, [given.get(name, unit) for name, unit in zip(names, told)], list(arrays))

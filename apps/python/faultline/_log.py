@@ -51,7 +51,7 @@ class Log:
                 "Log",
                 f"{type(source).__name__} is no log; give a path, a dict of arrays, a DataFrame or a Log",
             )
-        columns = columns_of(source, units or {})
+        columns = columns_of(source, {} if units is None else units)
         self._handle = _faultline.Log.of_columns(name or NAME_IN_MEMORY, *columns, run)
 
     @property

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Models: learned, loaded, used."""
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Union
 
 from . import _faultline, _networks, _onnx
 from ._arguments import PathLike, Progress, path_of
 from ._diagnosis import Diagnosis, diagnosed
+from ._labels import Label, labels_for
 from ._log import LogLike, handles_of
 from ._onnx import OnnxFile
 from ._record import Record, Result
 
-Labels = Union[PathLike, Mapping[str, Tuple[str, int, float]], None]
+Labels = Union[PathLike, Mapping[str, Label], None]
 """A table file,fault,joint,onset_s, or (fault, joint, onset_s) by name of a log."""
 
 
@@ -169,11 +170,12 @@ def learn(
         "seed": seed,
         "threads": threads,
     }
-    in_memory = dict(labels) if isinstance(labels, Mapping) else {}
+    handles = handles_of(logs)
+    in_memory = labels_for(labels, handles) if isinstance(labels, Mapping) else {}
     label_file = "" if isinstance(labels, Mapping) else path_of(labels)
     return Learned(
         _faultline.learn(
-            handles_of(logs),
+            handles,
             path_of(robot),
             path_of(output),
             path_of(cases),

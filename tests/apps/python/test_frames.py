@@ -125,6 +125,18 @@ class Frames(InFolder):
         log = faultline.Log(degrees, units={"t": "ms"})
         numpy.testing.assert_allclose(log.to_dict()["t"], self.arrays["t"], rtol=1e-15)
 
+    def test_units_name_columns_that_are_there(self):
+        frame = pandas.DataFrame({"q1": [0.0, 1.0], 7: [0.0, 1.0]}, index=pandas.Index([0.0, 1.0], name="t"))
+        for units, words in [
+            ({"q9": "deg"}, 'units: "q9" is no column; there are t, q1, 7$'),
+            ({"q1": 7}, 'units, q1: 7 is no unit; give its symbol, such as "deg"'),
+            (["q1"], r"units: \['q1'\] is no dict of units by column"),
+        ]:
+            with self.assertRaisesRegex(faultline.UsageError, words):
+                faultline.Log(frame, units=units)
+        read = faultline.Log(frame, units={"t": "ms", 7: "deg"}).to_dict()
+        self.assertEqual(read["t"][1], 0.001)
+
     def test_a_robot_file_maps_columns(self):
         robot = self.folder / "robot.toml"
         robot.write_text('axes = "R"\n[log.columns]\nq1 = {name = "shoulder", unit = "deg", sign = -1}\n')

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Learning and identifying are those of the program."""
 
+import numpy
+
 import faultline
 from support import BENCH, InFolder, columns, program, without_origin
 
@@ -36,6 +38,36 @@ class Learning(InFolder):
         self.assertEqual(in_memory.model.path, "")
         in_memory.model.save(self.folder / "memory.json")
         self.assertEqual(faultline.load_model(self.folder / "memory.json").name, "bench")
+
+
+class Labels(InFolder):
+    def test_what_is_no_label_is_refused_before_the_work(self):
+        for label in (1, "locked", ("none", None, None), ("locked", 1), ("locked", 1.5, 2.0), (None, 1, 2.0)):
+            with self.assertRaisesRegex(
+                faultline.UsageError,
+                r'labels, healthy_1.csv: .* is no label; a label is \(fault, joint, onset_s\), such as \("locked"',
+            ):
+                faultline.learn(HEALTHY, ROBOT, labels={"healthy_1.csv": label})
+        with self.assertRaisesRegex(faultline.UsageError, '"lokced" is no fault name; expected one of'):
+            faultline.learn(HEALTHY, ROBOT, labels={"healthy_1.csv": ("lokced", 1, 2.0)})
+
+    def test_a_label_of_a_log_that_is_not_there_is_refused(self):
+        with self.assertRaisesRegex(
+            faultline.UsageError, "labels, healthy_9.csv: is none of the logs, which are: healthy_1.csv, "
+        ):
+            faultline.learn(HEALTHY, ROBOT, labels={"healthy_9.csv": ("locked", 1, 2.0)})
+        frames = [columns(log) for log in HEALTHY]
+        with self.assertRaisesRegex(faultline.UsageError, "which are: frame 1, frame 2"):
+            faultline.learn(frames, ROBOT, labels={"run 1": ("locked", 1, 2.0)})
+
+    def test_a_log_is_labelled_by_its_path_too_with_numbers_of_numpy(self):
+        locked = BENCH / "locked_1.csv"
+        label = ("locked", numpy.int64(1), numpy.float32(8.4375))
+        learned = faultline.learn([HEALTHY[1], locked], ROBOT, labels={locked: label}, runs_per_label=RUNS)
+        self.assertEqual(
+            [(source.path, source.fault) for source in learned.sources],
+            [("healthy_2.csv", "none"), ("locked_1.csv", "locked")],
+        )
 
 
 class Identifying(InFolder):
