@@ -39,6 +39,12 @@ void bind_model(py::module_& module) {
           "cases", [](const LoadedModel& m) { return m.paths.model.empty() ? "" : m.paths.case_base(); },
           "The file of its case base.")
       .def_property_readonly(
+          "own_cases", [](const LoadedModel& m) { return m.paths.cases; },
+          "The same where it was named, \"\" for the one beside the model.")
+      .def_property_readonly(
+          "cases_sha256", [](const LoadedModel& m) { return m.cases.sha256(); },
+          "Of the content of its case base.")
+      .def_property_readonly(
           "name", [](const LoadedModel& m) { return m.model.name; }, "The robot's name.")
       .def_property_readonly(
           "sha256", [](const LoadedModel& m) { return m.model.sha256; }, "Of the model file.")

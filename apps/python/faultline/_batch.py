@@ -6,7 +6,7 @@ from typing import Any, Iterable, List, Mapping, Optional, Tuple, Union
 
 from . import _faultline
 from ._arguments import PathLike, Progress, path_of, paths_of
-from ._model import Model
+from ._model import Model, files_of
 from ._record import Record, Result, frame_of
 from .errors import UsageError
 
@@ -46,8 +46,7 @@ def _models_of(
     handles = []
     for folder, given in model.items():
         loaded = given if isinstance(given, Model) else Model(given, cases=cases)
-        if not loaded.path:
-            raise UsageError("batch", "needs a model that is written to a file; save it before")
+        files_of(loaded, None, "batch")
         handles.append((str(folder), loaded._handle))
     return handles
 

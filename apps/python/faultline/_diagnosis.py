@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Diagnosing a log."""
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 from . import _faultline
 from ._arguments import PathLike, Progress, path_of
+from ._kept import COLOR, UNICODE, WIDTH, kept
 from ._log import LogLike, log_of
 from ._record import Record, Result, frame_of
 
@@ -58,7 +59,8 @@ class Curves:
 
 class Diagnosis(Result):
     """What was found in a log; attributes are the members of the JSON report: verdict (healthy, faulty or
-    inconclusive), verdict_reason, faults, residuals, condition, cannot_see, log, model, program."""
+    inconclusive), verdict_reason, faults, residuals, condition, cannot_see, log, model, program. A pickle
+    keeps them and the reports, without what reads the log again: to_html() and curves()."""
 
     _parts = {"faults": Fault}
     verdict: str
@@ -73,12 +75,15 @@ class Diagnosis(Result):
         super().__init__(made.render("json", None))
         self._made = made
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Diagnosis, (kept(self._made),)
+
     @property
     def sentence(self) -> str:
         """The verdict in one sentence."""
         return self._made.sentence()
 
-    def text(self, *, width: int = 80, unicode: bool = True, color: bool = False) -> str:
+    def text(self, *, width: int = WIDTH, unicode: bool = UNICODE, color: bool = COLOR) -> str:
         """The report of the terminal."""
         return self._made.text(width, unicode, color)
 

@@ -2,7 +2,7 @@
 """Logs: files, or columns in memory."""
 import os
 from collections.abc import Mapping as MappingType
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 from . import _faultline
 from ._arguments import PathLike, Progress, path_of
@@ -40,9 +40,10 @@ class Log:
         if isinstance(source, (str, os.PathLike)):
             if name is not None or units is not None:
                 raise UsageError("Log", "name and units are for columns in memory; a file has its own name")
-            self._handle = _faultline.Log(
+            self._parts = (
                 path_of(source), [path_of(p) for p in then], [path_of(p) for p in join], join_by, run
             )
+            self._handle = _faultline.Log(*self._parts)
             return
         if list(then) or list(join):
             raise UsageError("Log", "then and join are for files; put columns in memory together before")
@@ -53,6 +54,17 @@ class Log:
             )
         columns = columns_of(source, {} if units is None else units)
         self._handle = _faultline.Log.of_columns(name or NAME_IN_MEMORY, *columns, run)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        if not self._handle.is_file:
+            raise UsageError("Log", "of columns in memory cannot be pickled; send the columns")
+        return _unpickled, self._parts
+
+    def __copy__(self) -> "Log":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Log":
+        return self
 
     @property
     def name(self) -> str:
@@ -86,6 +98,10 @@ class Log:
 
     def __repr__(self) -> str:
         return f"faultline.Log({self.name!r})"
+
+
+def _unpickled(path: str, then: List[str], join: List[str], join_by: str, run: int) -> Log:
+    return Log(path, then=then, join=join, join_by=join_by, run=run)
 
 
 def open_log(

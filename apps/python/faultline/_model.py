@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Models: learned, loaded, used."""
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 from . import _faultline, _networks, _onnx
 from ._arguments import PathLike, Progress, path_of
@@ -9,25 +9,76 @@ from ._labels import Label, labels_for
 from ._log import LogLike, handles_of
 from ._onnx import OnnxFile
 from ._record import Record, Result
+from .errors import InputError, UsageError
 
 Labels = Union[PathLike, Mapping[str, Label], None]
 """A table file,fault,joint,onset_s, or (fault, joint, onset_s) by name of a log."""
 
 
+class Sent(NamedTuple):
+    """A model on its way to another process: its files, and what must be in them."""
+
+    path: str
+    cases: str
+    sha256: str
+    cases_sha256: str
+
+
+def _read(sent: Sent) -> Any:
+    """Raises InputError when the files are others than those that were sent."""
+    handle = _faultline.Model(sent.path, sent.cases)
+    for file, found, expected in [
+        (handle.path, handle.sha256, sent.sha256),
+        (handle.cases, handle.cases_sha256, sent.cases_sha256),
+    ]:
+        if found != expected:
+            raise InputError(
+                file, "was changed since the pickled model was read; reload() that one and pickle it again"
+            )
+    return handle
+
+
 class Model:
     """A learned model with its case base: read once, for any number of logs and threads. `cases` is the case
-    base, beside the model by default."""
+    base, beside the model by default. Cases that are put into the base later are seen after reload().
+
+    A pickle holds the paths; where it is unpickled the files are read at the first use, and refused when
+    they were changed meanwhile. A model in memory only must be saved before it is pickled."""
 
     def __init__(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
-        self._handle = _faultline.Model(path_of(path), path_of(cases))
-        self._has_own_cases = cases is not None
+        self._loaded = _faultline.Model(path_of(path), path_of(cases))
 
     @classmethod
-    def _of(cls, handle: Any) -> "Model":
+    def _of(cls, handle: Any, sent: Optional[Sent] = None) -> "Model":
         model = cls.__new__(cls)
-        model._handle = handle
-        model._has_own_cases = False
+        model._loaded = handle
+        model._sent = sent
         return model
+
+    _sent: Optional[Sent] = None
+
+    @property
+    def _handle(self) -> Any:
+        """Of the compiled part. A pickled model is read here, not where it is unpickled: an error there would
+        end the process of a pool, and the pool would wait for ever."""
+        if self._loaded is None:
+            assert self._sent is not None
+            self._loaded = _read(self._sent)
+        return self._loaded
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        if self._loaded is None:
+            return _unpickled, (self._sent,)
+        handle = self._loaded
+        if not handle.path:
+            raise UsageError("Model", "is in memory only and cannot be sent to another process; save it before")
+        return _unpickled, (Sent(handle.path, handle.own_cases, handle.sha256, handle.cases_sha256),)
+
+    def __copy__(self) -> "Model":
+        return Model._of(self._loaded, self._sent)
+
+    def __deepcopy__(self, memo: Any) -> "Model":
+        return self.__copy__()
 
     @property
     def path(self) -> str:
@@ -85,8 +136,18 @@ class Model:
         return self._handle.json()
 
     def save(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
-        """Writes model and case base. Cases that people put into a base that is there are carried over."""
+        """Writes model and case base. Cases that people put into a base that is there are carried over. A
+        model that was in memory only is from then on the one that was written."""
         self._handle.save(path_of(path), path_of(cases))
+        if not self.path:
+            self._loaded = _faultline.Model(path_of(path), path_of(cases))
+
+    def reload(self) -> None:
+        """Reads model and case base again: cases that were added or revised since are seen."""
+        if self._loaded is not None and not self._loaded.path:
+            raise UsageError("Model", "is in memory only, there is no file to read again; save it before")
+        at = self._loaded or self._sent
+        self._loaded = _faultline.Model(at.path, self._loaded.own_cases if self._loaded else at.cases)
 
     @property
     def networks(self) -> List[str]:
@@ -112,6 +173,19 @@ class Model:
 
     def __repr__(self) -> str:
         return f"faultline.Model({self.path or self.name!r})"
+
+
+def _unpickled(sent: Sent) -> Model:
+    return Model._of(None, sent)
+
+
+def files_of(model: Union[Model, PathLike, None], cases: Optional[PathLike], what: str) -> Tuple[str, str]:
+    """Paths of a model and of its case base, "" for the one beside it."""
+    if not isinstance(model, Model):
+        return path_of(model), path_of(cases)
+    if not model.path:
+        raise UsageError(what, "needs a model that is written to a file; save it before")
+    return model.path, path_of(cases) or model._handle.own_cases
 
 
 class Learned(Result):

@@ -3,6 +3,8 @@
 import json
 from typing import Any, ClassVar, Dict, Iterator, List, Mapping, Type
 
+from .errors import UsageError
+
 
 class Record:
     """A JSON object as attributes: record.verdict, record["verdict"]. Objects inside are Records, lists are
@@ -70,6 +72,17 @@ class Result(Record):
     def __init__(self, text: str) -> None:
         super().__init__(json.loads(text))
         self._text = text
+
+    def __getstate__(self) -> Dict[str, Any]:
+        if "_made" in self.__dict__:
+            raise UsageError(type(self).__name__, "cannot be pickled; send its to_json() or to_dict()")
+        return self.__dict__
+
+    def __copy__(self) -> "Result":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Result":
+        return self
 
     def to_json(self) -> str:
         """The JSON of the program, byte for byte."""

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Union
 from . import _faultline
 from ._arguments import PathLike, path_of
 from ._diagnosis import Diagnosis
-from ._model import Model
+from ._model import Model, files_of
 from ._record import Record
 
 __all__ = ["Case", "add", "confirm", "delete", "export", "import_", "list", "reject", "show"]
@@ -18,8 +18,8 @@ ModelLike = Union[Model, PathLike, None]
 
 
 class Case(Record):
-    """A case; attributes are the members of its JSON: id, kind, joint, outcome, what_was_done ... `note` says
-    what was not to be expected, or ""."""
+    """A case; attributes are the members of its JSON: id, label (kind, joint), outcome, what_was_done ...
+    `note` says what was not to be expected, or ""."""
 
     id: int
 
@@ -28,12 +28,10 @@ def _act(action: str, model: ModelLike, cases: Optional[PathLike], **given: Any)
     arguments: Dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if cases is not None:
         arguments["cases"] = path_of(cases)
-    elif isinstance(model, Model):
-        if model._has_own_cases:
-            arguments["cases"] = model.cases
-        else:
-            arguments["model"] = model.path
-    if model is not None and not isinstance(model, Model):
+    if isinstance(model, Model):
+        path, own_cases = files_of(model, cases, f"cases.{action}")
+        arguments.update({"cases": own_cases} if own_cases else {"model": path})
+    elif model is not None:
         arguments["model"] = path_of(model)
     text, _, note = _faultline.cases(action, arguments)
     return json.loads(text), note

@@ -4,6 +4,7 @@ from typing import Any, Iterable, List, Optional, Union
 
 from . import _faultline
 from ._arguments import PathLike, Progress, path_of, paths_of
+from ._model import Model, files_of
 from ._record import Record, Result
 
 __all__ = ["Accepted", "Check", "Recorded", "accept", "check", "record"]
@@ -41,7 +42,7 @@ class Accepted(Record):
 
 def record(
     logs: Union[PathLike, Iterable[PathLike]],
-    model: PathLike,
+    model: Union[Model, PathLike],
     output: PathLike,
     *,
     cases: Optional[PathLike] = None,
@@ -50,12 +51,14 @@ def record(
     threads: int = 0,
     progress: Progress = None,
 ) -> Recorded:
-    """Makes a golden folder: logs, model and what faultline says now."""
+    """Makes a golden folder: logs, model and what faultline says now. `model` is a Model that has a file, or
+    the path of one."""
+    its_path, its_cases = files_of(model, cases, "golden.record")
     return Recorded(
         _faultline.golden_record(
             paths_of(logs, "golden.record"),
-            path_of(model),
-            path_of(cases),
+            its_path,
+            its_cases,
             path_of(output),
             identify,
             trace_points,
@@ -68,7 +71,7 @@ def record(
 def check(
     folder: PathLike,
     *,
-    model: Optional[PathLike] = None,
+    model: Union[Model, PathLike, None] = None,
     cases: Optional[PathLike] = None,
     junit: Optional[PathLike] = None,
     threads: int = 0,
@@ -76,10 +79,9 @@ def check(
 ) -> Check:
     """Replays all golden logs and compares; changes nothing. `model` stands in for the folder's; `junit` is
     where JUnit XML is written."""
+    its_path, its_cases = files_of(model, cases, "golden.check")
     return Check(
-        _faultline.golden_check(
-            path_of(folder), path_of(model), path_of(cases), path_of(junit), threads, progress
-        )
+        _faultline.golden_check(path_of(folder), its_path, its_cases, path_of(junit), threads, progress)
     )
 
 
@@ -89,7 +91,7 @@ def accept(
     *,
     all: bool = False,
     same_verdict: bool = False,
-    model: Optional[PathLike] = None,
+    model: Union[Model, PathLike, None] = None,
     cases: Optional[PathLike] = None,
     threads: int = 0,
     progress: Progress = None,
@@ -97,7 +99,8 @@ def accept(
     """Makes what differs what is expected: of the named logs, of all, or of those that differ in numbers and
     reasons only."""
     chosen = [names] if isinstance(names, str) else list(names)
+    its_path, its_cases = files_of(model, cases, "golden.accept")
     accepted, left = _faultline.golden_accept(
-        path_of(folder), chosen, all, same_verdict, path_of(model), path_of(cases), threads, progress
+        path_of(folder), chosen, all, same_verdict, its_path, its_cases, threads, progress
     )
     return Accepted({"accepted": accepted, "left": left})

@@ -96,6 +96,11 @@ class GoldenLogs(InFolder):
             [(log.name, log.verdict) for log in made.logs],
             [("locked_1.csv", "faulty"), ("healthy_quintic.csv", "healthy")],
         )
+        by_model = self.folder / "by_model"
+        faultline.golden.record(logs, load_model(), by_model, identify=False)
+        for name in ("golden.toml", MODEL.name, CASES.name):
+            self.assertEqual((by_model / name).read_bytes(), (folder / name).read_bytes())
+        self.assertEqual(faultline.golden.check(by_model, model=load_model()).result, "same")
         check = faultline.golden.check(folder, junit=self.folder / "junit.xml")
         self.assertEqual(check.to_json().encode(), program("golden", "check", folder, "--json", "-"))
         self.assertEqual(check.result, "same")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Learning and identifying are those of the program."""
+import pickle
 
 import numpy
 
@@ -35,9 +36,27 @@ class Learning(InFolder):
         log = BENCH / "locked_1.csv"
         of_file, of_frames = (without_origin(m.model.diagnose(log)) for m in (learned, in_memory))
         self.assertEqual(of_frames["faults"], of_file["faults"])
-        self.assertEqual(in_memory.model.path, "")
-        in_memory.model.save(self.folder / "memory.json")
-        self.assertEqual(faultline.load_model(self.folder / "memory.json").name, "bench")
+        self.expect_file_of(in_memory.model, self.folder / "memory.json")
+        again = pickle.loads(pickle.dumps(learned.model))
+        self.assertEqual(again.diagnose(log).to_json(), learned.model.diagnose(log).to_json())
+
+    def expect_file_of(self, model, path):
+        """Of a model in memory only."""
+        self.assertEqual(model.path, "")
+        for call in (
+            lambda: pickle.dumps(model),
+            model.reload,
+            lambda: faultline.cases.list(model),
+            lambda: faultline.batch(BENCH, model, self.folder / "batch"),
+            lambda: faultline.golden.record(HEALTHY, model, self.folder / "golden"),
+        ):
+            with self.assertRaisesRegex(faultline.UsageError, "save it before"):
+                call()
+        model.save(path)
+        self.assertEqual((model.path, model.name), (str(path), "bench"))
+        self.assertEqual(faultline.load_model(path).name, "bench")
+        self.assertEqual(pickle.loads(pickle.dumps(model)).to_json(), path.read_text())
+        self.assertTrue(faultline.cases.list(model))
 
 
 class Labels(InFolder):
