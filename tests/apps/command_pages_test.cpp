@@ -2,6 +2,7 @@
 // What the pages say of the program: each command's --help (FAULTLINE_APPROVE=1 writes it into them), the
 // names of issues, and the example in C++.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -92,16 +93,21 @@ std::string code_in(const std::string& page, const std::string& language) {
   return page.substr(code, page.find("\n" + kFence, code) + 1 - code);
 }
 
-TEST(DocumentationCpp, TheProgramOutsideTheTreeCompiles) {
+TEST(DocumentationCpp, TheProgramOutsideTheTreeCompilesAndTellsItsUsage) {
   const TemporaryFolder folder;
   const std::string code = code_in(read_file((kPages / "cpp.md").string()), "cpp"),
-                    log = folder.file("log.txt");
+                    log = folder.file("log.txt"), built = folder.file("night_check");
   ASSERT_NE(code.find("faultline::diagnose("), std::string::npos);
   fs::create_directory_symlink(FAULTLINE_SOURCE_DIR, folder.file("faultline"));  // as it is installed
-  const std::string command = "c++ -std=c++20 -fsyntax-only -I'" + std::string(FAULTLINE_SOURCE_DIR) +
-                              "' -I'" + folder.path().string() + "' -isystem /usr/include/eigen3 '" +
-                              folder.write("main.cpp", code) + "' >'" + log + "' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(log);
+  // Without the libraries: what it does before it calls them can be seen, and takes seconds.
+  const std::string command = "c++ -std=c++20 -static -Wl,--unresolved-symbols=ignore-all -I'" +
+                              std::string(FAULTLINE_SOURCE_DIR) + "' -I'" + folder.path().string() +
+                              "' -isystem /usr/include/eigen3 '" + folder.write("main.cpp", code) + "' -o '" +
+                              built + "' >'" + log + "' 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(log);
+  const int status = std::system(("'" + built + "' robot.toml 2>'" + log + "'").c_str());
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+  EXPECT_EQ(read_file(log), "usage: " + built + " ROBOT.toml BAD HEALTHY...\n");
 }
 
 std::string sources() {
