@@ -27,7 +27,9 @@ class KeptReports(NamedTuple):
 
     def render(self, format: str, progress: Any) -> str:
         if format not in self.rendered:
-            raise UsageError("to_html", WHY + "make the page where the log was diagnosed, or diagnose it again")
+            raise UsageError(
+                "to_html", WHY + "make the page where the log was diagnosed, or diagnose it again"
+            )
         return self.rendered[format]
 
     def curves(self, bins: int, progress: Any) -> Dict[str, Any]:

@@ -9,8 +9,8 @@ from .errors import UsageError
 Label = Tuple[str, int, float]
 
 WHAT_IT_IS = (
-    'a label is (fault, joint, onset_s), such as ("locked", 2, 4.2) with the joint counted from 1 and the onset '
-    'in seconds of the log; of a healthy log ("none", 0, 0)'
+    'a label is (fault, joint, onset_s), such as ("locked", 2, 4.2) with the joint counted from 1 and the '
+    'onset in seconds of the log; of a healthy log ("none", 0, 0)'
 )
 
 

@@ -41,7 +41,11 @@ class Log:
             if name is not None or units is not None:
                 raise UsageError("Log", "name and units are for columns in memory; a file has its own name")
             self._parts = (
-                path_of(source), [path_of(p) for p in then], [path_of(p) for p in join], join_by, run
+                path_of(source),
+                [path_of(p) for p in then],
+                [path_of(p) for p in join],
+                join_by,
+                run,
             )
             self._handle = _faultline.Log(*self._parts)
             return

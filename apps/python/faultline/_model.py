@@ -24,7 +24,7 @@ class Sent(NamedTuple):
     cases_sha256: str
 
 
-def _read(sent: Sent) -> Any:
+def _read(sent: Sent) -> _faultline.Model:
     """Raises InputError when the files are others than those that were sent."""
     handle = _faultline.Model(sent.path, sent.cases)
     for file, found, expected in [
@@ -45,20 +45,20 @@ class Model:
     A pickle holds the paths; where it is unpickled the files are read at the first use, and refused when
     they were changed meanwhile. A model in memory only must be saved before it is pickled."""
 
+    _sent: Optional[Sent] = None
+
     def __init__(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
-        self._loaded = _faultline.Model(path_of(path), path_of(cases))
+        self._loaded: Optional[_faultline.Model] = _faultline.Model(path_of(path), path_of(cases))
 
     @classmethod
-    def _of(cls, handle: Any, sent: Optional[Sent] = None) -> "Model":
+    def _of(cls, handle: Optional[_faultline.Model], sent: Optional[Sent] = None) -> "Model":
         model = cls.__new__(cls)
         model._loaded = handle
         model._sent = sent
         return model
 
-    _sent: Optional[Sent] = None
-
     @property
-    def _handle(self) -> Any:
+    def _handle(self) -> _faultline.Model:
         """Of the compiled part. A pickled model is read here, not where it is unpickled: an error there would
         end the process of a pool, and the pool would wait for ever."""
         if self._loaded is None:
@@ -71,7 +71,9 @@ class Model:
             return _unpickled, (self._sent,)
         handle = self._loaded
         if not handle.path:
-            raise UsageError("Model", "is in memory only and cannot be sent to another process; save it before")
+            raise UsageError(
+                "Model", "is in memory only and cannot be sent to another process; save it before"
+            )
         return _unpickled, (Sent(handle.path, handle.own_cases, handle.sha256, handle.cases_sha256),)
 
     def __copy__(self) -> "Model":
@@ -144,10 +146,13 @@ class Model:
 
     def reload(self) -> None:
         """Reads model and case base again: cases that were added or revised since are seen."""
-        if self._loaded is not None and not self._loaded.path:
+        if self._loaded is None and self._sent is not None:
+            path, cases = self._sent.path, self._sent.cases
+        else:
+            path, cases = self._handle.path, self._handle.own_cases
+        if not path:
             raise UsageError("Model", "is in memory only, there is no file to read again; save it before")
-        at = self._loaded or self._sent
-        self._loaded = _faultline.Model(at.path, self._loaded.own_cases if self._loaded else at.cases)
+        self._loaded = _faultline.Model(path, cases)
 
     @property
     def networks(self) -> List[str]:

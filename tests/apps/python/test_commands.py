@@ -4,7 +4,7 @@ import json
 import shutil
 
 import faultline
-from support import BENCH, CASES, GOLDEN, LOGS, MODEL, InFolder, columns, load_model, program
+from support import CASES, GOLDEN, LOGS, MODEL, InFolder, columns, load_model, program
 
 
 class Inspecting(InFolder):

@@ -43,15 +43,22 @@ class Pickles(InFolder):
         sent = pickle.dumps(self.model)
         faultline.cases.confirm(case.id, self.model, done="changed the brake relay")
         with multiprocessing.get_context("spawn").Pool(1) as pool:
-            with self.assertRaisesRegex(faultline.InputError, "mine.db: was changed since the pickled model was"):
+            with self.assertRaisesRegex(
+                faultline.InputError, "mine.db: was changed since the pickled model was"
+            ):
                 pool.map_async(pickle.loads(sent).diagnose, [LOCKED]).get(timeout=120)
         self.model.reload()
         sent = pickle.dumps(self.model)
         pickle.loads(sent).diagnose(LOCKED)
         members = self.path.read_text()
         self.path.write_text(members + "\n")
-        with self.assertRaisesRegex(faultline.InputError, "bench.json: "):
+        with self.assertRaisesRegex(faultline.InputError, "bench.json: was changed since the pickled model was read"):
             pickle.loads(sent).diagnose(LOCKED)
+        again = pickle.loads(sent)
+        shutil.copy(MODEL, self.path)
+        shutil.copy(CASES, self.base)
+        again.reload()
+        self.assertEqual(again.diagnose(LOCKED).verdict, "faulty")
         self.path.unlink()
         with self.assertRaisesRegex(faultline.InputError, "bench.json: "):
             pickle.loads(sent).path
