@@ -7,7 +7,7 @@ import pickle
 import shutil
 
 import faultline
-from support import BENCH, CASES, LOGS, MODEL, InFolder, columns, load_model
+from support import BENCH, CASES, LOGS, MODEL, InFolder, columns, load_model, program
 
 LOCKED = LOGS / "locked_1.csv"
 
@@ -50,8 +50,8 @@ class Pickles(InFolder):
         self.model.reload()
         sent = pickle.dumps(self.model)
         pickle.loads(sent).diagnose(LOCKED)
-        members = self.path.read_text()
-        self.path.write_text(members + "\n")
+        self.path.write_text(self.path.read_text() + "\n")
+        program("model", "sign", self.path, "--why", "another text")
         with self.assertRaisesRegex(faultline.InputError, "bench.json: was changed since the pickled model was read"):
             pickle.loads(sent).diagnose(LOCKED)
         again = pickle.loads(sent)
