@@ -12,13 +12,13 @@
 namespace faultline {
 namespace {
 
-using nlohmann::json;
+using ReportJson = nlohmann::json;
 
 constexpr const char* kSchema = "faultline/diagnosis/1";
 constexpr std::size_t kMostBytes = 256 << 20;
 
 /// "collision of joint 1 (fault 1, confidence 0.97)".
-std::string fault_text(const json& fault) {
+std::string fault_text(const ReportJson& fault) {
   std::string text = fault.at("kind").get<std::string>();
   if (const auto joint = fault.find("joint"); joint != fault.end() && joint->is_number())
     text += fmt::format(" of joint {}", joint->get<int>());
@@ -28,7 +28,7 @@ std::string fault_text(const json& fault) {
   return text + ")";
 }
 
-void add_events(const json& fault, std::vector<LogEvent>& events) {
+void add_events(const ReportJson& fault, std::vector<LogEvent>& events) {
   const std::string text = fault_text(fault);
   const auto add = [&](const char* member, const char* what, bool grave) {
     if (const auto time = fault.find(member); time != fault.end() && time->is_number())
@@ -46,11 +46,11 @@ std::vector<LogEvent> events_of_file(const std::string& path) {
 }
 
 std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
-  const json diagnosis = json::parse(report, nullptr, false);
+  const ReportJson diagnosis = ReportJson::parse(report, nullptr, false);
   std::vector<LogEvent> events;
   try {
     if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
-    for (const json& fault : diagnosis.at("faults")) add_events(fault, events);
+    for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
   } catch (const std::exception&) {
     throw Error(
         ErrorCode::input, where,

@@ -3,12 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/mcap/mcap_stamp.hpp"
+
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 /// Levels of foxglove.Log.
 constexpr int kInfo = 2, kError = 4;
 
@@ -16,12 +17,10 @@ constexpr int kInfo = 2, kError = 4;
 
 McapTopic event_topic() {
   const Json integer{{"type", "integer"}}, text{{"type", "string"}};
-  const Json stamp{
-      {"type", "object"}, {"title", "time"}, {"properties", {{"sec", integer}, {"nsec", integer}}}};
   const Json schema{{"title", "foxglove.Log"},
                     {"type", "object"},
                     {"properties",
-                     {{"timestamp", stamp},
+                     {{"timestamp", mcap_stamp_schema()},
                       {"level", integer},
                       {"message", text},
                       {"name", text},
@@ -31,7 +30,7 @@ McapTopic event_topic() {
 }
 
 std::string event_message(std::int64_t stamp_ns, const LogEvent& event) {
-  return Json{{"timestamp", {{"sec", stamp_ns / kSecond}, {"nsec", stamp_ns % kSecond}}},
+  return Json{{"timestamp", mcap_stamp(stamp_ns)},
               {"level", event.grave ? kError : kInfo},
               {"message", event.text},
               {"name", "faultline"},

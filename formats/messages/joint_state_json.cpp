@@ -8,21 +8,21 @@
 namespace faultline {
 namespace {
 
-using nlohmann::json;
+using MessageJson = nlohmann::json;
 
 constexpr std::int64_t kStateNanoseconds = 1'000'000'000;
 /// Of a stamp; more would not fit 64 bits of nanoseconds.
 constexpr double kStateMostSeconds = 9e9;
 
 /// The first of the members that is a number; 0 for none.
-double number_of(const json& object, std::initializer_list<const char*> names) {
+double number_of(const MessageJson& object, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const auto found = object.find(name); found != object.end() && found->is_number())
       return found->get<double>();
   return 0.0;
 }
 
-std::int64_t stamp_of(const json& message) {
+std::int64_t stamp_of(const MessageJson& message) {
   const auto header = message.find("header");
   if (header == message.end() || !header->is_object()) return 0;
   const auto stamp = header->find("stamp");
@@ -36,12 +36,12 @@ std::int64_t stamp_of(const json& message) {
 }
 
 /// A member that is an array of numbers; what is no number in it (such as null) is NaN.
-bool take_numbers(const json& message, const char* name, std::vector<double>& numbers) {
+bool take_numbers(const MessageJson& message, const char* name, std::vector<double>& numbers) {
   numbers.clear();
   const auto found = message.find(name);
   if (found == message.end() || found->is_null()) return true;
   if (!found->is_array()) return false;
-  for (const json& value : *found) numbers.push_back(value.is_number() ? value.get<double>() : kNan);
+  for (const MessageJson& value : *found) numbers.push_back(value.is_number() ? value.get<double>() : kNan);
   return true;
 }
 
@@ -52,7 +52,7 @@ PackedNumbers packed(const std::vector<double>& numbers) {
 class JsonDecoder : public JointStateDecoder {
  public:
   bool decode(std::string_view bytes, JointMessage& state) override {
-    const json message = json::parse(bytes, nullptr, false);
+    const MessageJson message = MessageJson::parse(bytes, nullptr, false);
     if (!message.is_object()) return false;
     if (!take_names(message)) return false;
     if (!take_numbers(message, "position", position_) || !take_numbers(message, "velocity", velocity_) ||
@@ -65,13 +65,13 @@ class JsonDecoder : public JointStateDecoder {
   std::vector<std::string> decode_names(const JointMessage&) const override { return names_; }
 
  private:
-  bool take_names(const json& message) {
+  bool take_names(const MessageJson& message) {
     names_.clear();
     names_text_.clear();
     const auto found = message.find("name");
     if (found == message.end() || found->is_null()) return true;
     if (!found->is_array()) return false;
-    for (const json& name : *found) {
+    for (const MessageJson& name : *found) {
       if (!name.is_string()) return false;
       names_.push_back(name.get<std::string>());
       names_text_ += std::to_string(names_.back().size()) + ":" + names_.back();

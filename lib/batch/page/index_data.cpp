@@ -22,8 +22,7 @@ constexpr int kTimeDigits = 16;  // of times, which may count from 1970
 constexpr std::size_t kLongestText = 400;
 
 std::string quoted(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string shown(const std::string& text) { return quoted(printable(text).substr(0, kLongestText)); }

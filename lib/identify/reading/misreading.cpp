@@ -30,7 +30,7 @@ constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, b
 
 /// Whether a reading makes of a motion one too small to be meant.
 bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& after, const Robot& robot) {
-  constexpr double kLeastTurn = 0.03, kLeastWay_m = 0.003;
+  constexpr double kLeastMove_rad = 0.03, kLeastMove_m = 0.003;
   const auto range = [](const std::vector<Log>& logs, int j) {
     double widest = 0.0;
     for (const Log& log : logs) {
@@ -40,7 +40,7 @@ bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& afte
     return widest;
   };
   for (int j = 0; j < robot.joints(); ++j) {
-    const double least = robot.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
+    const double least = robot.chain.geometry[j].kind == AxisKind::revolute ? kLeastMove_rad : kLeastMove_m;
     const double now = range(after, j);
     if (now < least && now < 0.5 * range(before, j)) return true;
   }
