@@ -52,11 +52,11 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
     timeline.color = use_color(color, stdout);
     if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
   };
+  write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
   try {
-    write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
     if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
   } catch (const Error&) {
-    tell_diagnosis();  // what was found is not lost with a file that cannot be written
+    tell_diagnosis();  // a log that cannot be a recording, because it begins before 0, was diagnosed
     throw;
   }
   tell_diagnosis();
