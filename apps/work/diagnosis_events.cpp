@@ -39,6 +39,19 @@ void add_events(const ReportJson& fault, std::vector<LogEvent>& events) {
   add("end_s", "ends: ", false);
 }
 
+/// What a log without faults was found to be, at its start: an empty list of events would pass for health
+/// where there is no verdict.
+void add_verdict(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
+  const auto verdict = diagnosis.find("verdict"), log = diagnosis.find("log");
+  if (verdict == diagnosis.end() || log == diagnosis.end()) return;
+  const ReportJson start = log->value("start_s", ReportJson()),
+                   reason = diagnosis.value("verdict_reason", ReportJson());
+  if (!start.is_number()) return;
+  const std::string found = *verdict == "healthy" ? "no fault found" : "no verdict";
+  events.push_back(
+      {start.get<double>(), false, reason.is_string() ? found + ": " + reason.get<std::string>() : found});
+}
+
 }  // namespace
 
 std::vector<LogEvent> events_of_file(const std::string& path) {
@@ -51,6 +64,7 @@ std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::
   try {
     if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
     for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
+    if (diagnosis.at("faults").empty()) add_verdict(diagnosis, events);
   } catch (const std::exception&) {
     throw Error(
         ErrorCode::input, where,

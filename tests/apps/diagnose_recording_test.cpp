@@ -111,15 +111,30 @@ TEST_F(DiagnoseRecording, TheLogIsReadBackWithoutWhatWasComputed) {
   EXPECT_EQ(read_file(back), read_file(plain));
 }
 
-TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndAHealthyOneHasNoEvents) {
+TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndOfAHealthyOneTheVerdict) {
   const std::string again = folder_.file("again.mcap");
   diagnose(log_, {"--mcap", out_});
   diagnose(log_, {"--mcap", again});
   EXPECT_EQ(read_file(out_), read_file(again));
   ASSERT_EQ(diagnose(kSamples + "bench/healthy_2.csv", {"--mcap", again}).status, 0);
   const RecordedFile healthy = read_mcap(again);
-  EXPECT_EQ(healthy.messages.count("/faultline/diagnosis"), 0u);
+  const auto& events = healthy.messages.at("/faultline/diagnosis");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].time_ns, 0u);
+  EXPECT_NE(events[0].bytes.find("no fault found: the identified robot explains the whole log"),
+            std::string::npos);
   EXPECT_EQ(healthy.messages.count("/faultline/residuals"), 1u);
+}
+
+TEST_F(DiagnoseRecording, ALogThatCannotBeJudgedSaysSo) {
+  const std::string log = read_file(kSamples + "bench/healthy_2.csv");
+  std::size_t end = 0;
+  for (int rows = 0; rows < 4; ++rows) end = log.find('\n', end) + 1;
+  ASSERT_EQ(diagnose(folder_.write("short.csv", log.substr(0, end)), {"--mcap", out_}).status, 1);
+  const RecordedFile file = read_mcap(out_);
+  const auto& events = file.messages.at("/faultline/diagnosis");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NE(events[0].bytes.find("\"message\":\"no verdict: "), std::string::npos) << events[0].bytes;
 }
 
 TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
