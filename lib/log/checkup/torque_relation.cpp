@@ -121,11 +121,11 @@ TorqueRelated TorqueRelation::related(int joint, const Eigen::MatrixXd& inverse)
   TorqueRelated found;
   const double count = static_cast<double>(count_), mean = sums_[joint] / count;
   std::vector<double> left;
-  int best = 0;
+  int best = kDelays - 1;
   for (int d = kDelays - 1; d >= 0; --d) {  // a torque of d strides ago is kMostStrides - d late
     const Eigen::VectorXd with = with_[d].col(joint);
     left.push_back(squares_(joint, d) - with.dot(inverse * with));
-    if (left.back() < left[kDelays - 1 - best] || d == kDelays - 1) best = d;
+    if (left.back() < left[kDelays - 1 - best]) best = d;
   }
   const Eigen::VectorXd factors = inverse * with_[best].col(joint);
   const double rest = left[kDelays - 1 - best];
