@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "lib/core/atomic_file.hpp"
+#include "tests/support/dynamic_section.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -35,6 +36,10 @@ TEST_F(InstalledTree, HoldsProgramManualCompletionPresetsSamplesAndLicence) {
         "share/fish/vendor_completions.d/faultline.fish", "share/faultline/presets/ur-rtde.toml",
         "share/faultline/sample_logs/bench/robot.toml", "share/doc/faultline/copyright"})
     EXPECT_TRUE(has(path)) << path;
+}
+
+TEST_F(InstalledTree, TheProgramLooksForLibrariesInNoRelativeFolder) {
+  EXPECT_EQ(relative_search_folders(prefix() + "/bin/faultline"), std::vector<std::string>());
 }
 
 TEST_F(InstalledTree, TheProgramWorksThereAndKnowsItsPresets) {

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
+#include "tests/support/dynamic_section.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -12,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(DebianPackage, HoldsTheProgramAndNamesTheLibrariesItNeeds) {
-  if (run_command({"sh", "-c", "command -v dpkg-shlibdeps"}).status != 0)
-    GTEST_SKIP() << "dpkg-shlibdeps is missing; install dpkg-dev (bash apps/install.sh --release)";
+  SKIP_UNLESS_INSTALLED(run_command({"sh", "-c", "command -v dpkg-shlibdeps"}).status == 0,
+                        "dpkg-shlibdeps of dpkg-dev is missing");
   const TemporaryFolder folder;
   const std::string build = fs::path(FAULTLINE_PROGRAM).parent_path().string();
   const ProgramRun made = run_command({"cpack", "--config", build + "/CPackConfig.cmake", "-G", "DEB", "-B",
@@ -31,6 +33,8 @@ TEST(DebianPackage, HoldsTheProgramAndNamesTheLibrariesItNeeds) {
                            "./usr/share/faultline/sample_logs/bench/healthy_1.csv\n"})
     EXPECT_NE(content.find(path), std::string::npos) << path;
   EXPECT_EQ(content.find("/include/"), std::string::npos) << "headers belong to libfaultline-dev";
+  ASSERT_EQ(run_command({"dpkg-deb", "-x", package, folder.file("content")}).status, 0);
+  EXPECT_EQ(relative_search_folders(folder.file("content/usr/bin/faultline")), std::vector<std::string>());
 }
 
 }  // namespace
