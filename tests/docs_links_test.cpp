@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/core/atomic_file.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -168,8 +169,8 @@ void expect_styles_load_nothing(const fs::path& style) {
 }
 
 TEST(DocumentationSite, IsBuiltByOneCommandAndLoadsNothingFromElsewhere) {
-  if (std::system("PATH=/usr/bin:$PATH mkdocs --version >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "mkdocs is missing: bash apps/install.sh --tests";
+  SKIP_UNLESS_INSTALLED(std::system("PATH=/usr/bin:$PATH mkdocs --version >/dev/null 2>&1") == 0,
+                        "mkdocs is missing");
   const TemporaryFolder folder;
   const std::string site = folder.file("site"), log = folder.file("log.txt");
   const std::string script = (kRoot / "docs/build_site.sh").string();

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/skip_unless_installed.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,7 +223,7 @@ TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
 
 TEST(House, ThePythonModuleTakesNoInexactFunctionFromTheCLibrary) {
   const fs::path package = fs::path(FAULTLINE_PYTHON_DIR) / "faultline";
-  if (!fs::is_directory(package)) GTEST_SKIP() << "the Python module is not built";
+  SKIP_UNLESS_INSTALLED(fs::is_directory(package), "the Python module is not built");
   for (const auto& entry : fs::directory_iterator(package))
     if (entry.path().extension() == ".so") {
       EXPECT_GT(expect_exact_functions(entry.path()), 100);

@@ -6,6 +6,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash apps/install.sh --tests
+# From here on a test that misses one of the packages fails; elsewhere than on Debian it is skipped.
+if command -v apt-get >/dev/null; then
+  export FAULTLINE_PACKAGES_INSTALLED=1
+fi
 cmake --preset release "$@"
 cmake --build --preset release --parallel "$(nproc)"
 ctest --preset release --parallel "$(nproc)"

@@ -149,7 +149,7 @@ TEST_F(JsonSchemas, ABatchAndItsMergedShards) {
     if (entry.path().extension() == ".json") documents.push_back({"diagnosis-1", entry.path().string()});
   ASSERT_GE(documents.size(), 5u);
   const SchemaVerdict verdict = judge_by_schema(documents);
-  if (!verdict.can_judge) GTEST_SKIP() << verdict.text;
+  SKIP_UNLESS_INSTALLED(verdict.can_judge, verdict.text);
   EXPECT_TRUE(verdict.valid) << verdict.text;
 }
 
@@ -232,7 +232,8 @@ TEST_F(JsonSchemas, ADocumentThatIsBrokenIsRefused) {
     EXPECT_NE(broken, good) << what;
     return judge_by_schema({{"diagnosis-1", folder_.write("broken.json", broken)}});
   };
-  if (!judge_by_schema({{"diagnosis-1", file("good.json")}}).can_judge) GTEST_SKIP();
+  SKIP_UNLESS_INSTALLED(judge_by_schema({{"diagnosis-1", file("good.json")}}).can_judge,
+                        "python3-jsonschema is missing");
   EXPECT_FALSE(judged("\"verdict\": \"faulty\"", "\"verdict\": \"broken\"").valid);
   EXPECT_FALSE(judged("\"onset_s\"", "\"onset\"").valid);
   EXPECT_FALSE(judged("\"could_also_be\"", "\"more\": 1, \"could_also_be\"").valid);
@@ -246,7 +247,7 @@ TEST_F(JsonSchemas, OnlyWhatHasNamesOfTheRobotTakesAnyMember) {
   EXPECT_EQ(run_program({"cases", "export", "--model", model_, "-o", file("cases.json")}).status, 0);
   const SchemaVerdict verdict =
       judge_by_schema({{"diagnosis-1", file("faulty.json")}, {"cases-1", file("cases.json")}});
-  if (!verdict.can_judge) GTEST_SKIP() << verdict.text;
+  SKIP_UNLESS_INSTALLED(verdict.can_judge, verdict.text);
   EXPECT_TRUE(verdict.valid) << verdict.text;
   const std::vector<std::string> expected = {"diagnosis-1 .faults[].episode.features",
                                              "cases-1 .cases[].features"};

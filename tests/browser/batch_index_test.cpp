@@ -5,10 +5,10 @@
 
 #include "lib/batch/page/index_page.hpp"
 #include "tests/support/chromium.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-#define NEEDS_CHROMIUM \
-  if (chromium_program().empty()) GTEST_SKIP() << "no Chromium: bash apps/install.sh --tests installs it"
+#define NEEDS_CHROMIUM SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 
 namespace faultline {
 namespace {

@@ -9,9 +9,9 @@
 #include "lib/html/html_report.hpp"
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 
-#define SKIP_WITHOUT_CHROMIUM() \
-  if (chromium_program().empty()) GTEST_SKIP() << "no Chromium: bash apps/install.sh --tests installs it"
+#define SKIP_WITHOUT_CHROMIUM() SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 
 namespace faultline {
 

@@ -9,12 +9,12 @@
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 
 namespace faultline {
 namespace {
 
-#define NEEDS_CHROMIUM() \
-  if (chromium_program().empty()) GTEST_SKIP() << "no Chromium: bash apps/install.sh --tests installs it"
+#define NEEDS_CHROMIUM() SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 
 const std::string kHere = std::string(FAULTLINE_SOURCE_DIR) + "/tests/browser/";
 const std::string kSamples = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/";

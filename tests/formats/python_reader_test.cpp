@@ -6,13 +6,14 @@
 
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
 namespace {
 
 TEST(NativePythonReader, ReadsWhatIsWritten) {
-  if (std::system("python3 -c '' 2>/dev/null") != 0) GTEST_SKIP() << "python3 is not installed";
+  SKIP_UNLESS_INSTALLED(std::system("python3 -c '' 2>/dev/null") == 0, "python3 is missing");
   const std::string page = read_file(std::string(FAULTLINE_SOURCE_DIR) + "/docs/formats-native.md");
   const std::string fence = "```python\n";
   const auto begin = page.find(fence) + fence.size(), end = page.find("```", begin);

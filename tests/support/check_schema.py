@@ -14,7 +14,7 @@ import sys
 try:
     from jsonschema import Draft202012Validator
 except ImportError:
-    print("python3-jsonschema is missing: bash apps/install.sh --tests")
+    print("python3-jsonschema is missing")
     sys.exit(77)
 
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/skip_unless_installed.hpp"
+
 namespace faultline {
 
 /// Name of a schema in docs/schemas, such as "diagnosis-1", and the file of a document.
@@ -25,6 +27,6 @@ SchemaVerdict judge_by_schema(const std::vector<SchemaAndDocument>& documents);
 /// Fails unless the documents are as their schemas say; says so and passes where nothing can judge them.
 #define EXPECT_FOLLOWS_SCHEMA(...)                                                                    \
   if (const ::faultline::SchemaVerdict verdict = ::faultline::judge_by_schema({__VA_ARGS__}); true) { \
-    if (!verdict.can_judge) GTEST_SKIP() << verdict.text;                                             \
+    SKIP_UNLESS_INSTALLED(verdict.can_judge, verdict.text);                                           \
     EXPECT_TRUE(verdict.valid) << verdict.text;                                                       \
   }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/skip_unless_installed.hpp"
+
 namespace faultline {
 namespace {
 
@@ -25,8 +27,8 @@ bool module_is_built() {
 class PythonModule : public testing::TestWithParam<const char*> {};
 
 TEST_P(PythonModule, DoesAsItsTestsSay) {
-  if (!module_is_built())
-    GTEST_SKIP() << "the Python module is not built: install pybind11-dev, python3-dev and python3-numpy";
+  SKIP_UNLESS_INSTALLED(module_is_built(),
+                        "the Python module is not built, which needs pybind11-dev and python3-dev");
   const std::string command = "cd '" + kTests.string() +
                               "' && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" FAULTLINE_PYTHON_DIR
                               "' FAULTLINE_PROGRAM='" FAULTLINE_PROGRAM
@@ -42,6 +44,9 @@ TEST_P(PythonModule, DoesAsItsTestsSay) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text;
   EXPECT_NE(text.find("\nRan "), std::string::npos) << text;
   EXPECT_EQ(text.find("Ran 0 tests"), std::string::npos) << text;
+  if (all_packages_are_installed()) {
+    EXPECT_EQ(text.find("(skipped="), std::string::npos) << text;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, PythonModule,

@@ -8,6 +8,7 @@
 #include "tests/formats/arrays/npy_bytes.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"
 #include "tests/support/run_python.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 
 namespace faultline {
 namespace {
@@ -203,7 +204,8 @@ q = np.stack([np.sin(t), np.cos(t), t], axis=1)
 np.savez('stored.npz', t=t, q=q, dq=q.T, note='text', one=3.0)
 np.savez_compressed('packed.npz', t=t, q=np.asfortranarray(q), dq=q.T, odd=np.zeros((4, 5)))
 )";
-  if (!run_python(folder_, script)) GTEST_SKIP() << "no Python with numpy";
+  SKIP_UNLESS_INSTALLED(run_python(folder_, "import numpy\n"), "python3-numpy is missing");
+  ASSERT_TRUE(run_python(folder_, script));
   for (const char* name : {"stored.npz", "packed.npz"}) {
     const ReadArrays read = read_array_file(folder_.file(name));
     EXPECT_EQ(read.refused, "") << name;
@@ -223,7 +225,7 @@ a = np.load('log.npz')
 assert a['t'].shape == (50,) and a['q'].shape == (50, 3) and a['q'][4, 2] == 4.2
 assert a['extra/q'].shape == (50,)
 )";
-  if (!run_python(folder_, "import numpy\n")) GTEST_SKIP() << "no Python with numpy";
+  SKIP_UNLESS_INSTALLED(run_python(folder_, "import numpy\n"), "python3-numpy is missing");
   EXPECT_TRUE(run_python(folder_, script));
 }
 
