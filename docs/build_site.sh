@@ -17,4 +17,7 @@ fi
 mkdocs build --strict --quiet -f "$here/site/mkdocs.yml" -d "$out"
 # What builds the site is no part of it, and a map of the site says when it was built.
 rm -rf "$out/site" "$out/build_site.sh" "$out"/sitemap.xml*
+# A page opened as a file cannot fetch JSON, but it can load a script: the search index becomes one.
+{ printf 'const searchIndex = '; cat "$out/search/search_index.json"; } >"$out/search_index.js"
+rm -rf "$out/search"
 echo "$out/index.html"
