@@ -69,9 +69,12 @@ std::string without_limits_of_double(const std::string& sentence) {
 /// What the library says of a command line, but of a word that is unknown, what was probably meant.
 std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
                               const std::vector<std::string>& words) {
-  const std::string unknown = about_unknown_word(describe_command(app), words);
-  return (unknown.empty() ? without_limits_of_double(error.what()) : unknown) + "; see '" +
-         selected_command(app).name + " --help'";
+  const CommandDescription command = selected_command(app);
+  std::string sentence = about_unknown_word(describe_command(app), words);
+  if (sentence.empty() && dynamic_cast<const CLI::ExtrasError*>(&error))
+    sentence = about_further_word(command);
+  if (sentence.empty()) sentence = without_limits_of_double(error.what());
+  return sentence + "; see '" + command.name + " --help'";
 }
 
 int run(int argc, char** argv) {

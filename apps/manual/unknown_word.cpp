@@ -71,4 +71,10 @@ std::string about_unknown_word(const CommandDescription& program, const std::vec
   return "";
 }
 
+std::string about_further_word(const CommandDescription& command) {
+  if (command.own_name() != "diagnose") return "";
+  return "diagnose takes one log; for several runs: faultline batch LOG... --model MODEL -o DIR; for one run in "
+         "several files: --join or --then";
+}
+
 }  // namespace faultline

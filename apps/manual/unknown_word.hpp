@@ -12,4 +12,8 @@ namespace faultline {
 /// option that its command does not have, with the nearest that there is. Empty when all are known.
 std::string about_unknown_word(const CommandDescription& program, const std::vector<std::string>& words);
 
+/// What to say where a command was given more words than it takes; empty for a command that says nothing of
+/// its own.
+std::string about_further_word(const CommandDescription& command);
+
 }  // namespace faultline

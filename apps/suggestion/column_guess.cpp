@@ -8,12 +8,16 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/log/column_families.hpp"
 #include "lib/log/column_matching.hpp"
+#include "lib/log/columns/unit_fit.hpp"
+#include "lib/log/units.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
@@ -21,11 +25,39 @@ namespace {
 
 constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tried
 constexpr double kDerivative = 0.95;     // correlation of a velocity with its position's change
+constexpr double kVaries = 1e-6;         // of the mean square, at least; less is rounding
 constexpr double kInOrder = 0.999;       // share of steps of a time that are forward
 constexpr double kSmallSteps = 0.1;      // of steps to the deviation, squared
 constexpr std::size_t kGuessFewestRows = 20;
 constexpr std::size_t kFewestPairedRows = 200;
 constexpr std::ptrdiff_t kReach = 3;  // rows, of a change of position, to both sides
+
+/// What a name without a joint quantity says all the same.
+enum class OtherQuantity {
+  none,   ///< nothing that is known
+  drive,  ///< a motor's current or voltage, which may stand for a torque
+  other,  ///< neither a joint's motion nor its torque: a temperature, an acceleration, a counter, a state
+};
+
+OtherQuantity other_quantity_of(const std::string& word) {
+  static const std::set<std::string> drives{"current", "currents", "curr",     "amp",  "amps",
+                                            "ampere",  "voltage",  "voltages", "volt", "volts"};
+  static const std::set<std::string> others{
+      "temp",          "temperature", "temperatures", "power", "energy", "acc",    "accel", "acceleration",
+      "accelerations", "ddq",         "qdd",          "jerk",  "num",    "number", "no",    "nr",
+      "index",         "idx",         "count",        "id",    "seq",    "row",    "line",  "sequence",
+      "counter",       "cycle",       "cycles",       "mode",  "flag",   "flags",  "error", "err",
+      "status"};
+  if (drives.count(word) > 0) return OtherQuantity::drive;
+  return others.count(word) > 0 ? OtherQuantity::other : OtherQuantity::none;
+}
+
+OtherQuantity other_quantity_of(const NameReading& reading) {
+  std::istringstream words(reading.stem);
+  OtherQuantity found = OtherQuantity::none;
+  for (std::string word; words >> word;) found = std::max(found, other_quantity_of(word));
+  return found;
+}
 
 std::vector<std::string> names_of(const RawExcerpt& excerpt) {
   std::vector<std::string> names;
@@ -58,13 +90,14 @@ std::vector<GuessedChannel> by_names(const RawExcerpt& excerpt) {
   return {};
 }
 
-/// The column whose values rise from row to row; the steadier one of several.
+/// The column whose values rise from row to row and that no name calls a counter; the steadier one of
+/// several.
 int rising_column(const RawExcerpt& excerpt) {
   int best = kRowNumber;
   double steadiest = 1.0;
   for (std::size_t c = 0; c < excerpt.values.size(); ++c) {
     const auto& values = excerpt.values[c];
-    if (values.size() < kGuessFewestRows) continue;
+    if (values.size() < kGuessFewestRows || !may_be(excerpt.columns[c], Quantity::time)) continue;
     double forward = 0.0;
     for (std::size_t i = 1; i < values.size(); ++i) forward += values[i] > values[i - 1] ? 1.0 : 0.0;
     const double steps = static_cast<double>(values.size() - 1), mean = (values.back() - values[0]) / steps;
@@ -79,17 +112,19 @@ int rising_column(const RawExcerpt& excerpt) {
   return best;
 }
 
-/// Correlation of what `a` changes by with the mean of `b` meanwhile.
+/// Correlation of what `a` changes by with the mean of `b` meanwhile; negative where one sign is wrong.
 double as_derivative(const std::vector<double>& a, const std::vector<double>& b) {
-  double aa = 0.0, bb = 0.0, ab = 0.0;
+  double count = 0.0, as = 0.0, bs = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::ptrdiff_t i = kReach; i + kReach < std::ssize(a); i += 2) {
     double mean = 0.0;
     for (std::ptrdiff_t k = -kReach; k <= kReach; ++k) mean += b[i + k];
     const double change = a[i + kReach] - a[i - kReach];
     if (std::isnan(change) || std::isnan(mean)) continue;
-    aa += change * change, bb += mean * mean, ab += change * mean;
+    count += 1.0, as += change, bs += mean, aa += change * change, bb += mean * mean, ab += change * mean;
   }
-  return aa > 0.0 && bb > 0.0 ? std::abs(ab) / std::sqrt(aa * bb) : 0.0;
+  // Their own means say nothing: a counter's change and a temperature are both about constant.
+  const double va = aa - as * as / count, vb = bb - bs * bs / count;
+  return va > kVaries * aa && vb > kVaries * bb ? (ab - as * bs / count) / std::sqrt(va * vb) : 0.0;
 }
 
 /// Positions and the velocities that are their derivatives, in the order of the positions' columns.
@@ -97,14 +132,16 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   std::map<int, std::pair<int, double>> velocity_of;
   std::set<int> velocities;
   const int columns = static_cast<int>(std::min(excerpt.values.size(), kMostPaired));
-  std::vector<std::tuple<double, int, int>> pairs;
+  std::vector<std::tuple<bool, double, int, int>> pairs;  // whether a sign is wrong, -|correlation|, columns
   for (int a = 0; a < columns; ++a)
     for (int b = 0; b < columns; ++b)
-      if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestPairedRows)
-        if (const double r = as_derivative(excerpt.values[a], excerpt.values[b]); r > kDerivative)
-          pairs.push_back({-r, a, b});
+      if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestPairedRows &&
+          may_be(excerpt.columns[a], Quantity::q) && may_be(excerpt.columns[b], Quantity::dq))
+        if (const double r = as_derivative(excerpt.values[a], excerpt.values[b]); std::abs(r) > kDerivative)
+          pairs.push_back({r < 0.0, -std::abs(r), a, b});
+  // A sine is the derivative of its derivative, too, but for the sign.
   std::sort(pairs.begin(), pairs.end());
-  for (const auto& [r, a, b] : pairs) {
+  for (const auto& [flipped, r, a, b] : pairs) {
     if (velocity_of.count(a) || velocities.count(a) || velocity_of.count(b) || velocities.count(b)) continue;
     velocity_of[a] = {b, -r};
     velocities.insert(b);
@@ -138,7 +175,8 @@ std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
   std::map<std::string, std::map<int, int>> families;
   for (int c = 0; c < std::ssize(excerpt.columns); ++c) {
     const NameReading reading = read_name(excerpt.columns[c].name);
-    if (c != time && reading.number) families[reading.stem].emplace(*reading.number, c);
+    if (c != time && reading.number && may_be(excerpt.columns[c], Quantity::q))
+      families[reading.stem].emplace(*reading.number, c);
   }
   const auto largest = std::max_element(families.begin(), families.end(), [](const auto& a, const auto& b) {
     return a.second.size() < b.second.size();
@@ -185,6 +223,20 @@ std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
             [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
   std::erase_if(found, [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
   return found;
+}
+
+bool may_be(const RawColumn& column, Quantity quantity) {
+  const NameReading reading = read_name(column.name);
+  const auto unit = known_unit(column.unit);
+  const Dimension dimension = unit ? unit->dimension : Dimension::none;
+  if (is_torque(quantity)) {
+    const bool of_motion = measures(dimension, Quantity::q) || measures(dimension, Quantity::dq);
+    if (dimension != Dimension::none && of_motion) return false;
+    return reading.quantity ? is_torque(*reading.quantity)
+                            : other_quantity_of(reading) != OtherQuantity::other;
+  }
+  if (!measures(dimension, quantity)) return false;
+  return reading.quantity ? reading.quantity == quantity : other_quantity_of(reading) == OtherQuantity::none;
 }
 
 std::vector<double> values_of(const RawExcerpt& excerpt, const GuessedChannel& guess) {

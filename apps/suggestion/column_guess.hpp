@@ -9,6 +9,10 @@ namespace faultline {
 /// Throws Error(input) when no position can be told.
 std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt);
 
+/// Whether neither name nor unit of a column says that it is something else than the quantity, such as a
+/// temperature, a counter or a velocity that is no position.
+bool may_be(const RawColumn& column, Quantity quantity);
+
 /// The guessed channel's raw values; the row numbers for a time that is none.
 std::vector<double> values_of(const RawExcerpt& excerpt, const GuessedChannel& guess);
 

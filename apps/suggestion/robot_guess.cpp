@@ -208,7 +208,7 @@ class Guesser {
       const bool varies = std::any_of(values.begin(), values.end(), [&](double value) {
         return value != values.front() && !std::isnan(value);
       });
-      if (!used && varies) left.push_back(c);
+      if (!used && varies && may_be(excerpt_.columns[c], Quantity::tau)) left.push_back(c);
     }
     return left;
   }

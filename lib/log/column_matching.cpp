@@ -224,12 +224,26 @@ class Matcher {
     if (family) note_later_positions(*family);
   }
 
+  void note_missing_joint(const std::string& later, Severity severity) {
+    const int joint = matching_.joints + 1;
+    note("channel_missing", to_string({Quantity::q, joint}), severity,
+         missing_joint_sentence(names_, joint, later));
+  }
+
   /// Positions behind a joint that has none.
   void note_later_positions(const ColumnFamily& family) {
     const auto later = family.column_of.upper_bound(first_of(family) + matching_.joints);
     if (!family.numbered || later == family.column_of.end() || later->first > kMostJoints) return;
-    note("channel_missing", to_string({Quantity::q, matching_.joints + 1}), Severity::severe,
-         missing_joint_sentence(matching_.joints + 1, names_[later->second]));
+    note_missing_joint(names_[later->second], Severity::severe);
+  }
+
+  /// A velocity or torque by its usual name of the joint behind the last position.
+  void note_last_position() {
+    const int joint = matching_.joints + 1;
+    if (matching_.issues.find("channel_missing", to_string({Quantity::q, joint}))) return;
+    for (const Quantity quantity : {Quantity::dq, Quantity::tau})
+      if (const std::string name = to_string({quantity, joint}); column_named(name) >= 0)
+        return note_missing_joint(name, Severity::note);
   }
 
   void note_rivals(Quantity quantity, const ColumnFamily& chosen) {
@@ -249,6 +263,7 @@ class Matcher {
     std::sort(channels.begin(), channels.end(),
               [](const ChannelSource& a, const ChannelSource& b) { return a.channel < b.channel; });
     for (const Quantity quantity : kJointQuantities) note_gaps(quantity);
+    note_last_position();
     std::set<int> used;
     for (const ChannelSource& source : channels) used.insert({source.column, source.nanoseconds_column});
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i)

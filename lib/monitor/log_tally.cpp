@@ -8,6 +8,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/columns/joint_count.hpp"
 #include "lib/robot/axis_units.hpp"
 
 namespace faultline {
@@ -56,9 +57,9 @@ void note_rejected(Issues& issues, int count) {
 void check_joints(const Log& segment, const LogSource& log, const Model& model) {
   const int joints = model.robot.joints();
   if (segment.joints() != joints)
-    throw Error(ErrorCode::input, log.identity().path,
-                "is a log of another robot: it has " + counted(segment.joints(), "joint") + ", the model \"" +
-                    model.name + "\" has " + std::to_string(joints));
+    throw Error(
+        ErrorCode::input, log.identity().path,
+        joint_count_sentence(log.issues(), segment.joints(), "the model \"" + model.name + "\"", joints));
 }
 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {

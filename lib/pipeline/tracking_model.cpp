@@ -6,6 +6,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/log/columns/joint_count.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 
@@ -14,9 +15,8 @@ namespace {
 
 void check_joints(const Log& segment, const LogSource& log, const Robot& robot) {
   if (segment.joints() == robot.joints()) return;
-  throw Error(
-      ErrorCode::input, log.identity().path,
-      "has " + std::to_string(segment.joints()) + " joints, the robot has " + std::to_string(robot.joints()));
+  throw Error(ErrorCode::input, log.identity().path,
+              joint_count_sentence(log.issues(), segment.joints(), "the robot file", robot.joints()));
 }
 
 /// Reads the log through; its usual sample period, s.

@@ -141,5 +141,30 @@ TEST_F(BadModel, ALogOfFewerOrMoreJointsIsOfAnotherRobot) {
                         3, {"log.csv", "another robot", joints});
 }
 
+TEST_F(BadModel, ALogWithoutAPositionIsNoOtherRobot) {
+  std::string model;
+  for (const auto& entry : std::filesystem::directory_iterator(FAULTLINE_SOURCE_DIR "/sample_logs/golden")) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("model-", 0) == 0) model = entry.path().string();
+    if (name.rfind("cases-", 0) == 0) std::filesystem::copy_file(entry.path(), folder_.file("cases.db"));
+  }
+  const std::string rows = "0,.1,.3,1,2,3\n.073,.1,.3,1,2,3\n.146,.1,.3,1,2,3\n";
+  const auto diagnose_log = [&](const std::string& header) {
+    const ProgramRun run = run_program({"diagnose", folder_.write("log.csv", header + rows), "--model", model,
+                                        "--cases", folder_.file("cases.db")});
+    EXPECT_EQ(run.err.find("another robot"), std::string::npos) << run.err;
+    return run;
+  };
+  expect_one_sentence(diagnose_log("t,q1,q3,tau1,tau2,tau3\n"), 3,
+                      {"log.csv", "position of joint 2 (q2)", "\"q3\"", "[log.columns] q2"});
+  expect_one_sentence(diagnose_log("t,q1,q2,tau1,tau2,tau3\n"), 3,
+                      {"log.csv", "position of joint 3 (q3)", "\"tau3\"", "[log.columns] q3"});
+}
+
+TEST_F(BadModel, DiagnoseOfTwoLogsNamesBatch) {
+  expect_one_sentence(run_program({"diagnose", "a.csv", "b.csv", "--model", "robot.model"}), 2,
+                      {"takes one log", "faultline batch", "--then", "see 'faultline diagnose --help'"});
+}
+
 }  // namespace
 }  // namespace faultline

@@ -8,6 +8,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/log/columns/joint_count.hpp"
 
 namespace faultline {
 namespace {
@@ -167,7 +168,7 @@ void check_channels(const LogSource& source, const Log& segment, int joints) {
     throw Error(ErrorCode::input, source.identity().path, message);
   };
   if (segment.joints() != joints)
-    fail(fmt::format("has {} joints, the robot {}; give the logs of this robot", segment.joints(), joints));
+    fail(joint_count_sentence(source.issues(), segment.joints(), "the robot file", joints));
   if (static_cast<int>(segment.tau.size()) != joints)
     fail(
         "has no torque of every joint; identification needs tau1.. or [log.columns] that say which columns "

@@ -10,22 +10,29 @@ constexpr std::size_t kMostNamed = 20;
 
 std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
 
+std::string listed(const std::vector<std::string>& columns) {
+  std::string found;
+  for (std::size_t i = 0; i < columns.size() && i < kMostNamed; ++i)
+    found += (i ? ", " : "") + quoted(columns[i]);
+  if (columns.size() > kMostNamed) found += " and " + std::to_string(columns.size() - kMostNamed) + " more";
+  return found;
+}
+
 }  // namespace
 
 std::string missing_column_sentence(const std::vector<std::string>& columns, const std::string& channel,
                                     const std::string& meaning) {
-  std::string found;
-  for (std::size_t i = 0; i < columns.size() && i < kMostNamed; ++i)
-    found += (i ? ", \"" : "\"") + shortened(columns[i], kLongestName) + "\"";
-  if (columns.size() > kMostNamed) found += " and " + std::to_string(columns.size() - kMostNamed) + " more";
-  return "no column for the " + meaning + " (" + channel + ") was found; the columns are " + found +
+  return "no column for the " + meaning + " (" + channel + ") was found; the columns are " + listed(columns) +
          ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}" +
          (channel == "t" ? "; without any, t = {name = \"@row\", scale = SAMPLE_PERIOD_IN_S}" : "");
 }
 
-std::string missing_joint_sentence(int joint, const std::string& later) {
-  return "no column for the position of joint " + std::to_string(joint) + ", though there is " +
-         quoted(later) + "; only the joints before it are read";
+std::string missing_joint_sentence(const std::vector<std::string>& columns, int joint,
+                                   const std::string& later) {
+  const std::string channel = to_string({Quantity::q, joint});
+  return "no column for the position of joint " + std::to_string(joint) + " (" + channel +
+         "), though there is " + quoted(later) + "; only the joints before it are read. The columns are " +
+         listed(columns) + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
 }
 
 std::string rivals_sentence(const std::vector<std::string>& columns,

@@ -13,8 +13,10 @@ namespace faultline {
 std::string missing_column_sentence(const std::vector<std::string>& columns, const std::string& channel,
                                     const std::string& meaning);
 
-/// That a joint has no position, though a later one has one in the column `later`.
-std::string missing_joint_sentence(int joint, const std::string& later);
+/// That a joint has no position, though the column `later` shows that the log has it or a later one, and how
+/// to name one in the robot file.
+std::string missing_joint_sentence(const std::vector<std::string>& columns, int joint,
+                                   const std::string& later);
 
 /// Which column was taken as a quantity, and which others could be meant; empty when there are none.
 std::string rivals_sentence(const std::vector<std::string>& columns,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/core/error.hpp"
+#include "lib/log/columns/joint_count.hpp"
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
@@ -47,10 +48,9 @@ class CoupledSource : public LogSource {
   bool next(Log& segment) override {
     if (!source_->next(segment)) return false;
     if (segment.joints() != motion_.rows())
-      throw Error(
-          ErrorCode::input, source_->identity().path,
-          fmt::format("has {} joints, the coupling of the robot is of {}; give the logs of this robot",
-                      segment.joints(), motion_.rows()));
+      throw Error(ErrorCode::input, source_->identity().path,
+                  joint_count_sentence(source_->issues(), segment.joints(), "the coupling of the robot",
+                                       static_cast<int>(motion_.rows())));
     mix_all(segment, motion_, torque_, mixed_);
     return true;
   }

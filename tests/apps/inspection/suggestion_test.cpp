@@ -180,5 +180,48 @@ TEST(Suggestion, HostileNamesStayInTheirQuotes) {
   if (run.status == 0) robot_from_toml(run.out, "it");
 }
 
+/// What such a robot's real-time interface exports: a counter, and temperatures that hardly change.
+std::string log_without_positions(const std::string& time_name, bool with_angles) {
+  std::string text = "Num," + time_name;
+  for (const char* joint : {"J1", "J2"})
+    text += std::string(",Current_") + joint + ",Temperature_" + joint + ",Speed_" + joint +
+            (with_angles ? std::string(",Angle_") + joint : "");
+  text += "\n";
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.01 * i;
+    text += std::to_string(i + 1) + "," + std::to_string(t);
+    for (const double speed : {1.0, 2.0}) {
+      for (const double value :
+           {-2.0 + std::sin(speed * t) + 0.05 * random.normal(), 27.8 + 1e-4 * i, 0.3 * std::cos(speed * t)})
+        text += "," + std::to_string(value);
+      if (with_angles) text += "," + std::to_string(0.3 / speed * std::sin(speed * t));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Suggestion, CountersTemperaturesAndCurrentsAreNoPositions) {
+  const TemporaryFolder folder;
+  for (const char* time : {"Timestamp", "Zeile"}) {
+    const std::string log = folder.write("run.csv", log_without_positions(time, false));
+    const ProgramRun run = run_program({"inspect", log, "--suggest", "-"});
+    EXPECT_EQ(run.status, 3) << run.out;
+    EXPECT_NE(run.err.find("no column could be told to be a joint's position"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Suggestion, ColumnsBesideACounterAndTemperaturesAreFoundByTheirNames) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("run.csv", log_without_positions("Timestamp", true));
+  run_program({"inspect", log, "--suggest", folder.file("robot.toml")});
+  const Robot robot = load_robot_file(folder.file("robot.toml"));
+  EXPECT_EQ(column(robot, "q1").name, "Angle_J1");
+  EXPECT_EQ(column(robot, "dq2").name, "Speed_J2");
+  for (const auto& [channel, spec] : robot.log.columns)
+    EXPECT_EQ(spec.name.find("Temperature"), std::string::npos) << channel;
+}
+
 }  // namespace
 }  // namespace faultline
