@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -10,9 +12,11 @@
 #include "formats/open_log.hpp"
 #include "lib/compare/comparison_text.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
 #include "lib/html/comparison/comparison_page.hpp"
 #include "lib/log/derive.hpp"
 #include "lib/model/model.hpp"
+#include "lib/monitor/model_rate.hpp"
 
 namespace faultline {
 namespace {
@@ -35,8 +39,19 @@ void claim_files(const CompareArguments& arguments) {
 }
 
 RunSignals read_run(const std::string& path, const Model* model) {
-  auto log = with_velocity(model ? open_robot_log(path, model->robot) : open_log(path));
-  return run_signals(path, read_all(*log), model ? &model->residual : nullptr);
+  const auto log = with_velocity(model ? open_robot_log(path, model->robot) : open_log(path));
+  if (!model) return run_signals(path, read_all(*log), nullptr);
+  const LogRate rate = log_rate(*log, *model);
+  if (rate.is_models()) return run_signals(path, read_all(*log), &model->residual);
+  const Issue resampled = resampled_issue(rate, *model);
+  if (!rate.can_be_resampled())
+    throw Error(
+        ErrorCode::input, path,
+        fmt::format("has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; "
+                    "compare without --model",
+                    rate.period_s, model->sample_period_s));
+  tell(path + ": " + resampled.message);
+  return run_signals(path, read_all(*at_model_rate(*log, *model)), &model->residual);
 }
 
 std::vector<char> turns_of(const Model& model) {

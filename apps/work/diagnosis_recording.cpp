@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "apps/work/diagnosis_recording.hpp"
 
+#include <memory>
+
 #include "apps/work/diagnosis_events.hpp"
 #include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "formats/provenance.hpp"
 #include "lib/fault/label_text.hpp"
+#include "lib/monitor/model_rate.hpp"
 #include "lib/replay/expected_joint.hpp"
 #include "lib/report/json.hpp"
 
@@ -59,9 +62,10 @@ NamedCurves evidence_of(const FaultFinding& fault) {
 void write_recording(const std::string& path, LogSource& log, const Model& model,
                      const Diagnosis& diagnosis) {
   const auto recording = create_mcap_recording(path);
-  log.rewind();
+  std::unique_ptr<LogSource> kept;
+  LogSource& judged = judged_rows(log, model, diagnosis.log.issues, kept);
   ResidualState state;
-  for (Log segment; log.next(segment);)
+  for (Log segment; judged.next(segment);)
     recording->write(segment,
                      computed_rows(model, segment, compute_residuals(model.residual, segment, state)));
   for (const FaultFinding& fault : diagnosis.faults)

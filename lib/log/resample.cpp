@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
@@ -10,108 +11,128 @@
 namespace faultline {
 namespace {
 
-/// A new row: `share` of the way from recorded row `left` to the one after it.
-struct NewRow {
-  double time = 0.0;
-  int left = 0;
-  double share = 0.0;
-};
+constexpr double kGapPeriods = 3.0;  // of either log: a longer step is a gap
 
-class ResampledSource : public LogSource {
- public:
-  ResampledSource(std::unique_ptr<LogSource> source, const ResampleOptions& options)
-      : source_(std::move(source)), options_(options) {
-    if (!(options.period_s > 0.0) || !std::isfinite(options.period_s))
-      throw Error(ErrorCode::usage, "resampling", "the sample period must be a positive number of seconds");
-  }
+const ResampleOptions& checked(const ResampleOptions& options) {
+  if (!(options.period_s > 0.0) || !std::isfinite(options.period_s))
+    throw Error(ErrorCode::usage, "resampling", "the sample period must be a positive number of seconds");
+  return options;
+}
 
-  bool next(Log& segment) override {
-    while (source_->next(incoming_)) {
-      append(recorded_, incoming_);
-      place_rows();
-      make(segment);
-      const int last = recorded_.rows() - 1;
-      recorded_ = slice(recorded_, last, last + 1);
-      if (segment.rows() > 0) return true;
-    }
-    return false;
-  }
-
-  void rewind() override {
-    source_->rewind();
-    recorded_ = {};
-    made_ = 0;
-    step_ = -1;
-  }
-  const LogIdentity& identity() const override { return source_->identity(); }
-  const Issues& issues() const override { return source_->issues(); }
-  double share_read() const override { return source_->share_read(); }
-
- private:
-  double grid_time() const { return start_ + static_cast<double>(step_) * options_.period_s; }
-  bool is_gap(double step, double usual) const {
-    return step >
-           (options_.longest_gap_s > 0.0 ? options_.longest_gap_s : 3.0 * std::max(options_.period_s, usual));
-  }
-
-  /// Finds the new rows that lie within the recorded ones.
-  void place_rows() {
-    rows_.clear();
-    const auto& time = recorded_.time;
-    if (step_ < 0) {
-      start_ = time.front();
-      step_ = 0;
-      usual_ = 0.0;
-      rows_.push_back({start_, 0, 0.0});
-      ++step_;
-    }
-    for (int i = 0; i + 1 < recorded_.rows(); ++i) {
-      const double span = time[i + 1] - time[i];
-      const bool gap = usual_ > 0.0 && is_gap(span, usual_);
-      for (double t = grid_time(); t <= time[i + 1]; t = grid_time()) {
-        if (t == time[i + 1])
-          rows_.push_back({t, i + 1, 0.0});
-        else if (!gap)
-          rows_.push_back({t, i, (t - time[i]) / span});
-        if (gap && t < time[i + 1])
-          step_ = std::max(step_ + 1,
-                           static_cast<std::int64_t>(std::ceil((time[i + 1] - start_) / options_.period_s)));
-        else
-          ++step_;
-      }
-      if (!gap) usual_ = span;
-    }
-  }
-
-  void make(Log& segment) {
-    for_each_column(segment, recorded_, [&](std::vector<double>& to, const std::vector<double>& from) {
-      to.resize(rows_.size());
-      for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const NewRow& row = rows_[k];
-        to[k] = row.share == 0.0 ? from[row.left]
-                                 : from[row.left] + row.share * (from[row.left + 1] - from[row.left]);
-      }
-    });
-    for (std::size_t k = 0; k < rows_.size(); ++k) segment.time[k] = rows_[k].time;
-    segment.first_row = made_;
-    made_ += static_cast<std::int64_t>(rows_.size());
-  }
-
-  std::unique_ptr<LogSource> source_;
-  ResampleOptions options_;
-  Log incoming_;
-  Log recorded_;  ///< the last row of before, then the present segment
-  std::vector<NewRow> rows_;
-  double start_ = 0.0;
-  double usual_ = 0.0;      ///< last recorded step that was no gap
-  std::int64_t step_ = -1;  ///< of the next new row on the grid; -1 before the first
-  std::int64_t made_ = 0;
-};
+/// Value at `share` of the way from row `left` to the next.
+double between(const std::vector<double>& values, int left, double share) {
+  const auto at = static_cast<std::size_t>(left);
+  return share == 0.0 ? values[at] : values[at] + share * (values[at + 1] - values[at]);
+}
 
 }  // namespace
 
-std::unique_ptr<LogSource> resampled(std::unique_ptr<LogSource> source, const ResampleOptions& options) {
-  return std::make_unique<ResampledSource>(std::move(source), options);
+ResampledSource::ResampledSource(LogSource& source, const ResampleOptions& options)
+    : source_(source), options_(checked(options)) {}
+
+ResampledSource::ResampledSource(std::unique_ptr<LogSource> source, const ResampleOptions& options)
+    : owned_(std::move(source)), source_(*owned_), options_(checked(options)) {}
+
+bool ResampledSource::next(Log& segment) {
+  while (!at_end_) {
+    at_end_ = !source_.next(incoming_);
+    if (!at_end_) append(recorded_, incoming_);
+    if (recorded_.rows() == 0) continue;
+    place_rows();
+    make(segment);
+    segment.first_row = made_;
+    made_ += segment.rows();
+    forget_old_rows();
+    if (segment.rows() > 0) return true;
+  }
+  return false;
+}
+
+void ResampledSource::rewind() {
+  source_.rewind();
+  recorded_ = {};
+  gap_.clear();
+  placed_ = 0;
+  at_end_ = false;
+  usual_ = 0.0;
+  step_ = -1;
+  made_ = 0;
+}
+
+bool ResampledSource::is_gap(double span) const {
+  if (options_.longest_gap_s > 0.0) return span > options_.longest_gap_s;
+  return usual_ > 0.0 && span > kGapPeriods * std::max(options_.period_s, usual_);
+}
+
+/// Finds the new rows of which all that they need is there.
+void ResampledSource::place_rows() {
+  rows_.clear();
+  const auto& time = recorded_.time;
+  if (step_ < 0) {
+    start_ = time.front();
+    step_ = 0;
+  }
+  for (int i = static_cast<int>(gap_.size()); i + 1 < recorded_.rows(); ++i) {
+    const double span = time[i + 1] - time[i];
+    gap_.push_back(is_gap(span));
+    if (!gap_.back()) usual_ = span;
+  }
+  while (placed_ + 1 < recorded_.rows() && (at_end_ || time[placed_ + 1] + after() <= time.back()))
+    place_between(placed_++);
+  if (at_end_ && next_time() == time.back())
+    rows_.push_back({time.back(), recorded_.rows() - 1, 0.0}), ++step_;
+}
+
+/// New rows from a recorded row up to, not including, the next.
+void ResampledSource::place_between(int left) {
+  const double from = recorded_.time[left], to = recorded_.time[left + 1];
+  for (double t = next_time(); t < to; t = next_time()) {
+    if (!gap_[left] || t == from) rows_.push_back({t, left, (t - from) / (to - from)});
+    const double behind = gap_[left] ? std::ceil((to - start_) / options_.period_s) : 0.0;
+    step_ = std::max(step_ + 1, static_cast<std::int64_t>(behind));
+  }
+}
+
+/// Mean over one period around a row, of steps that are known; each step has the mean of its torque.
+double ResampledSource::mean_torque(const std::vector<double>& tau, const NewRow& row) const {
+  const auto& time = recorded_.time;
+  const double begin = row.time - before(), end = row.time + after(), phi = options_.torque_phi;
+  double sum = 0.0, covered = 0.0;
+  const auto add_step = [&](int k) {
+    const double overlap = std::min(end, time[k + 1]) - std::max(begin, time[k]);
+    if (overlap <= 0.0) return;
+    sum += overlap * ((1.0 - phi) * tau[k] + phi * tau[k + 1]);
+    covered += overlap;
+  };
+  int first = row.left;
+  while (first > 0 && time[first] > begin && !gap_[first - 1]) --first;
+  for (int k = first; k + 1 < recorded_.rows() && time[k] < end && !gap_[k]; ++k) add_step(k);
+  return covered > 0.0 ? sum / covered : tau[row.left];
+}
+
+void ResampledSource::make(Log& segment) const {
+  for_each_column(segment, recorded_, [&](std::vector<double>& to, const std::vector<double>& from) {
+    to.resize(rows_.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k) to[k] = between(from, rows_[k].left, rows_[k].share);
+  });
+  for (std::size_t k = 0; k < rows_.size(); ++k) segment.time[k] = rows_[k].time;
+  for (const Quantity quantity : kJointQuantities) {
+    if (!is_torque(quantity)) continue;
+    JointSignals& to = signals_of(segment, quantity);
+    for (std::size_t j = 0; j < to.size(); ++j)
+      for (std::size_t k = 0; k < rows_.size(); ++k)
+        to[j][k] = mean_torque(signals_of(recorded_, quantity)[j], rows_[k]);
+  }
+}
+
+/// Keeps the rows that the next new row may look back to.
+void ResampledSource::forget_old_rows() {
+  int first = placed_;
+  while (first > 0 && recorded_.time[first] > next_time() - before() - options_.period_s) --first;
+  if (first == 0) return;
+  recorded_ = slice(recorded_, first, recorded_.rows());
+  gap_.erase(gap_.begin(), gap_.begin() + first);
+  placed_ -= first;
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "lib/core/make_issue.hpp"
@@ -16,6 +17,7 @@
 #include "lib/diagnosis/verdict.hpp"
 #include "lib/evidence/reading/question_reading.hpp"
 #include "lib/model/model_files.hpp"
+#include "lib/monitor/model_rate.hpp"
 #include "lib/monitor/monitor.hpp"
 
 namespace faultline {
@@ -53,10 +55,7 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
   return spots;
 }
 
-/// A log that was never what the model takes it for gets an issue that says what it is more likely to be.
-void question(LogSource& log, const Model& model, Issues& issues) {
-  const ReadingDoubt doubt = question_reading(log, model.motion, model.sample_period_s);
-  if (doubt.is_empty()) return;
+void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
   const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
@@ -64,6 +63,31 @@ void question(LogSource& log, const Model& model, Issues& issues) {
                   is_of_columns
                       ? " of a robot file for this log and convert it: faultline convert LOG OUT --robot"
                       : "")));
+}
+
+/// Whether a log that does not fit the model's robot contradicts the log: not where that robot did not even
+/// explain the logs that it was learned from.
+bool can_question(const Model& model) {
+  return model.has_mechanics() && model.identification.status != IdentificationStatus::unexplained;
+}
+
+/// The rows to judge: those of the log, or the log at the model's rate, which `kept` holds. What the log
+/// means is asked once its rate is settled; a log that was never what the model takes it for gets an issue
+/// that says what it is more likely to be.
+LogSource& settle_log(LogSource& log, const Model& model, Issues& issues, std::unique_ptr<LogSource>& kept) {
+  const LogRate rate = log_rate(log, model);
+  if (!rate.is_models()) {
+    const ReadingDoubt clock =
+        can_question(model) ? question_clock(log, model.motion, model.sample_period_s) : ReadingDoubt{};
+    if (!clock.is_empty()) note_doubt(clock, issues);
+    if (!clock.is_empty() || !rate.can_be_resampled()) return log;
+    issues.add(resampled_issue(rate, model));
+  }
+  LogSource& judged = judged_rows(log, model, issues, kept);
+  if (!can_question(model)) return judged;
+  if (const ReadingDoubt doubt = question_reading(judged, model.motion); !doubt.is_empty())
+    note_doubt(doubt, issues);
+  return judged;
 }
 
 /// A joint that was not judged may be anything.
@@ -79,8 +103,8 @@ void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagn
 Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
                    const DiagnoseOptions& options) {
   Issues doubts;
-  if (model.has_mechanics()) question(log, model, doubts);
-  const MonitoredLog run = monitor(log, model, options);
+  std::unique_ptr<LogSource> kept;
+  const MonitoredLog run = monitor(settle_log(log, model, doubts, kept), model, options);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);

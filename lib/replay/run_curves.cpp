@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "lib/monitor/model_rate.hpp"
 #include "lib/replay/window_curves.hpp"
 
 namespace faultline {
@@ -82,9 +84,10 @@ RunCurves run_curves(LogSource& log, const Model& model, const Diagnosis& diagno
   run.bins = bins_for(run.end_s - run.start_s, facts.sample_period_s, options.whole_bins);
   WindowCurves whole(run, model, {});
   std::vector<WindowCurves> details = detail_windows(model, diagnosis, options);
-  log.rewind();
+  std::unique_ptr<LogSource> kept;
+  LogSource& judged = judged_rows(log, model, facts.issues, kept);
   ResidualState state;
-  for (Log segment; log.next(segment);) {
+  for (Log segment; judged.next(segment);) {
     const Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.take(segment, residuals);
     for (WindowCurves& detail : details) detail.take(segment, residuals);

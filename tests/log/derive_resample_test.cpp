@@ -66,11 +66,16 @@ TEST(Derive, TwoRowsGiveNoVelocity) {
   EXPECT_TRUE(std::isnan(log.dq[0][0]) && std::isnan(log.dq[0][1]));
 }
 
+Log read_resampled(std::unique_ptr<LogSource> source, const ResampleOptions& options) {
+  ResampledSource made(std::move(source), options);
+  return read_all(made);
+}
+
 TEST(Resample, StraightLinesBetweenSamples) {
   Log log;
   log.time = {0.0, 1.0, 2.0, 3.0};
   log.q = {{0.0, 10.0, 20.0, std::nan("")}};
-  const Log made = read_all(*resampled(source_of(log, 4096), {.period_s = 0.5}));
+  const Log made = read_resampled(source_of(log, 4096), {.period_s = 0.5});
   ASSERT_EQ(made.rows(), 7);
   EXPECT_EQ(made.time, (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5, 3}));
   EXPECT_EQ(made.q[0][1], 5.0);
@@ -79,17 +84,17 @@ TEST(Resample, StraightLinesBetweenSamples) {
 }
 
 TEST(Resample, NoRowsAreMadeInsideGaps) {
-  const Log made = read_all(*resampled(source_of(parabola(), 4096), {.period_s = 0.01}));
+  const Log made = read_resampled(source_of(parabola(), 4096), {.period_s = 0.01});
   for (const double t : made.time) EXPECT_FALSE(t > 2.0 && t < 2.999) << t;
   EXPECT_NEAR(static_cast<double>(made.rows()), 400.0, 3.0);
 }
 
 TEST(Resample, BordersOfSegmentsChangeNothing) {
   const ResampleOptions options{.period_s = 0.0037};
-  const Log whole = read_all(*resampled(source_of(parabola(), 4096), options));
+  const Log whole = read_resampled(source_of(parabola(), 4096), options);
   ASSERT_GT(whole.rows(), 900);
   for (const int rows : {1, 2, 7, 201}) {
-    const Log parts = read_all(*resampled(source_of(parabola(), rows), options));
+    const Log parts = read_resampled(source_of(parabola(), rows), options);
     expect_same(parts.time, whole.time);
     expect_same(parts.q[0], whole.q[0]);
     expect_same(parts.q[1], whole.q[1]);
@@ -97,8 +102,58 @@ TEST(Resample, BordersOfSegmentsChangeNothing) {
 }
 
 TEST(Resample, APeriodThatIsNotPositiveIsRefused) {
-  EXPECT_THROW(resampled(source_of(parabola(), 10), {.period_s = 0.0}), Error);
-  EXPECT_THROW(resampled(source_of(parabola(), 10), {.period_s = std::nan("")}), Error);
+  EXPECT_THROW(read_resampled(source_of(parabola(), 10), {.period_s = 0.0}), Error);
+  EXPECT_THROW(read_resampled(source_of(parabola(), 10), {.period_s = std::nan("")}), Error);
+}
+
+/// Torque in pulses of one row, which rows picked from the log would miss or count twice.
+Log pulses() {
+  Log log;
+  log.q.resize(1), log.tau.resize(1);
+  for (int i = 0; i < 1000; ++i) {
+    log.time.push_back(5.0 + 0.002 * i);
+    log.q[0].push_back(std::sin(0.01 * i));
+    log.tau[0].push_back(i % 7 == 3 ? 7.0 : 0.0);
+  }
+  return log;
+}
+
+TEST(Resample, TorqueKeepsItsImpulse) {
+  for (const double phi : {0.0, 0.5})
+    for (const double period : {0.0025, 0.0073, 0.1}) {
+      const Log made = read_resampled(source_of(pulses(), 64), {.period_s = period, .torque_phi = phi});
+      double impulse = 0.0;
+      for (int k = 2; k + 2 < made.rows(); ++k)
+        impulse += period * ((1.0 - phi) * made.tau[0][k] + phi * made.tau[0][k + 1]);
+      const double lasts = made.time[made.rows() - 2] - made.time[2];
+      EXPECT_NEAR(impulse / lasts, 1.0, 0.02 / lasts) << period << " " << phi;
+    }
+}
+
+TEST(Resample, AWholeMultipleOfThePeriodPicksTheRowsThatASlowerRecorderWrites) {
+  const Log log = pulses();
+  const Log made = read_resampled(source_of(log, 64), {.period_s = 0.01});
+  ASSERT_EQ(made.rows(), 200);
+  for (int k = 0; k < made.rows(); ++k) {
+    EXPECT_NEAR(made.time[k], log.time[5 * k], 1e-12);
+    EXPECT_NEAR(made.q[0][k], log.q[0][5 * k], 1e-12);
+  }
+}
+
+TEST(Resample, BordersOfSegmentsChangeNoTorque) {
+  for (const double period : {0.0015, 0.0025, 0.031}) {
+    const ResampleOptions options{.period_s = period, .torque_phi = 0.5};
+    const Log whole = read_resampled(source_of(pulses(), 4096), options);
+    for (const int rows : {1, 3, 100})
+      EXPECT_EQ(read_resampled(source_of(pulses(), rows), options).tau, whole.tau);
+  }
+}
+
+TEST(Resample, BeginsAgainAfterRewind) {
+  ResampledSource source(source_of(pulses(), 64), {.period_s = 0.0025});
+  const Log once = read_all(source);
+  source.rewind();
+  EXPECT_EQ(read_all(source).tau, once.tau);
 }
 
 }  // namespace

@@ -187,6 +187,11 @@ struct Best {
   double log_mean = 0.0;
 };
 
+/// What a reading must come to, to be better than the rows as they are.
+Best clearly_better_than(const Beginning& beginning) {
+  return {{}, score_of(beginning.fit).log_mean + elementary::log(kClearlyLess)};
+}
+
 /// Takes those that explain every joint at moments (`usually`: as usual), and clearly more than the rows as
 /// they are.
 void try_readings(const Beginning& beginning, const MotionModel& model,
@@ -254,18 +259,25 @@ ReadingDoubt other_robot(const Beginning& beginning) {
 
 }  // namespace
 
-ReadingDoubt question_reading(LogSource& log, const MotionModel& model, double sample_period_s) {
+ReadingDoubt question_clock(LogSource& log, const MotionModel& model, double sample_period_s) {
   log.rewind();
   const Beginning beginning = look_for_a_fit(log, model);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
-  const double clock = clock_ratio(beginning.rows, sample_period_s);
-  const Score as_read = score_of(beginning.fit);
-  Best best;
-  best.log_mean = as_read.log_mean + elementary::log(kClearlyLess);
-  try_readings(beginning, model, clock_readings(clock, sample_period_s), false, best);
-  if (beginning.fitted || as_read.worst < kReadingFits)
-    return best.doubt.is_empty() ? other_torque(beginning.fit, true) : best.doubt;
+  Best best = clearly_better_than(beginning);
+  const double ratio = clock_ratio(beginning.rows, sample_period_s);
+  try_readings(beginning, model, clock_readings(ratio, sample_period_s), false, best);
+  return best.doubt;
+}
+
+ReadingDoubt question_reading(LogSource& log, const MotionModel& model) {
+  log.rewind();
+  const Beginning beginning = look_for_a_fit(log, model);
+  log.rewind();
+  if (!beginning.fit.has_motion()) return {};
+  if (beginning.fitted || score_of(beginning.fit).worst < kReadingFits)
+    return other_torque(beginning.fit, true);
+  Best best = clearly_better_than(beginning);
   try_readings(beginning, model, common_readings(model.chain), false, best);
   try_readings(beginning, model, column_readings(model.chain), false, best);
   if (best.doubt.is_empty()) try_readings(beginning, model, delay_readings(beginning.rows), true, best);

@@ -19,10 +19,15 @@ struct ReadingDoubt {
 
 /// Asks whether a log ever fitted the robot of a model: whether each joint that moves has moments in which
 /// the torque logged is the one needed, and a velocity that is the position's. Where it has none, other
-/// units, signs, swapped columns, a late torque, a current and another clock are tried on the log's
+/// units, signs, swapped columns, a late torque and a current are tried on the log's
 /// beginning; without one that explains it, two joints that never come near their torque are another robot. A
-/// fault that begins later, or on one joint, is no doubt. `sample_period_s` is that of the model's logs.
+/// fault that begins later, or on one joint, is no doubt. The log is at the rate of the model's logs. Rewinds
+/// it before and after.
+ReadingDoubt question_reading(LogSource& log, const MotionModel& model);
+
+/// Asks whether a log at another rate than the model's logs, which have a row every `sample_period_s`, has
+/// stamps that run too fast or too slow: whether its motion is explained when its rows are so far apart.
 /// Rewinds the log before and after.
-ReadingDoubt question_reading(LogSource& log, const MotionModel& model, double sample_period_s);
+ReadingDoubt question_clock(LogSource& log, const MotionModel& model, double sample_period_s);
 
 }  // namespace faultline
