@@ -54,33 +54,16 @@ class Matcher {
     return found == map_.end() ? nullptr : &found->second;
   }
 
-  double unit_factor(const std::string& unit, const std::string& channel) const {
-    if (const auto factor = si_factor(unit)) return *factor;
-    throw Error(ErrorCode::usage, "[log.columns] " + channel,
-                "the unit \"" + shortened(unit, kLongestName) + "\"" +
-                    " is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
-  }
-
   void add(Channel channel, int column) {
     if (taken_.count(channel)) return;
     const ColumnSpec spec = spec_of(channel) ? *spec_of(channel) : ColumnSpec{};
     const std::string name = to_string(channel);
-    if (spec.sign != 1.0 && spec.sign != -1.0)
-      throw Error(ErrorCode::usage, "[log.columns] " + name,
-                  "sign must be 1 or -1; a factor belongs into scale");
+    double factor = checked_factor(spec, name);
     const std::string& header_unit = column >= 0 ? columns_[column].unit : "";
-    double factor = 1.0;
-    if (!spec.unit.empty()) {
-      factor = unit_factor(spec.unit, name);
-    } else if (const auto known = si_factor(header_unit)) {
+    if (const auto known = si_factor(header_unit); known && spec.unit.empty())
       factor = *known;
-    } else {
-      note("unit_unknown", name, Severity::warning,
-           "column \"" + shortened(names_[column], kLongestName) + "\" has the unit \"" +
-               shortened(header_unit, kLongestName) +
-               "\", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " +
-               name);
-    }
+    else if (!known && spec.unit.empty())
+      note("unit_unknown", name, Severity::warning, unknown_unit_sentence(names_[column], header_unit, name));
     refuse_misfit(column >= 0 ? columns_[column] : RawColumn{kRowNumberName, ""}, spec, channel, path_);
     matching_.channels.push_back({channel, column, -1, spec.sign * spec.scale * factor, spec.offset});
     taken_.insert(channel);

@@ -35,6 +35,12 @@ std::string missing_joint_sentence(const std::vector<std::string>& columns, int 
          listed(columns) + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
 }
 
+std::string unknown_unit_sentence(const std::string& column, const std::string& unit,
+                                  const std::string& channel) {
+  return "column " + quoted(column) + " has the unit " + quoted(unit) +
+         ", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " + channel;
+}
+
 std::string rivals_sentence(const std::vector<std::string>& columns,
                             const std::vector<ColumnFamily>& families, Quantity quantity,
                             const ColumnFamily& chosen) {

@@ -18,6 +18,10 @@ std::string missing_column_sentence(const std::vector<std::string>& columns, con
 std::string missing_joint_sentence(const std::vector<std::string>& columns, int joint,
                                    const std::string& later);
 
+/// That the header of a column has a unit that is not known.
+std::string unknown_unit_sentence(const std::string& column, const std::string& unit,
+                                  const std::string& channel);
+
 /// Which column was taken as a quantity, and which others could be meant; empty when there are none.
 std::string rivals_sentence(const std::vector<std::string>& columns,
                             const std::vector<ColumnFamily>& families, Quantity quantity,

@@ -69,6 +69,16 @@ bool measures(Dimension dimension, Quantity quantity) {
   return dimension == Dimension::angular_speed || dimension == Dimension::speed;
 }
 
+double checked_factor(const ColumnSpec& spec, const std::string& channel) {
+  if (spec.sign != 1.0 && spec.sign != -1.0)
+    throw Error(ErrorCode::usage, "[log.columns] " + channel,
+                "sign must be 1 or -1; a factor belongs into scale");
+  if (const auto factor = si_factor(spec.unit)) return *factor;
+  throw Error(ErrorCode::usage, "[log.columns] " + channel,
+              "the unit \"" + shortened(spec.unit, kLongestName) + "\"" +
+                  " is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
+}
+
 void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel channel,
                    const std::string& path) {
   const bool in_header = spec.unit.empty();

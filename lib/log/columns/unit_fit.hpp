@@ -15,6 +15,10 @@ namespace faultline {
 /// Whether numbers in that dimension can be the quantity's as they are; without a unit any can.
 bool measures(Dimension dimension, Quantity quantity);
 
+/// To SI, of the unit that `spec` gives; 1 without one. Throws Error(usage) for a unit that is not known and
+/// for a sign that is none.
+double checked_factor(const ColumnSpec& spec, const std::string& channel);
+
 /// Throws Error(input), or Error(usage) for a unit of the robot file, when the channel's numbers are in
 /// another dimension and `spec` gives no scale; the message says what to write into the robot file.
 void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel channel, const std::string& path);
