@@ -23,6 +23,7 @@
 #include "lib/html/identification/identification_page.hpp"
 #include "lib/identify/excitation/suggest_motion.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/pipeline/plausible_units.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -37,6 +38,7 @@ struct IdentifyArguments {
   std::string html;
   std::string suggest;
   std::string pictures;
+  bool force = false;
   IdentifyOptions options;
 };
 
@@ -89,6 +91,7 @@ int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
     sources.push_back(open_robot_log(path, robot));
     logs.push_back(sources.back().get());
   }
+  if (!arguments.force) refuse_implausible_units(logs, robot);
   ProgressBar bar(color);
   const Identification id = identify(logs, robot, arguments.options, bar.callback());
   if (!arguments.output.empty()) write_file(arguments.output, robot_text_for(arguments.output, id.robot));
@@ -122,6 +125,9 @@ void add_identify(CLI::App& app, Program& program) {
   add_choice_option(*command, "--method", arguments->options.method, kMethods,
                     "automatic, weak_form or output_error");
   command->add_flag("--keep-all", arguments->options.keep_all, "Also use logs that disagree with the others");
+  command->add_flag(
+      "--force", arguments->force,
+      "Also use logs whose numbers are hardly in their units, such as degrees taken for radians");
   command
       ->add_option("--threads", arguments->options.threads,
                    "Threads; 0 is one a core. The result does not depend on it")

@@ -15,6 +15,7 @@
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/html/identification/identification_page.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/pipeline/plausible_units.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -35,7 +36,8 @@ IdentifyMethod method_named(const std::string& name) {
 
 std::shared_ptr<Identification> identify_logs(const Logs& handles, const std::string& robot_name,
                                               const std::string& output, const std::string& method,
-                                              bool keep_all, int threads, const py::object& progress) {
+                                              bool keep_all, bool force, int threads,
+                                              const py::object& progress) {
   if (handles.empty()) throw Error(ErrorCode::usage, "identify", "was given no log");
   IdentifyOptions options;
   options.method = method_named(method);
@@ -52,6 +54,7 @@ std::shared_ptr<Identification> identify_logs(const Logs& handles, const std::st
       sources.push_back(handle->open(robot, watch, false));
       logs.push_back(sources.back().get());
     }
+    if (!force) refuse_implausible_units(logs, robot);
     auto id = std::make_shared<Identification>(identify(logs, robot, options, watch.progress()));
     if (!output.empty()) write_file(output, robot_text_for(output, id->robot));
     return id;
@@ -78,8 +81,8 @@ void bind_identify(py::module_& module) {
           [](const Identification& id, const std::string& path) { return robot_text_for(path, id.robot); },
           py::arg("path"), "The identified robot, URDF for a path that ends in .urdf.");
   module.def("identify", &identify_logs, py::arg("logs"), py::arg("robot"), py::arg("output"),
-             py::arg("method"), py::arg("keep_all"), py::arg("threads"), py::arg("progress"),
-             "Identifies a robot's parameters from logs of healthy runs.");
+             py::arg("method"), py::arg("keep_all"), py::arg("force"), py::arg("threads"),
+             py::arg("progress"), "Identifies a robot's parameters from logs of healthy runs.");
 }
 
 }  // namespace faultline

@@ -24,6 +24,8 @@ void add_value(ChannelSummary& channel, double value) {
   if (value > channel.max) channel.max = value, channel.at_max = 0;
   channel.at_min += value == channel.min;
   channel.at_max += value == channel.max;
+  if (!std::isnan(channel.last)) channel.path += std::abs(value - channel.last);
+  channel.last = value;
 }
 
 void add_values(ChannelSummary& channel, const std::vector<double>& values, const Log& segment) {
@@ -58,7 +60,8 @@ LogQuality quality_of(const QualityState& state, const QualityOptions& options) 
   quality.time = state.time.result();
   quality.channels = state.channels;
   judge_time(quality.time, options, quality.issues);
-  for (const ChannelSummary& channel : state.channels) judge_channel(channel, options, quality.issues);
+  for (const ChannelSummary& channel : state.channels)
+    judge_channel(channel, quality.time, options, quality.issues);
   for (std::size_t j = 0; j < state.velocity.size(); ++j) {
     quality.velocity.push_back(state.velocity[j].result());
   }

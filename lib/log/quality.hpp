@@ -25,15 +25,19 @@ struct ChannelSummary {
   double first_missing_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t at_min = 0;  ///< values equal to min
   std::int64_t at_max = 0;
+  double path = 0.0;  ///< sum of the steps from value to value
+  double last = std::numeric_limits<double>::quiet_NaN();
 
   bool constant() const { return values > 1 && min == max; }
 };
 
 struct QualityOptions {
   TimeAxisOptions time{};
-  double position_span =
-      20.0;               ///< a position that spans more, or lies beyond 5 times this, is hardly rad or m
-  double fastest = 50.0;  ///< a velocity beyond it is hardly in rad/s or m/s
+  /// A position that spans more, or lies beyond 5 times this, is hardly rad: joints of arms turn by two
+  /// turns.
+  double position_span = 13.0;
+  double slide_span = 10.0;       ///< the same, hardly m
+  double fastest = 50.0;          ///< a velocity beyond it is hardly in rad/s or m/s
   double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
   std::vector<bool> slides{};     ///< of each joint, whether it slides (its unit is m); empty when not known
   double saturated_share = 0.01;  ///< of a torque's values at its largest or smallest one, at least 20

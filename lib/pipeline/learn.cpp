@@ -15,6 +15,7 @@
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/model_doubts.hpp"
+#include "lib/pipeline/plausible_units.hpp"
 #include "lib/pipeline/reach.hpp"
 #include "lib/pipeline/tracking_model.hpp"
 #include "lib/pipeline/training_episodes.hpp"
@@ -159,6 +160,8 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
               const LearnOptions& options, const Progress& progress) {
   options.check();
   RememberedLogs logs(healthy);
+  ModelDoubts doubts{implausible_units(logs.sources(), robot), {}};
+  if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
   TrustedRobot trusted = trusted_robot(logs.sources(), robot,
@@ -167,7 +170,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                         .threads = options.threads},
                                        part_of(progress, 0.0, kIdentified));
   HealthyRobot& found = trusted.watched.robot;
-  ModelDoubts doubts = doubts_about(found.identification);
+  doubts.add(doubts_about(found.identification));
   doubts.add({{}, trusted.doubts});
   if (!options.keep_doubtful) refuse_grave(doubts);
   Learned out;

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -43,6 +47,41 @@ TEST_F(BadLearning, OneRow) { expect_refused(learn("t,q1,dq1,tau1\n0,0,1,2\n"), 
 
 TEST_F(BadLearning, LogOfAnotherRobot) {
   expect_refused(learn("t,q1,q2,tau1,tau2\n0,0,1,2,3\n1,0,1,2,3\n"), 3, {"log.csv", "2 joints"});
+}
+
+/// A joint that swings by `reach` in each direction, for 20 s at 500 Hz.
+std::string swinging(double reach) {
+  std::string text = "t,q1,dq1,tau1\n";
+  for (int i = 0; i < 10000; ++i) {
+    const double t = 0.002 * i;
+    text += std::to_string(t) + "," + std::to_string(reach * std::sin(t)) + "," +
+            std::to_string(reach * std::cos(t)) + "," + std::to_string(std::sin(t) + std::cos(t)) + "\n";
+  }
+  return text;
+}
+
+TEST_F(BadLearning, DegreesTakenForRadiansAreRefusedBeforeAnyWork) {
+  robot_ = folder_.write("robot.toml", "axes = \"R\"\n[known]\nl1 = 0.3\n");
+  const std::vector<std::string> words = {"log.csv", "q1 lies between -45 and 45", "hardly in rad",
+                                          "[log.columns] q1 = {unit = \"deg\"}", "--force"};
+  const auto start = std::chrono::steady_clock::now();
+  expect_refused(learn(swinging(45.0)), 3, words);
+  const std::vector<std::string> identify = {"identify", folder_.file("log.csv"),    "--robot", robot_,
+                                             "-o",       folder_.file("robot.model")};
+  expect_refused(run_program(identify), 3, words);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << "both before any work";
+
+  std::vector<std::string> forced = identify;
+  forced.push_back("--force");
+  EXPECT_LE(run_program(forced).status, 1);
+  folder_.write("robot.toml",
+                "axes = \"R\"\n[known]\nl1 = 0.3\n[log.columns]\nq1 = {unit = \"deg\"}\n"
+                "dq1 = {unit = \"deg/s\"}\n");
+  EXPECT_LE(run_program(identify).status, 1) << "with the unit that the sentence asks for";
+}
+
+TEST_F(BadLearning, MillimetresTakenForMetresAreRefused) {
+  expect_refused(learn(swinging(80.0)), 3, {"q1 lies between -80 and 80", "hardly in m", "unit = \"mm\""});
 }
 
 TEST_F(BadLearning, LogWithoutTorque) {

@@ -132,6 +132,30 @@ TEST(Quality, OneFactorForAllJointsIsTheSamplePeriod) {
   expect_issue(quality, "velocity_contradicts_position", "dq2", "sample period");
 }
 
+/// A joint that goes from 0 to `end` in ten seconds and, where it goes to and fro, back.
+Log turning(double end, bool to_and_fro) {
+  Log log;
+  log.q.resize(1);
+  Random random(9);
+  for (int i = 0; i <= 2000; ++i) {
+    const double way = to_and_fro ? 1.0 - std::abs(1.0 - i / 1000.0) : i / 2000.0;
+    log.time.push_back(0.005 * i);
+    log.q[0].push_back(end * way + 1e-4 * random.normal());
+  }
+  return log;
+}
+
+TEST(Quality, AJointThatTurnsOnAndOnIsNotSurelyInDegrees) {
+  const LogQuality on = quality_in(turning(100.0, false)), back = quality_in(turning(100.0, true)),
+                   fast = quality_in(turning(1000.0, false));
+  ASSERT_NE(on.issues.find("unit_implausible", "q1"), nullptr);
+  EXPECT_EQ(on.issues.find("unit_implausible", "q1")->severity, Severity::warning);
+  EXPECT_NE(on.issues.find("unit_implausible", "q1")->message.find("turns on and on"), std::string::npos);
+  EXPECT_EQ(back.issues.find("unit_implausible", "q1")->severity, Severity::severe);
+  EXPECT_EQ(fast.issues.find("unit_implausible", "q1")->severity, Severity::severe) << "100 rad/s";
+  EXPECT_EQ(quality_in(turning(12.5, true)).issues.find("unit_implausible", "q1"), nullptr) << "two turns";
+}
+
 TEST(Quality, TimeInMillisecondsIsNoVelocityInMillimetres) {
   Log log = log_of_two();
   for (double& t : log.time) t *= 1000.0;

@@ -88,6 +88,7 @@ def identify(
     output: str,
     method: str,
     keep_all: bool,
+    force: bool,
     threads: int,
     progress: _Progress,
 ) -> Identification: ...

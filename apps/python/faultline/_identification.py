@@ -46,13 +46,15 @@ def identify(
     output: Optional[PathLike] = None,
     method: str = "automatic",
     keep_all: bool = False,
+    force: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> Identification:
     """Identifies a robot's parameters from logs of healthy runs. With `output` the identified robot is
-    written there, as URDF for .urdf. `method` is automatic, weak_form or output_error."""
+    written there, as URDF for .urdf. `method` is automatic, weak_form or output_error. `force` takes logs
+    whose numbers are hardly in their units, too."""
     return Identification(
         _faultline.identify(
-            handles_of(logs), path_of(robot), path_of(output), method, keep_all, threads, progress
+            handles_of(logs), path_of(robot), path_of(output), method, keep_all, force, threads, progress
         )
     )

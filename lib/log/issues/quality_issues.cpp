@@ -13,6 +13,9 @@ namespace {
 
 /// Fewer values than this are not judged constant or saturated.
 constexpr std::int64_t kFewestValues = 20;
+constexpr double kFarAway = 5.0;       // times the largest span: so far off lies no joint
+constexpr double kOneWay = 1.2;        // path to span of a joint that turns on and on, with some noise
+constexpr double kFastTurning = 20.0;  // rad/s on average; joints of arms turn slower
 
 bool starts_with(const std::string& name, const char* prefix) { return name.rfind(prefix, 0) == 0; }
 
@@ -86,19 +89,31 @@ UnitWords velocity_words(Axis axis) {
   return {"rad/s or m/s", "deg/s or rpm (a turning axis) or mm/s (a sliding one)", "deg/s"};
 }
 
-void judge_span(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
-  if (!channel.canonical || (!starts_with(channel.name, "q") && !starts_with(channel.name, "q_ref"))) return;
-  if (channel.values == 0) return;
+/// Whether a joint goes one way all the time, at a speed that a joint in rad can have.
+bool turns_on_and_on(const ChannelSummary& channel, const TimeAxis& time) {
+  const double lasts = time.end_s - time.start_s;
+  return channel.path <= kOneWay * (channel.max - channel.min) && channel.path <= kFastTurning * lasts;
+}
+
+void judge_span(const ChannelSummary& channel, const TimeAxis& time, const QualityOptions& options,
+                Issues& issues) {
+  if (!channel.canonical || !starts_with(channel.name, "q") || channel.values == 0) return;
+  const Axis axis = axis_of(channel, options);
+  const double most = axis == Axis::slides ? options.slide_span : options.position_span;
   const double largest = std::max(std::abs(channel.min), std::abs(channel.max));
-  if (channel.max - channel.min < options.position_span && largest < 5.0 * options.position_span) return;
-  const UnitWords words = position_words(axis_of(channel, options));
+  if (channel.max - channel.min < most && largest < kFarAway * most) return;
+  const UnitWords words = position_words(axis);
+  const bool turns_on = axis != Axis::slides && turns_on_and_on(channel, time);
+  const std::string what =
+      turns_on ? fmt::format("goes one way from {:.6g} to {:.6g}: a joint that turns on and on, or not in {}",
+                             channel.min, channel.max, words.si)
+               : fmt::format("lies between {:.6g} and {:.6g}, which is hardly in {}", channel.min,
+                             channel.max, words.si);
   issues.add(
-      {"unit_implausible", channel.name, Severity::severe,
-       fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, say so in the header, \"{} [{}]\", "
-           "or the robot file: [log.columns] {} = {{unit = \"{}\"}}",
-           channel.min, channel.max, words.si, words.likely, channel.name, words.unit, channel.name,
-           words.unit)});
+      {"unit_implausible", channel.name, turns_on ? Severity::warning : Severity::severe,
+       fmt::format("{}; if it is {}, say so in the header, \"{} [{}]\", or the robot file: [log.columns] "
+                   "{} = {{unit = \"{}\"}}",
+                   what, words.likely, channel.name, words.unit, channel.name, words.unit)});
 }
 
 void judge_speed(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
@@ -140,11 +155,12 @@ void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& iss
          0, time.start_s, time.uneven_steps});
 }
 
-void judge_channel(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
+void judge_channel(const ChannelSummary& channel, const TimeAxis& time, const QualityOptions& options,
+                   Issues& issues) {
   judge_missing(channel, issues);
   judge_constant(channel, issues);
   judge_saturated(channel, options, issues);
-  judge_span(channel, options, issues);
+  judge_span(channel, time, options, issues);
   judge_speed(channel, options, issues);
 }
 

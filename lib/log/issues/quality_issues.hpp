@@ -8,7 +8,8 @@ namespace faultline {
 /// Adds to `issues` what is wrong with the time axis, with one channel, or between velocities and their
 /// positions.
 void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& issues);
-void judge_channel(const ChannelSummary& channel, const QualityOptions& options, Issues& issues);
+void judge_channel(const ChannelSummary& channel, const TimeAxis& time, const QualityOptions& options,
+                   Issues& issues);
 void judge_velocities(const std::vector<VelocityAgreement>& agreements, const TimeAxis& time,
                       const QualityOptions& options, Issues& issues);
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/log/log_source.hpp"
+#include "lib/robot/robot.hpp"
+
+namespace faultline {
+
+/// What in the beginning of the logs can hardly be in the unit that it is read in, a sentence each that names
+/// log and channel and what to write where; from ranges and the sample period alone, as `inspect` and
+/// `diagnose` do. Rewinds the logs.
+std::vector<std::string> implausible_units(std::span<LogSource* const> logs, const Robot& robot);
+
+/// Throws Error(input) with the first of these sentences, where there are any.
+void refuse_implausible_units(std::span<LogSource* const> logs, const Robot& robot);
+
+}  // namespace faultline
