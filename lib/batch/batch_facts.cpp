@@ -74,10 +74,11 @@ BatchFacts read_facts(const std::string& path) {
     facts.logs = json.at("logs");
     facts.shard = json.at("shard");
     facts.shards = json.at("shards");
-    return facts;
+    if (facts.logs >= 0) return facts;
   } catch (const nlohmann::json::exception&) {
-    throw Error(ErrorCode::input, path, "does not describe a finished batch; run the batch again");
+    // said below
   }
+  throw Error(ErrorCode::input, path, "does not describe a finished batch; run the batch again");
 }
 
 }  // namespace faultline

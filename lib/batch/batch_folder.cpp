@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/files/temporary_name.hpp"
 
 namespace faultline {
@@ -49,6 +50,14 @@ void remove_file(const fs::path& file) {
 
 }  // namespace
 
+bool BatchFolder::has(const std::string& name) const { return has_inner_file(path_, name); }
+
+std::string BatchFolder::read(const std::string& name) const { return read_inner_file(path_, name); }
+
+void BatchFolder::write(const std::string& name, std::string_view bytes) const {
+  write_inner_file(path_, name, bytes);
+}
+
 bool is_batch_folder(const std::string& folder) {
   std::error_code error;
   return fs::is_directory(folder + "/.batch", error);
@@ -59,12 +68,20 @@ BatchFolder::BatchFolder(std::string folder, bool wait) : path_(std::move(folder
   if (fs::is_directory(path_, error) && !fs::is_empty(path_, error) && !error && !is_batch_folder(path_))
     throw Error(ErrorCode::usage, path_,
                 "holds other files than results of a batch; give a new folder with -o");
+  refuse_foreign_places();
   make(path_ + "/.batch");
   lock(wait);
   make(path_ + "/logs");
 }
 
 BatchFolder::~BatchFolder() { ::close(lock_); }
+
+void BatchFolder::refuse_foreign_places() const {
+  for (const char* folder : {".batch", "logs"}) has_inner_folder(path_, folder);
+  for (const char* name : {".batch/lock", ".batch/journal", ".batch/finished.json", "index.csv",
+                           "index.ndjson", "index.html", "summary.json"})
+    has_inner_file(path_, name);
+}
 
 void BatchFolder::lock(bool wait) {
   const std::string name = path_ + "/.batch/lock";

@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace faultline {
 
@@ -10,7 +11,9 @@ namespace faultline {
 bool is_batch_folder(const std::string& folder);
 
 /// The folder of a batch's results, held so that no second batch writes into it. Throws Error(output) when it
-/// cannot be made or written, Error(usage) when it holds something else.
+/// cannot be made or written, Error(usage) when it holds something else, Error(input) when a link, a pipe or
+/// a device is in the place of one of its files (inner_file.hpp): a folder of results may come from somebody
+/// else.
 class BatchFolder {
  public:
   /// With `wait`, waits for another batch there to end; else that is an Error(output).
@@ -21,6 +24,10 @@ class BatchFolder {
 
   /// Path of a file in it, such as "index.csv" or "logs/run-1.json".
   std::string file(const std::string& name) const { return path_ + "/" + name; }
+  /// Of a regular file in it, by such a name; see inner_file.hpp.
+  bool has(const std::string& name) const;
+  std::string read(const std::string& name) const;
+  void write(const std::string& name, std::string_view bytes) const;
   std::string journal() const { return file(".batch/journal"); }
   std::string finished() const { return file(".batch/finished.json"); }
   /// To be done before anything in it changes: what is there is no finished batch any more.
@@ -29,6 +36,7 @@ class BatchFolder {
   void clean(const std::set<std::string>& results) const;
 
  private:
+  void refuse_foreign_places() const;
   void lock(bool wait);
 
   std::string path_;

@@ -33,9 +33,11 @@ Json report_json(const BatchRow& row) {
   return row.result.empty() ? Json(nullptr) : Json("logs/" + row.result + ".json");
 }
 
+/// As it stands there when it is no file of logs/, which no batch writes.
 std::string result_from(const Json& report) {
-  const std::string path = text_or_empty(report);
-  return path.size() < 10 ? "" : path.substr(5, path.size() - 10);
+  const std::string path = text_or_empty(report), folder = "logs/", extension = ".json";
+  if (!path.starts_with(folder) || !path.ends_with(extension)) return path;
+  return path.substr(folder.size(), path.size() - folder.size() - extension.size());
 }
 
 std::string fault_words(const FaultEvent& fault) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/batch/earlier_results.hpp"
 
-#include <filesystem>
-
 #include "lib/batch/log_result.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/utf8.hpp"
@@ -10,14 +8,14 @@
 namespace faultline {
 namespace {
 
-bool is_file_with(const std::string& path, const std::string& sha256) {
-  std::error_code error;
-  return sha256.empty() || (std::filesystem::is_regular_file(path, error) && sha256_of_file(path) == sha256);
+bool is_file_with(const BatchFolder& folder, const std::string& name, const std::string& sha256) {
+  return sha256.empty() || (folder.has(name) && sha256_of_file(folder.file(name)) == sha256);
 }
 
 bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
-  const std::string stem = folder.file("logs/" + entry.row.result);
-  return is_file_with(stem + ".json", entry.json_sha) && is_file_with(stem + ".html", entry.html_sha);
+  const std::string stem = "logs/" + entry.row.result;
+  return is_file_with(folder, stem + ".json", entry.json_sha) &&
+         is_file_with(folder, stem + ".html", entry.html_sha);
 }
 
 }  // namespace

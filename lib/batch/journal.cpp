@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 
 namespace faultline {
@@ -22,6 +23,21 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kChecksum = 16;  // hexadecimal digits
 
 std::string checksum(const std::string& text) { return sha256_hex(text).substr(0, kChecksum); }
+
+/// Results are read and written under their names.
+void refuse_names(const JournalEntry& entry, const std::string& journal) {
+  const BatchRow& row = entry.row;
+  const bool has_files = !entry.json_sha.empty() || !entry.html_sha.empty();
+  const std::string* wrong = nullptr;
+  if (!is_plain_log_name(row.log)) wrong = &row.log;
+  if (row.result.empty() ? has_files : !is_plain_name(row.result)) wrong = &row.result;
+  if (wrong)
+    throw Error(
+        ErrorCode::input, journal,
+        "names the file \"" + *wrong +
+            "\", which is no name of a file in this folder; no batch writes that. Do not use these results; "
+            "run the batch again into a new folder");
+}
 
 std::optional<JournalEntry> entry_from(const std::string& line) {
   if (line.size() < kChecksum + 2) return {};
@@ -53,7 +69,10 @@ std::vector<JournalEntry> read_journal_in_order(const std::string& path) {
   if (!std::filesystem::exists(path)) return entries;
   std::istringstream lines(read_file(path));
   for (std::string line; std::getline(lines, line);)
-    if (auto entry = entry_from(line)) entries.push_back(std::move(*entry));
+    if (auto entry = entry_from(line)) {
+      refuse_names(*entry, path);
+      entries.push_back(std::move(*entry));
+    }
   return entries;
 }
 

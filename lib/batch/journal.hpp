@@ -19,7 +19,8 @@ struct JournalEntry {
 };
 
 /// What is done, one line an entry with a checksum in front. A line that a kill or a full disk cut does not
-/// count; of two lines with one key the later counts.
+/// count; of two lines with one key the later counts. Throws Error(input) for a name of a file that is none
+/// in the folder.
 std::map<std::string, JournalEntry> read_journal(const std::string& path);
 /// The lines in the order of the file.
 std::vector<JournalEntry> read_journal_in_order(const std::string& path);

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <filesystem>
 
-#include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/html/html_report.hpp"
 #include "lib/html/report_details.hpp"
@@ -83,15 +82,15 @@ JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup) {
   if (options.identify && diagnosis.verdict == Verdict::healthy)
     entry.row.parameters = parameters_in(*source, model.robot);
   entry.row.result = result_name(log.name, diagnosis.log.sha256);
-  const std::string stem = setup.folder.file("logs/" + entry.row.result);
+  const std::string stem = "logs/" + entry.row.result;
   if (options.html) {
     const std::string page = render_page(*source, model, diagnosis, options.diagnose);
     refuse_changed(log, before, diagnosis.log.sha256);
-    write_file(stem + ".html", page);
+    setup.folder.write(stem + ".html", page);
     entry.html_sha = sha256_hex(page);
   }
   const std::string json = render_json(diagnosis);
-  write_file(stem + ".json", json);
+  setup.folder.write(stem + ".json", json);
   entry.json_sha = sha256_hex(json);
   return entry;
 }

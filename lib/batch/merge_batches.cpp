@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "lib/batch/batch_index.hpp"
-#include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
 
 namespace faultline {
@@ -41,19 +40,26 @@ void refuse_others(const BatchFacts& facts, const BatchFacts& first, const std::
                             facts.logs, first.logs));
 }
 
-std::string copied(const std::string& from, const std::string& to, const std::string& sha256) {
-  if (sha256.empty()) return "";
-  const std::string bytes = read_file(from);
+void copy(const std::string& name, const BatchFolder& from, const BatchFolder& to,
+          const std::string& sha256) {
+  if (sha256.empty()) return;
+  const std::string bytes = from.read(name);
   if (sha256_hex(bytes) != sha256)
-    throw Error(ErrorCode::input, from, "is not what the batch wrote; run its batch again");
-  write_file(to, bytes);
-  return sha256;
+    throw Error(ErrorCode::input, from.file(name), "is not what the batch wrote; run its batch again");
+  to.write(name, bytes);
 }
 
 void copy_results(const JournalEntry& entry, const BatchFolder& from, const BatchFolder& to) {
-  const std::string name = "logs/" + entry.row.result;
-  copied(from.file(name + ".json"), to.file(name + ".json"), entry.json_sha);
-  copied(from.file(name + ".html"), to.file(name + ".html"), entry.html_sha);
+  const std::string stem = "logs/" + entry.row.result;
+  copy(stem + ".json", from, to, entry.json_sha);
+  copy(stem + ".html", from, to, entry.html_sha);
+}
+
+void refuse_position(int position, int logs, const std::string& journal) {
+  if (position < 0 || position >= logs)
+    throw Error(ErrorCode::input, journal,
+                fmt::format("has a log at position {} of a list of {}; it is damaged, run its batch again",
+                            position, logs));
 }
 
 void refuse_missing(const std::map<int, JournalEntry>& entries, int logs) {
@@ -77,6 +83,7 @@ BatchSummary merge_batches(const std::vector<std::string>& folders, const std::s
   std::map<int, const BatchFolder*> places;
   for (const Part& part : parts)
     for (JournalEntry& entry : read_journal_in_order(part.folder->journal())) {
+      refuse_position(entry.position, parts.front().facts.logs, part.folder->journal());
       places[entry.position] = part.folder.get();
       entries[entry.position] = std::move(entry);
     }

@@ -7,6 +7,7 @@
 
 #include "lib/cases/case_hash.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/core/utf8.hpp"
 
 namespace faultline {
@@ -86,6 +87,9 @@ void CaseBase::check(const Case& c) const {
   if (!is_sane(c.episode.evidence))
     refuse_base(which + ": the evidence is infinite or beyond any measurement");
   if (!is_sane(c.onset_s)) refuse_base(which + ": the onset is infinite or beyond any measurement");
+  if (!c.log_name.empty() && (!is_plain_log_name(c.log_name) || c.log_name.find('/') != std::string::npos))
+    refuse_base(which + ": \"" + c.log_name +
+                "\" is no name of a log; give the file's own name, without folders");
   for (const FaultLabel& label : {c.decision, c.label, c.episode.mlp.label, c.episode.rbfn.label})
     if (label.joint < 0 || label.joint > kMostJoints)
       refuse_base(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");

@@ -52,6 +52,8 @@ void check_counts(SqliteFile& file, const std::string& path, const CaseBase& bas
                           std::to_string(base.cases().size()));
 }
 
+/// In a transaction of the caller, so that all statements see the file of one moment, whoever changes it
+/// meanwhile.
 CaseBase read_content(SqliteFile& file, const std::string& path) try {
   const std::int64_t version = checked_case_schema(file, path);
   check_whole(file, path, version);
@@ -66,17 +68,24 @@ CaseBase read_content(SqliteFile& file, const std::string& path) try {
   refuse_file(path, "is a damaged case base: " + std::string(error.what()));
 }
 
+CaseBase read_at_one_moment(SqliteFile& file, const std::string& path) {
+  file.run("BEGIN");
+  CaseBase base = read_content(file, path);
+  file.run("COMMIT");
+  return base;
+}
+
 /// Nothing when somebody changed the file meanwhile.
 std::optional<CaseBase> read_settled(const std::string& path) {
   const SettledCopy copy(path);
   if (!copy.is_of_one_moment()) return {};
   SqliteFile file(copy.path(), SqliteMode::change, path);
-  return read_content(file, path);
+  return read_at_one_moment(file, path);
 }
 
 CaseBase read_in_place(const std::string& path) {
   SqliteFile file(path, SqliteMode::read_only);
-  return read_content(file, path);
+  return read_at_one_moment(file, path);
 }
 
 void fill(SqliteFile& file, const CaseBase& base) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/core/json_values.hpp"
 
 namespace faultline {
@@ -53,6 +54,10 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   c.outcome = case_outcome_from(json.at("outcome").get<std::string>());
   c.what_was_done = json.at("what_was_done").get<std::string>();
   c.origin = json.at("origin").get<std::string>();
+  if (!c.origin.empty() && !is_plain_log_name(c.origin))
+    throw Error(ErrorCode::input, "case " + std::to_string(c.id),
+                "its origin \"" + c.origin +
+                    "\" is no name of a log, as it leads out of a folder; write the log's own name there");
   c.log_sha256 = json.value("log_sha256", "");
   if (json.contains("onset_s")) c.onset_s = number_or_nan(json["onset_s"]);
   c.features_by = json.value("features_by", "");

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "lib/cases/sqlite.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
@@ -73,7 +74,8 @@ bool has_journal(const std::string& path) {
 
 void remove_journals(const std::string& path) {
   std::error_code error;
-  for (const char* end : {"-journal", "-wal", "-shm"}) fs::remove(path + end, error);
+  for (const std::string& file : sqlite_files(path))
+    if (file != path) fs::remove(file, error);
 }
 
 SettledCopy::SettledCopy(const std::string& path) : folder_(private_folder(path)) {

@@ -66,6 +66,10 @@ const char* advice_for(int sqlite) {
 
 }  // namespace
 
+std::vector<std::string> sqlite_files(const std::string& path) {
+  return {path, path + "-journal", path + "-wal", path + "-shm"};
+}
+
 SqliteFile::SqliteFile(std::string path, SqliteMode mode, std::string name)
     : name_(name.empty() ? path : std::move(name)), mode_(mode) {
   const int code = sqlite3_open_v2(path.c_str(), &db_, open_flags(mode), nullptr);

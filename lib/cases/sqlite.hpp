@@ -4,11 +4,16 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace faultline {
+
+/// The file and the journals that SQLite keeps beside it while it is changed, whether they are there or not.
+/// SQLite believes what it finds in them.
+std::vector<std::string> sqlite_files(const std::string& path);
 
 enum class SqliteMode { read_only, change, create };
 

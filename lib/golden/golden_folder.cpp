@@ -9,8 +9,10 @@
 #include <set>
 
 #include "lib/cases/case_file.hpp"
+#include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/model/model_files.hpp"
 
@@ -18,6 +20,8 @@ namespace faultline {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kGoldenToml = "golden.toml";
 
 std::string inside(const std::string& folder, const std::string& path) {
   return (fs::path(folder) / path).string();
@@ -43,11 +47,13 @@ void read_trace(const std::string& folder, GoldenLog& log) {
 
 std::string short_hash(const std::string& sha256) { return sha256.substr(0, 8); }
 
-void write_below(const std::string& folder, const std::string& path, const std::string& bytes) {
-  const fs::path whole = fs::path(folder) / path;
-  std::error_code error;
-  fs::create_directories(whole.parent_path(), error);
-  write_file(whole.string(), bytes);
+/// Throws Error(input) unless all that `set` names, and the journals that SQLite would read beside it, are
+/// regular files in the folder or missing: before anything of it is opened.
+void refuse_foreign_files(const std::string& folder, const GoldenSet& set) {
+  std::vector<std::string> paths = {set.model.path, set.cases.path};
+  for (const GoldenLog& log : set.logs) paths.insert(paths.end(), {log.log.path, log.trace.path});
+  for (const std::string& path : paths)
+    for (const std::string& file : sqlite_files(path)) has_inner_file(folder, file);
 }
 
 /// Whether a file's name ends with a part of the hash of what it holds, as this program names it.
@@ -66,20 +72,21 @@ std::string written_trace(const std::string& folder, GoldenLog& log) {
   log.trace.sha256 = sha256_hex(text);
   log.trace.path =
       fmt::format("traces/{}-{}.csv", fs::path(log.name()).stem().string(), short_hash(log.trace.sha256));
-  if (!damage_of(folder, log.trace).empty()) write_below(folder, log.trace.path, text);
+  if (!damage_of(folder, log.trace).empty()) write_inner_file(folder, log.trace.path, text);
   return log.trace.path;
 }
 
 }  // namespace
 
-std::string golden_file(const std::string& folder) { return inside(folder, "golden.toml"); }
+std::string golden_file(const std::string& folder) { return inside(folder, kGoldenToml); }
 
 GoldenSet load_golden(const std::string& folder) {
   if (fs::is_directory(folder) && !fs::exists(golden_file(folder)))
     throw Error(
         ErrorCode::input, folder,
         "has no golden.toml; make a golden folder with: faultline golden record LOG... --model MODEL -o DIR");
-  GoldenSet set = golden_from_text(read_file(golden_file(folder)), golden_file(folder));
+  GoldenSet set = golden_from_text(read_inner_file(folder, kGoldenToml), golden_file(folder));
+  refuse_foreign_files(folder, set);
   for (GoldenLog& log : set.logs) read_trace(folder, log);
   return set;
 }
@@ -117,10 +124,10 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
     named.insert(log.log.path);
     named.insert(log.damage.empty() ? written_trace(folder, log) : log.trace.path);
   }
-  write_file(golden_file(folder), golden_text(set));
+  write_inner_file(folder, kGoldenToml, golden_text(set));
   std::error_code error;
   for (const std::string& path : outdated)
-    if (!named.count(path)) fs::remove(inside(folder, path), error);
+    if (!named.count(path) && has_inner_file(folder, path)) fs::remove(inside(folder, path), error);
 }
 
 void remove_left_over(const std::string& folder, const GoldenSet& set) {
@@ -131,9 +138,11 @@ void remove_left_over(const std::string& folder, const GoldenSet& set) {
   }
   for (const std::string& part : {folder, inside(folder, "traces")}) {
     std::error_code error;
+    if (part != folder && !fs::is_directory(fs::symlink_status(part, error))) continue;
     for (const auto& entry : fs::directory_iterator(part, error)) {
       try {
-        if (entry.is_regular_file(error) && !named.count(entry.path()) && is_named_by_content(entry.path()))
+        if (fs::is_regular_file(entry.symlink_status(error)) && !named.count(entry.path()) &&
+            is_named_by_content(entry.path()))
           fs::remove(entry.path(), error);
       } catch (const Error&) {
         // a file that cannot be read is not ours to remove
@@ -148,7 +157,8 @@ void adopt_model(const std::string& folder, const std::string& model, const Mode
   set.joints = subject.model.robot.joints();
   set.model = {fmt::format("model-{}.json", short_hash(subject.model.sha256)), subject.model.sha256};
   set.cases = {fmt::format("cases-{}.db", short_hash(subject.cases.sha256())), subject.cases.sha256()};
-  write_below(folder, set.model.path, read_file(model));
+  write_inner_file(folder, set.model.path, read_file(model));
+  for (const std::string& file : sqlite_files(set.cases.path)) prepare_inner_file(folder, file);
   write_case_base(inside(folder, set.cases.path), subject.cases);
 }
 

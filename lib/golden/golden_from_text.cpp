@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/golden/golden_set.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/toml/toml_table.hpp"
@@ -18,11 +18,11 @@ constexpr const char* kEventsAlone = "faultline/golden/1";  // without reasons a
 
 /// A path below the folder, so that a golden file cannot name files elsewhere.
 std::string inner_path(const TomlTable& table, const std::string& key) {
-  const std::filesystem::path path(table.text(key));
-  const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
-  if (path.empty() || path.is_absolute() || climbs || !path.has_filename())
-    table.fail(key, "expected a file below the golden folder, found \"" + path.string() + "\"");
-  return path.string();
+  const std::string path = table.text(key);
+  if (!is_plain_path(path))
+    table.fail(key, "expected the path of a file below the golden folder, such as logs/run.csv, found \"" +
+                        path + "\"; write there where in the folder the file is");
+  return path;
 }
 
 Tolerance tolerance(const TomlTable& table) {

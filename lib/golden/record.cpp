@@ -8,6 +8,8 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/inner_file.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/golden/default_tolerances.hpp"
@@ -22,7 +24,7 @@ std::vector<ReplayLog> named_logs(const std::vector<std::string>& paths) {
   std::set<std::string> names;
   for (const std::string& path : paths) {
     const std::string name = fs::path(path).filename().string();
-    if (valid_utf8(name) != name || name == kIdentification || name == kModelItem)
+    if (valid_utf8(name) != name || !is_plain_name(name) || name == kIdentification || name == kModelItem)
       throw Error(ErrorCode::usage, path, "cannot be named in golden.toml; rename the log");
     if (!names.insert(name).second)
       throw Error(ErrorCode::usage, path,
@@ -42,9 +44,7 @@ GoldenFile taken_log(const std::string& folder, const ReplayLog& log) {
   const std::string below = path_below(folder, log.path);
   const std::string bytes = read_file(log.path);
   if (!below.empty()) return {below, sha256_hex(bytes)};
-  const fs::path copy = fs::path(folder) / "logs" / log.name;
-  fs::create_directories(copy.parent_path());
-  write_file(copy.string(), bytes);
+  write_inner_file(folder, "logs/" + log.name, bytes);
   return {"logs/" + log.name, sha256_hex(bytes)};
 }
 

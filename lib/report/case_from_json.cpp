@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lib/report/case_from_json.hpp"
 
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/plain_name.hpp"
 #include "lib/core/json_values.hpp"
 
 namespace faultline {
@@ -41,6 +43,13 @@ std::vector<double> features_from(const Json& json, const std::vector<std::strin
   return values;
 }
 
+/// Of a log that was given as ../run.csv its own name alone: a case base may be handed on.
+std::string origin_from(const std::string& log_path) {
+  if (is_plain_log_name(log_path)) return log_path;
+  const std::string name = std::filesystem::path(log_path).filename().string();
+  return is_plain_log_name(name) ? name : "";
+}
+
 Case parsed(const std::string& text, const std::string& where, int fault_id,
             const std::vector<std::string>& names) {
   const Json json = Json::parse(text);
@@ -53,7 +62,7 @@ Case parsed(const std::string& text, const std::string& where, int fault_id,
   c.episode.rbfn = opinion_from(fault.at("opinions").at("rbfn"));
   c.episode.evidence = number_or_nan(fault.at("episode").at("evidence"));
   c.episode.features = features_from(fault.at("episode").at("features"), names);
-  c.origin = json.at("log").at("path").get<std::string>();
+  c.origin = origin_from(json.at("log").at("path").get<std::string>());
   c.robot = text_or_empty(json.at("model").at("name"));
   c.log_sha256 = text_or_empty(json.at("log").at("sha256"));
   c.onset_s = number_or_nan(fault.at("onset_s"));

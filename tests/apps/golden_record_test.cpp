@@ -86,14 +86,18 @@ TEST_F(GoldenRecord, ALogThatCannotBeProcessedLeavesNoGoldenFolder) {
 }
 
 TEST_F(GoldenRecord, HostileNamesSurvive) {
-  const std::string name = "a \"b\" <x> \xE2\x80\xAE & 'c'\n.csv";
+  const std::string name = "a \"b\" <x> \xE2\x80\xAE & 'c'.csv";
   fs::copy_file(log("locked_1.csv"), golden_.outside(name));
   ASSERT_EQ(record(made_, {golden_.outside(name)}).status, 0);
   const ProgramRun run = run_program({"golden", "check", made_, "--junit", golden_.outside("j.xml")});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_FALSE(has(read_file(golden_.outside("j.xml")), "<x>"));
-  fs::copy_file(log("locked_1.csv"), golden_.outside("\xFF.csv"));
-  EXPECT_EQ(record(golden_.outside("other"), {golden_.outside("\xFF.csv")}).status, 2);
+  for (const char* other : {"\xFF.csv", "two\nlines.csv"}) {
+    fs::copy_file(log("locked_1.csv"), golden_.outside(other));
+    const ProgramRun refused = record(golden_.outside("other"), {golden_.outside(other)});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(has(refused.err, "rename the log")) << refused.err;
+  }
 }
 
 TEST_F(GoldenRecord, TablesOfLabelsAmongTheLogsAreSkipped) {

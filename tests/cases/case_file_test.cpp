@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <limits>
+#include <thread>
 
 #include "lib/cases/case_json.hpp"
 #include "lib/cases/sqlite.hpp"
@@ -82,6 +85,56 @@ TEST_F(CaseFile, ExportAndImportLoseNothing) {
   EXPECT_EQ(to_cases_json(read), text);
 }
 
+TEST_F(CaseFile, AnExportWithANameThatIsNoNameOfALogIsRefused) {
+  CaseBase base = example_base(2);
+  Case c = base.at(1);
+  c.origin = "runs/night\n2.csv";
+  c.log_name = "night.csv";
+  base.retain(c);
+  const std::string text = to_cases_json(base);
+  EXPECT_EQ(from_cases_json(text, "cases.json").sha256(), base.sha256());
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    try {
+      from_cases_json(changed, "cases.json");
+      ADD_FAILURE() << to << " was taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input);
+      EXPECT_EQ(error.where(), "cases.json");
+      EXPECT_NE(error.message().find("no name of a log"), std::string::npos) << error.message();
+    }
+  };
+  for (const char* name : {"../night.csv", "runs/night.csv", "/etc/passwd", ".."})
+    refused("\"log_name\": \"night.csv\"", std::string("\"log_name\": \"") + name + "\"");
+  for (const char* name : {"../night.csv", "/etc/passwd", "runs/../../night.csv"})
+    refused("\"origin\": \"runs/night\\n2.csv\"", std::string("\"origin\": \"") + name + "\"");
+}
+
+/// Somebody confirms one case over and over.
+TEST_F(CaseFile, ReadersSeeOneMomentWhileAnotherProgramWrites) {
+  constexpr int kReads = 40;
+  write_case_base(path_, example_base(50));
+  std::atomic<bool> stop = false;
+  std::atomic<int> writes = 0;
+  std::thread writer([&] {
+    for (; !stop; ++writes) {
+      change_case_base(path_, [&](CaseBase& base) { base.confirm(1, {}, "done " + std::to_string(writes)); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  int read = 0;
+  std::string failure;
+  try {
+    for (; read < kReads || writes < 5; ++read) read_case_base(path_);
+  } catch (const Error& error) {
+    failure = error.what();
+  }
+  stop = true;
+  writer.join();
+  EXPECT_EQ(failure, "") << "of read " << read << " beside write " << writes;
+}
+
 TEST_F(CaseFile, AnEmptyBaseIsABase) {
   write_case_base(path_, CaseBase({"a"}));
   EXPECT_TRUE(read_case_base(path_).cases().empty());
@@ -146,7 +199,7 @@ TEST_F(CaseFile, TextFile) {
 }
 
 TEST_F(CaseFile, TruncatedAnywhere) {
-  write_case_base(path_, example_base(200));
+  write_case_base(path_, example_base(50));
   const std::string whole = read_file(path_);
   ASSERT_GT(whole.size(), 20000u);
   for (std::size_t size = 50; size < whole.size(); size += 3777) {
@@ -156,7 +209,7 @@ TEST_F(CaseFile, TruncatedAnywhere) {
 }
 
 TEST_F(CaseFile, OverwrittenInside) {
-  write_case_base(path_, example_base(200));
+  write_case_base(path_, example_base(50));
   std::string bytes = read_file(path_);
   for (std::size_t i = 4096; i < bytes.size(); i += 7) bytes[i] = '\x5a';
   write_file(path_, bytes);

@@ -23,7 +23,7 @@ GoldenSet example() {
   set.model_values = {{"model_m 1", 0.5, kNan, "kg"}, {"threshold", 18.0, kNan, "nats"}};
   set.tolerances.by_channel = {{"model_m 1", {1e-5, 0}}, {"dq2", {1e-5, 0.25}}, {"onset_s", {0.15, 0}}};
   GoldenLog log;
-  log.log = {"logs/Höhe \t1.csv", "cc"};
+  log.log = {"logs/Höhe 1.csv", "cc"};
   log.trace = {"traces/a-1.csv", "dd"};
   log.expected.verdict = "faulty";
   log.expected.rows = 10;
@@ -49,7 +49,7 @@ TEST(GoldenSet, ComesBackFromItsTextAsItWas) {
   const GoldenSet read = golden_from_text(text, "golden.toml");
   EXPECT_EQ(golden_text(read), text);
   const GoldenLog& log = read.logs.at(0);
-  EXPECT_EQ(log.name(), "Höhe \t1.csv");
+  EXPECT_EQ(log.name(), "Höhe 1.csv");
   EXPECT_DOUBLE_EQ(log.expected.events[0].onset_s, 1763710000.123456);
   EXPECT_TRUE(std::isnan(log.expected.events[0].alarm_s));
   EXPECT_TRUE(std::isinf(log.expected.events[0].end_s));
@@ -97,6 +97,9 @@ TEST(GoldenSet, MistakesAreNamed) {
       {"\"locked\"", "\"loked\"", "did you mean \"locked\""},
       {"\"model-1.json\"", "\"/etc/passwd\"", "below the golden folder"},
       {"\"traces/a-1.csv\"", "\"traces/../../a.csv\"", "below the golden folder"},
+      {"\"traces/a-1.csv\"", "\"traces//a.csv\"", "below the golden folder"},
+      {"\"cases-1.db\"", "\"..\"", "below the golden folder"},
+      {"\"cases-1.db\"", "\"cases\\u0000.db\"", "below the golden folder"},
       {"verdict = \"faulty\"", "verdict = \"bad\"", "verdict"},
       {"{joint = 2, velocity_rms", "{joint = 3, velocity_rms", "residuals"},
       {"rows = 10", "rows = -10", "rows"},
