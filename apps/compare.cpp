@@ -32,7 +32,7 @@ void claim_files(const CompareArguments& arguments) {
   FileUse()
       .reads("the first log", arguments.first)
       .reads("the second log", arguments.second)
-      .reads("the model", arguments.model)
+      .reads(ModelPaths{arguments.model, ""})
       .writes("--html", arguments.html)
       .writes("--json", arguments.json)
       .claim();

@@ -5,8 +5,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <regex>
 
-#include "lib/cases/case_file.hpp"
+#include "lib/cases/sqlite.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
 #include "lib/core/files/temporary_file.hpp"
@@ -16,12 +17,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a case base that is being changed; SQLite believes what it finds there.
-constexpr const char* kJournals[] = {"-journal", "-wal", "-shm"};
-
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(output_place(path).path).parent_path().string();
   return folder.empty() ? "." : folder;
+}
+
+bool is_golden_folder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "golden.toml", ignored);
+}
+
+/// What faultline keeps there, of whatever model, batch or golden folder; empty for other files. A journal
+/// that is none would spoil the case base beside it, so those names are taken even where there is no file.
+std::string kept_under(const std::string& path) {
+  static const std::regex case_base(R"(.+\.cases\.db(-journal|-wal|-shm)?)"),
+      golden(R"(golden\.toml|model-[0-9a-f]{8}\.json|cases-[0-9a-f]{8}\.db(-journal|-wal|-shm)?)");
+  const fs::path real = real_path(path), folder = real.parent_path(), part = folder.filename();
+  const std::string name = real.filename().string();
+  if (std::regex_match(name, case_base)) return "the case base of a model";
+  std::error_code ignored;
+  if (!fs::exists(real, ignored)) return "";
+  if (part == ".batch") return "the journal of a batch";
+  const bool is_golden = std::regex_match(name, golden) && is_golden_folder(folder);
+  const bool is_golden_log = (part == "logs" || part == "traces") && is_golden_folder(folder.parent_path());
+  return is_golden || is_golden_log ? "a file of golden logs" : "";
 }
 
 bool is_below(const std::string& real, const std::string& real_folder) {
@@ -53,8 +72,8 @@ FileUse& FileUse::reads(const std::string& what, const std::vector<std::string>&
 FileUse& FileUse::reads(const ModelPaths& paths) {
   if (!paths.model.empty()) reads("the model", paths.model);
   if (paths.model.empty() && paths.cases.empty()) return *this;
-  keep("the case base", paths.case_base());
-  for (const char* journal : kJournals) keep("the case base's journal", paths.case_base() + journal);
+  for (const std::string& file : sqlite_files(paths.case_base()))
+    keep(file == paths.case_base() ? "the case base" : "the case base's journal", file);
   return *this;
 }
 
@@ -74,9 +93,13 @@ FileUse& FileUse::writes(const std::string& option, const std::string& path) {
   return *this;
 }
 
+FileUse& FileUse::writes_kept(const std::string& option, const std::string& path) {
+  add_output({.what = option, .path = path, .is_kept = true});
+  return *this;
+}
+
 FileUse& FileUse::writes_case_base(const std::string& option, const std::string& path) {
-  add_output({option, path});
-  for (const char* journal : kJournals) add_output({option, path + journal});
+  for (const std::string& file : sqlite_files(path)) writes_kept(option, file);
   return *this;
 }
 
@@ -102,6 +125,9 @@ void FileUse::check_output(const Named& output) const {
       refuse(output.what, output.path,
              "is where " + other.what + " is written; give each result a file of its own");
   }
+  if (const std::string kept = output.is_kept || output.path == "-" ? "" : kept_under(output.path);
+      !kept.empty())
+    refuse(output.what, output.path, "would take the place of " + kept + "; give another name");
 }
 
 void FileUse::check_folder(const Named& folder) const {

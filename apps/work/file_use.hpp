@@ -10,7 +10,9 @@
 namespace faultline {
 
 /// The files that a command is about to read and write, so that none of its results takes the place of an
-/// input, of a file that belongs to an input, or of another result. Empty paths are passed over.
+/// input, of a file that belongs to an input, or of another result; nor, known by their names, of a case
+/// base, the journal of a batch or golden logs, even if the command does not read them. Empty paths are
+/// passed over.
 class FileUse {
  public:
   /// `what` names it to the user: "the log". A path that is not there is no input, as the axes RRP.
@@ -23,6 +25,8 @@ class FileUse {
 
   /// `option` names it to the user: "--json". A path - is standard output.
   FileUse& writes(const std::string& option, const std::string& path);
+  /// A file that faultline keeps for later, such as golden.toml, by the command that makes it.
+  FileUse& writes_kept(const std::string& option, const std::string& path);
   /// A case base with its journals.
   FileUse& writes_case_base(const std::string& option, const std::string& path);
   /// Files below the folder, those with this extension only, or all.
@@ -39,6 +43,7 @@ class FileUse {
     std::string path;
     std::string identity{};   ///< see file_identity(); empty for what many may share
     std::string extension{};  ///< of a folder: of the files that are meant
+    bool is_kept = false;     ///< see writes_kept()
   };
 
   void add_output(Named output);

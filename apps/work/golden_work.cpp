@@ -22,13 +22,14 @@ namespace {
 /// A log that lies in the folder's logs/ already stays as it is.
 void claim_files(const RecordArguments& arguments) {
   FileUse files;
-  files.reads(arguments).writes("-o", golden_file(arguments.folder));
+  files.reads(arguments).writes_kept("-o", golden_file(arguments.folder));
   std::set<std::string> copies;  // two logs of one name are refused later
   for (const std::string& log : arguments.logs) {
     const std::string copy =
         (std::filesystem::path(arguments.folder) / "logs" / std::filesystem::path(log).filename()).string();
     files.reads("the log", log);
-    if (copies.insert(copy).second && file_identity(copy) != file_identity(log)) files.writes("-o", copy);
+    if (copies.insert(copy).second && file_identity(copy) != file_identity(log))
+      files.writes_kept("-o", copy);
   }
   files.claim();
 }

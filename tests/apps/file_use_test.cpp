@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -138,6 +139,65 @@ TEST_F(FileUseOfCommands, BatchKeepsItsInputsAndItsOwnResults) {
   expect_refused({"batch", "merge", "@out", "-o", "@out"}, {"-o", "the results of a shard"});
   expect_refused({"batch", "merge", "@out", "-o", "@all", "--json", "@out/summary.json"},
                  {"--json", "shard"});
+}
+
+/// Each command with each of its options that name a file to write, which stands for @@.
+const std::vector<std::vector<std::string>> kWritingCommands = {
+    {"inspect", "@a.csv", "--json", "@@"},
+    {"inspect", "@a.csv", "--html", "@@"},
+    {"inspect", "@a.csv", "--suggest", "@@"},
+    {"convert", "@a.csv", "@@"},
+    {"compare", "@a.csv", "@b.csv", "--model", "@m", "--html", "@@"},
+    {"compare", "@a.csv", "@b.csv", "--model", "@m", "--json", "@@"},
+    {"compare", "@a.csv", "@b.csv", "--html", "@@"},
+    {"diagnose", "@a.csv", "--model", "@m", "--json", "@@"},
+    {"diagnose", "@a.csv", "--model", "@m", "--html", "@@"},
+    {"diagnose", "@a.csv", "--model", "@m", "--csv", "@@"},
+    {"diagnose", "@a.csv", "--model", "@m", "--junit", "@@"},
+    {"diagnose", "@a.csv", "--model", "@m", "--mcap", "@@"},
+    {"identify", "@a.csv", "--robot", "@robot.toml", "-o", "@@"},
+    {"identify", "@a.csv", "--robot", "@robot.toml", "-o", "@new.toml", "--json", "@@"},
+    {"identify", "@a.csv", "--robot", "@robot.toml", "-o", "@new.toml", "--html", "@@"},
+    {"identify", "@a.csv", "--robot", "@robot.toml", "-o", "@new.toml", "--suggest", "@@"},
+    {"learn", "@a.csv", "--robot", "@robot.toml", "-o", "@@"},
+    {"learn", "@a.csv", "--robot", "@robot.toml", "-o", "@new", "--json", "@@"},
+    {"batch", "@runs", "--model", "@m", "-o", "@new", "--json", "@@"},
+    {"batch", "merge", "@out", "-o", "@new", "--json", "@@"},
+    {"cases", "export", "--model", "@m", "-o", "@@"},
+    {"golden", "check", "@golden", "--json", "@@"},
+    {"golden", "check", "@golden", "--junit", "@@"},
+    {"golden", "compare", "@golden", "@m", "--json", "@@"},
+};
+
+/// Of the model that a command reads, of another model, of a batch and of golden logs.
+const std::vector<std::string> kKeptFiles = {"m.cases.db", "other.cases.db-wal", "out/.batch/journal",
+                                             "made/logs/a.csv"};
+
+TEST_F(FileUseOfCommands, NoCommandOverwritesWhatAModelABatchOrGoldenLogsKeep) {
+  fs::copy(FAULTLINE_SOURCE_DIR "/sample_logs/golden", folder_.path() / "golden",
+           fs::copy_options::recursive);
+  fs::create_directories(folder_.path() / "made/logs");
+  for (const char* name : {"m.cases.db-journal", "out/.batch/journal", "made/logs/a.csv"})
+    folder_.write(name, std::string("bytes of ") + name);
+  for (const std::vector<std::string>& command : kWritingCommands)
+    for (const std::string& kept : kKeptFiles) {
+      std::vector<std::string> arguments = command;
+      std::replace(arguments.begin(), arguments.end(), std::string("@@"), "@" + kept);
+      expect_refused(arguments, {folder_.file(kept)});
+    }
+  for (const char* kept : {"made/golden.toml", "made/model-01234567.json", "made/cases-01234567.db",
+                           "made/cases-01234567.db-wal", "out/.batch/finished.json", "new.cases.db"}) {
+    if (std::string(kept) != "new.cases.db") folder_.write(kept, "x");
+    expect_refused({"convert", "@a.csv", std::string("@") + kept}, {"would take the place of"});
+  }
+}
+
+TEST_F(FileUseOfCommands, ANewFileMayLieAmongGoldenLogs) {
+  folder_.write("log.csv", kLog);
+  fs::create_directories(folder_.path() / "made/logs");
+  EXPECT_EQ(run({"convert", "@log.csv", "@made/logs/new.csv"}).status, 0);
+  EXPECT_EQ(run({"inspect", "@log.csv", "--json", "@made/report.json"}).status, 0);
+  EXPECT_EQ(run({"inspect", "@log.csv", "--json", "@made/report.json"}).status, 0);
 }
 
 TEST_F(FileUseOfCommands, SimulateKeepsItsSpecAndItsRobot) {
