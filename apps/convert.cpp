@@ -107,7 +107,7 @@ void add_convert(CLI::App& app, Program& program) {
   command->footer(
       "The converted log needs no column mapping any more. Rows without a usable time are left out and "
       "told.\n"
-      "Exit status 1: rows or values were lost; the converted log says so, too.\n"
+      "Exit status 1: rows, values or signals were lost; the converted log says so, too.\n"
       "Example: faultline convert run.csv run.flog --robot robot.toml");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return convert(*arguments, program.color); };

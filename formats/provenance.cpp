@@ -22,9 +22,10 @@ constexpr const char* kProvenanceSchema = "faultline/provenance/1";
 constexpr std::size_t kMostText = 300;  // characters of a message that are repeated
 constexpr std::size_t kMostIssues = 8;  // one a kind and channel
 
-/// Issues of rows that stay, with a value less, and of losses that were there before.
-constexpr std::array kLostValues{"not_a_number",   "value_implausible", "ragged_row",
-                                 "source_damaged", "joint_missing",     "array_length"};
+/// Issues of rows that stay, with a value less, of signals that were dropped, and of losses that were there
+/// before.
+constexpr std::array kLostValues{"not_a_number",  "value_implausible", "ragged_row",     "source_damaged",
+                                 "joint_missing", "array_length",      "signal_left_out"};
 
 bool is_loss(const Issue& issue) {
   const auto is_code = [&](const char* code) { return issue.code == code; };

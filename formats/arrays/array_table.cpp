@@ -14,13 +14,15 @@
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
 #include "lib/core/utf8.hpp"
+#include "lib/log/channel_names.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::int64_t kMostColumns = 1 << 14;
-constexpr std::size_t kMostTold = 8;  ///< arrays that are left out and named
+constexpr std::size_t kMostTold = 8;    ///< arrays that are left out and named
+constexpr double kMostOfARobot = 64.0;  ///< numbers, such as limits of its joints
 
 using Shape = std::vector<std::int64_t>;
 
@@ -75,6 +77,15 @@ std::map<std::int64_t, double> votes_of(const std::vector<NamedArray>& arrays) {
 bool looks_like_time(const NamedArray& array) {
   const std::string leaf = split_unit(leaf_of(array.name)).name;
   return squeezed(array.shape).size() == 1 && find_time_column({leaf}) >= 0;
+}
+
+/// By its name, or as a list longer than what a robot has of one kind; a picture is that long both ways.
+bool looks_recorded(const NamedArray& array) {
+  if (looks_like_time(array) || read_name(split_unit(leaf_of(array.name)).name).quantity) return true;
+  const Shape shape = squeezed(array.shape);
+  const double longest =
+      shape.empty() ? 0.0 : static_cast<double>(*std::max_element(shape.begin(), shape.end()));
+  return longest > kMostOfARobot && elements(shape) <= kMostOfARobot * longest;
 }
 
 /// The length that the votes prefer, the largest when they are even.
@@ -160,10 +171,7 @@ class TableMaker {
     const std::int64_t width = width_of(array, table_.rows);
     const std::int64_t held =
         array.columns_held ? std::min(width, array.columns_held(*channel_major)) : width;
-    if (width > kMostColumns - static_cast<std::int64_t>(total_)) {
-      left_out_.push_back(&array);
-      return;
-    }
+    if (width > kMostColumns - static_cast<std::int64_t>(total_)) return left_out_.push_back(&array);
     const Shape shape = squeezed(array.shape);
     if (shape.size() == 2 && shape[0] == shape[1] && table_.rows > 1)
       table_.issues.add(make_issue(
@@ -227,14 +235,25 @@ class TableMaker {
   }
 
   void tell_left_out() {
-    if (left_out_.empty()) return;
+    const auto lost = std::stable_partition(left_out_.begin(), left_out_.end(),
+                                            [](const NamedArray* array) { return !looks_recorded(*array); });
+    tell_left_out("array_left_out", Severity::note, {left_out_.begin(), lost}, "");
+    tell_left_out("signal_left_out", Severity::warning, {lost, left_out_.end()},
+                  "; write signals of another length into a file of their own and --join it by time");
+  }
+
+  void tell_left_out(const char* code, Severity severity, const std::vector<const NamedArray*>& arrays,
+                     const char* advice) {
+    if (arrays.empty()) return;
     std::string names;
-    for (std::size_t i = 0; i < std::min(kMostTold, left_out_.size()); ++i)
-      names += (i > 0 ? ", " : "") + label(*left_out_[i]);
-    if (left_out_.size() > kMostTold) names += fmt::format(" and {} more", left_out_.size() - kMostTold);
+    for (std::size_t i = 0; i < std::min(kMostTold, arrays.size()); ++i)
+      names += (i > 0 ? ", " : "") + label(*arrays[i]);
+    if (arrays.size() > kMostTold) names += fmt::format(" and {} more", arrays.size() - kMostTold);
+    const bool one = arrays.size() == 1;
     table_.issues.add(
-        make_issue("array_left_out", Severity::note,
-                   fmt::format("{} fit no table of {} rows, and were left out", names, table_.rows)));
+        make_issue(code, severity,
+                   fmt::format("{} {} no table of {} rows, and {} left out{}", names, one ? "fits" : "fit",
+                               table_.rows, one ? "was" : "were", advice)));
   }
 
   void find_time() {

@@ -17,7 +17,9 @@ constexpr haddr_t kFarEnd = haddr_t{1} << 62;
 /// What a file of this driver is opened with.
 struct Hdf5Descriptor {
   int file = -1;
-  bool writing = false;
+  Hdf5Failure* failure = nullptr;  ///< of a file that is written; null: it is read
+
+  bool is_written() const { return failure != nullptr; }
 };
 
 /// A file of this driver. The library casts pointers to its first member.
@@ -49,7 +51,7 @@ int compare(const H5FD_t* a, const H5FD_t* b) { return a == b ? 0 : a < b ? -1 :
 /// Bytes that were not asked for may lie behind the end of a cut file, so nothing is read ahead.
 herr_t query(const H5FD_t* file, unsigned long* features) {
   *features = H5FD_FEAT_SUPPORTS_SWMR_IO;
-  if (file && file_of(file)->descriptor.writing)
+  if (file && file_of(file)->descriptor.is_written())
     *features |= H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
@@ -64,9 +66,11 @@ herr_t set_end_of_addresses(H5FD_t* file, H5FD_mem_t, haddr_t end) {
 /// Of a file that is read, no end before that which it promises.
 haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) {
   const Hdf5Descriptor& descriptor = file_of(file)->descriptor;
+  if (!descriptor.is_written()) return kFarEnd;
   struct stat facts {};
-  if (::fstat(descriptor.file, &facts) != 0) return HADDR_UNDEF;
-  return descriptor.writing ? static_cast<haddr_t>(facts.st_size) : kFarEnd;
+  if (descriptor.failure->reason != 0 || ::fstat(descriptor.file, &facts) != 0)
+    return file_of(file)->end_of_addresses;
+  return static_cast<haddr_t>(facts.st_size);
 }
 
 /// Calls read or write until all bytes are done.
@@ -75,6 +79,7 @@ herr_t transfer(Transfer once, int file, haddr_t at, std::size_t size, Byte* byt
   while (size > 0) {
     const ssize_t done = once(file, bytes, size, static_cast<off_t>(at));
     if (done < 0 && errno == EINTR) continue;
+    if (done == 0) errno = ENOSPC;
     if (done <= 0) return -1;
     bytes += done;
     at += static_cast<haddr_t>(done);
@@ -83,19 +88,43 @@ herr_t transfer(Transfer once, int file, haddr_t at, std::size_t size, Byte* byt
   return 0;
 }
 
+/// Puts what could not be written over what the file holds there.
+void lay_over(const Hdf5Failure& failure, haddr_t at, std::size_t size, char* to) {
+  for (const auto& [begin, bytes] : failure.unwritten) {
+    const haddr_t first = std::max(at, begin), last = std::min(at + size, begin + bytes.size());
+    if (first < last) std::copy_n(bytes.data() + (first - begin), last - first, to + (first - at));
+  }
+}
+
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void* to) {
   if (at > kFarEnd) return -1;
-  return transfer(::pread, file_of(file)->descriptor.file, at, size, static_cast<char*>(to));
+  const Hdf5Descriptor& descriptor = file_of(file)->descriptor;
+  char* const bytes = static_cast<char*>(to);
+  const bool has_failed = descriptor.is_written() && descriptor.failure->reason != 0;
+  if (has_failed) std::fill_n(bytes, size, '\0');
+  const herr_t done = transfer(::pread, descriptor.file, at, size, bytes);
+  if (!has_failed) return done;
+  lay_over(*descriptor.failure, at, size, bytes);
+  return 0;
 }
 
 herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, const void* from) {
-  return transfer(::pwrite, file_of(file)->descriptor.file, at, size, static_cast<const char*>(from));
+  const Hdf5Descriptor& descriptor = file_of(file)->descriptor;
+  const char* const bytes = static_cast<const char*>(from);
+  if (!descriptor.is_written()) return -1;
+  Hdf5Failure& failure = *descriptor.failure;
+  if (failure.reason == 0 && transfer(::pwrite, descriptor.file, at, size, bytes) == 0) return 0;
+  if (failure.reason == 0) failure.reason = errno;
+  failure.unwritten.emplace_back(at, std::string(bytes, size));
+  return 0;
 }
 
 herr_t cut_to_addresses(H5FD_t* file, hid_t, hbool_t) {
   const Hdf5File* mine = file_of(file);
-  if (!mine->descriptor.writing) return 0;
-  return ::ftruncate(mine->descriptor.file, static_cast<off_t>(mine->end_of_addresses));
+  if (!mine->descriptor.is_written() || mine->descriptor.failure->reason != 0) return 0;
+  if (::ftruncate(mine->descriptor.file, static_cast<off_t>(mine->end_of_addresses)) != 0)
+    mine->descriptor.failure->reason = errno;
+  return 0;
 }
 
 H5FD_class_t make_driver() {
@@ -137,15 +166,22 @@ Hdf5Turn::Hdf5Turn() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Hdf5Id hdf5_access(int descriptor, bool writing) {
+namespace {
+
+Hdf5Id access_by(const Hdf5Descriptor& opened) {
   static const H5FD_class_t driver = make_driver();
   static const hid_t id = H5FDregister(&driver);
   Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  const Hdf5Descriptor opened{descriptor, writing};
   H5Pset_driver(access, id, &opened);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_metadata_read_attempts(access, 1);  // nobody writes meanwhile; the library would wait for it
   return access;
 }
+
+}  // namespace
+
+Hdf5Id hdf5_read_access(int descriptor) { return access_by({descriptor, nullptr}); }
+
+Hdf5Id hdf5_write_access(int descriptor, Hdf5Failure& failure) { return access_by({descriptor, &failure}); }
 
 }  // namespace faultline

@@ -4,7 +4,9 @@
 #include <hdf5.h>
 
 #include <mutex>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace faultline {
 
@@ -46,8 +48,19 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
-/// Properties by which the library reads or writes the open file `descriptor`, which stays open. Reading past
-/// the end of the file fails, so that a cut file can be read up to there.
-Hdf5Id hdf5_access(int descriptor, bool writing);
+/// What could not be written to a file. The library cannot close a file whose writing failed, and would try
+/// once more when the program ends, with what is gone by then. So it never sees a failure: from the first one
+/// on everything is kept here instead, until the file is closed.
+struct Hdf5Failure {
+  int reason = 0;  ///< errno of the first failure; 0: all was written
+  std::vector<std::pair<haddr_t, std::string>> unwritten;
+};
+
+/// Properties by which the library reads the open file `descriptor`, which stays open. Reading past the end
+/// of the file fails, so that a cut file can be read up to there.
+Hdf5Id hdf5_read_access(int descriptor);
+
+/// The same for writing; `failure` outlives the file.
+Hdf5Id hdf5_write_access(int descriptor, Hdf5Failure& failure);
 
 }  // namespace faultline

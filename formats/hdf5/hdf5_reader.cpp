@@ -79,7 +79,7 @@ class Hdf5Arrays : public ArrayFile {
 
   void open() {
     const Hdf5Turn turn;
-    const Hdf5Id access = hdf5_access(descriptor_, false);
+    const Hdf5Id access = hdf5_read_access(descriptor_);
     for (const unsigned flags : {H5F_ACC_RDONLY, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ})
       if (!file_.ok()) file_ = {H5Fopen(path_.c_str(), flags, access), H5Fclose};
     if (!file_.ok())

@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "formats/arrays/array_notes.hpp"
 #include "formats/hdf5/hdf5_text.hpp"
@@ -16,9 +17,12 @@ namespace {
 
 constexpr std::size_t kMostObjects = 1 << 14;
 constexpr std::size_t kDeepest = 32;
+constexpr std::size_t kLongestTarget = 4096;  ///< bytes of a link's text
 
 /// A walk through the groups.
 struct Walk {
+  std::set<std::string> places;                                 ///< paths of groups and datasets
+  std::vector<std::pair<std::string, std::string>> soft_links;  ///< path, and the path it leads to
   hid_t file = -1;
   Hdf5Tree tree;
   std::string path;  ///< of the group that is being read, ended by '/'
@@ -27,6 +31,11 @@ struct Walk {
 };
 
 void walk_group(Walk& walk, const std::string& path);
+
+void leave_out(Walk& walk, const std::string& path, const char* why) {
+  walk.tree.issues.add(make_issue("signal_left_out", Severity::warning,
+                                  fmt::format("\"{}\" {}", shortened(path, kLongestName), why), path));
+}
 
 /// Groups that MATLAB (#refs#) and PyTables (_i_table, an index) keep for themselves.
 bool is_own_affair(std::string_view name) { return name.starts_with("#") || name.starts_with("_i_"); }
@@ -40,6 +49,7 @@ void visit(Walk& walk, hid_t group, const char* name) {
         walk.path + name));
     return;
   }
+  walk.places.insert(walk.path + name);
   if (facts.type == H5O_TYPE_DATASET) {
     if (walk.path == "/" && std::string(name) == kNotesName) {
       const Hdf5Id dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
@@ -53,12 +63,34 @@ void visit(Walk& walk, hid_t group, const char* name) {
     walk_group(walk, walk.path + name + "/");
 }
 
+/// The path that a soft link leads to, from the root; empty when it cannot be read.
+std::string soft_target(const Walk& walk, hid_t group, const char* name, std::size_t bytes) {
+  std::string target(std::min(bytes, kLongestTarget), '\0');
+  if (H5Lget_val(group, name, target.data(), target.size(), H5P_DEFAULT) < 0) return "";
+  target.resize(std::min(target.find('\0'), target.size()));
+  return target.starts_with('/') ? target : walk.path + target;
+}
+
 /// A link that cannot be followed does not end the walk.
 herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* walk_at) {
   Walk& walk = *static_cast<Walk*>(walk_at);
   if (++walk.objects > kMostObjects) return 1;
   if (link->type == H5L_TYPE_HARD) visit(walk, group, name);
+  if (link->type == H5L_TYPE_SOFT)
+    walk.soft_links.emplace_back(walk.path + name, soft_target(walk, group, name, link->u.val_size));
+  if (link->type >= H5L_TYPE_UD_MIN)  // of those the library knows links into other files
+    leave_out(
+        walk, walk.path + name,
+        "is a link into another file, which is not read, and was left out; copy what it leads to into this "
+        "file");
   return 0;
+}
+
+/// A soft link to what the file holds is another name of it.
+void tell_open_links(Walk& walk) {
+  for (const auto& [link, target] : walk.soft_links)
+    if (!walk.places.count(target))
+      leave_out(walk, link, "is a link that leads to nothing in this file, and was left out");
 }
 
 void walk_group(Walk& walk, const std::string& path) {
@@ -116,6 +148,7 @@ Hdf5Tree hdf5_tree(hid_t file) {
   Walk walk;
   walk.file = file;
   walk_group(walk, "/");
+  tell_open_links(walk);
   return std::move(walk.tree);
 }
 

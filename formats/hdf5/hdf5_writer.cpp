@@ -21,7 +21,7 @@ class Hdf5Writer : public LogWriter {
     refuse_pipe_for(path, "HDF5");
     temporary_.emplace(path);
     const Hdf5Turn turn;
-    const Hdf5Id access = hdf5_access(temporary_->descriptor(), true);
+    const Hdf5Id access = hdf5_write_access(temporary_->descriptor(), failure_);
     file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
     demand(file_.ok());
   }
@@ -57,7 +57,9 @@ class Hdf5Writer : public LogWriter {
 
  private:
   void demand(bool good) {
-    if (!good) fail_to_write(path_, "written");
+    if (good && failure_.reason == 0) return;
+    errno = failure_.reason != 0 ? failure_.reason : EIO;
+    fail_to_write(path_, "written");
   }
 
   /// Without times, so that the same log gives the same bytes.
@@ -136,6 +138,7 @@ class Hdf5Writer : public LogWriter {
   std::string path_;
   std::optional<TemporaryFile> temporary_;
   WrittenArrays arrays_;
+  Hdf5Failure failure_;  ///< outlives the file
   Hdf5Id file_;
   std::vector<Hdf5Id> datasets_;
   bool has_extra_ = false;

@@ -131,7 +131,7 @@ TEST_F(BadInput, OneUnreadableLogDoesNotHideTheOthers) {
 TEST_F(BadInput, FullDiskLeavesNothingUnderTheFinalName) {
   std::string rows = "t,q1,dq1,tau1\n";
   for (int i = 0; i < 5000; ++i) rows += std::to_string(i) + ",1,2,3\n";
-  for (const char* out : {"out.csv", "out.flog"}) {
+  for (const char* out : {"out.csv", "out.flog", "out.h5", "out.mcap", "out.npz", "out.mat"}) {
     const std::string log = folder_.write("log.csv", rows);
     const ProgramRun run = run_program({"convert", log, folder_.file(out)}, {.file_size_limit = 4096});
     expect_one_sentence(run, 3, {out, "cannot be written", "File too large"});

@@ -33,6 +33,22 @@ TEST(ArrayTable, TheTimeVectorSaysHowManyRowsThereAre) {
   EXPECT_NE(table.issues.find("array_left_out")->message.find("\"image\" (500 x 600)"), std::string::npos);
 }
 
+TEST(ArrayTable, ASignalThatIsLeftOutIsAWarningAndAListOfConstantsANote) {
+  const ArrayTable table =
+      table_of({array("t", {100}), array("q", {100, 2}), array("tau", {99, 2}), array("temperature", {500}),
+                array("gains", {7}), array("image", {500, 600})},
+               "f");
+  const Issue* signals = table.issues.find("signal_left_out");
+  ASSERT_TRUE(signals);
+  EXPECT_EQ(signals->severity, Severity::warning);
+  EXPECT_NE(signals->message.find("\"tau\" (99 x 2), \"temperature\" (500) fit no table"), std::string::npos)
+      << signals->message;
+  const Issue* others = table.issues.find("array_left_out");
+  ASSERT_TRUE(others);
+  EXPECT_NE(others->message.find("\"gains\" (7), \"image\" (500 x 600) fit no table"), std::string::npos)
+      << others->message;
+}
+
 TEST(ArrayTable, WithoutATimeTheLengthOfMostNumbersCounts) {
   EXPECT_EQ(table_of({array("a", {7, 900}), array("b", {900}), array("c", {40})}, "f").rows, 900);
 }

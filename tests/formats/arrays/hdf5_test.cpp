@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cmath>
+#include <csignal>
+#include <functional>
 
 #include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"
+#include "tests/support/limits.hpp"
+#include "tests/support/run_program.hpp"
 #include "tests/support/run_python.hpp"
 
 namespace faultline {
@@ -112,6 +118,121 @@ TEST_F(Hdf5, ACutFileNeverLosesRowsInSilence) {
     }
   }
   EXPECT_GT(most, 1000);
+}
+
+/// Wherever the disk is full: at the first byte, in the tables of the file, in the values, at its end.
+TEST_F(Hdf5, OnAFullDiskASentenceSaysSoAndTheLibraryGoesOn) {
+  const Log log = log_with_extra(9000);
+  const auto whole = static_cast<rlim_t>(written(log).size());
+  std::signal(SIGXFSZ, SIG_IGN);
+  int refused = 0;
+  for (rlim_t room = 0; room < whole; room += 1 + whole / 25) {
+    const Limit limit(RLIMIT_FSIZE, room);
+    try {
+      write_log(folder_.file("full.h5"), log);
+      ADD_FAILURE() << "written where only " << room << " of " << whole << " bytes fit";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::output);
+      EXPECT_NE(error.message().find("cannot be written (File too large)"), std::string::npos)
+          << error.message();
+      ++refused;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      EXPECT_EQ(entry.path().filename(), "log.h5");
+  }
+  EXPECT_GE(refused, 20);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(read_bytes(written(log)).log.q, log.q);
+}
+
+/// A file with a time and positions of 300 rows, made by `more`.
+std::string file_with(const std::string& path, const std::function<void(hid_t)>& more) {
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  more(file);
+  H5Fclose(file);
+  return path;
+}
+
+void add_vector(hid_t file, const char* name, int rows) {
+  std::vector<double> values;
+  for (int i = 0; i < rows; ++i) values.push_back(0.01 * i);
+  const hsize_t size = values.size();
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t dataset =
+      H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Dclose(dataset);
+  H5Sclose(space);
+}
+
+void add_time_and_position(hid_t file) {
+  add_vector(file, "t", 300);
+  add_vector(file, "q1", 300);
+}
+
+TEST_F(Hdf5, WhatIsALinkIntoAnotherFileIsNamed) {
+  const std::string other =
+      file_with(folder_.file("other.h5"), [](hid_t file) { add_vector(file, "tau1", 300); });
+  const ReadArrays read = read_array_file(file_with(folder_.file("log.h5"), [&](hid_t file) {
+    add_time_and_position(file);
+    H5Lcreate_external(other.c_str(), "/tau1", file, "tau1", H5P_DEFAULT, H5P_DEFAULT);
+  }));
+  EXPECT_TRUE(read.log.tau.empty());
+  const Issue* issue = read.issues.find("signal_left_out", "/tau1");
+  ASSERT_NE(issue, nullptr);
+  EXPECT_EQ(issue->severity, Severity::warning);
+  EXPECT_NE(issue->message.find("link into another file"), std::string::npos) << issue->message;
+}
+
+TEST_F(Hdf5, ASoftLinkIsAnotherNameAndNamedOnlyWhenItLeadsToNothing) {
+  const ReadArrays read = read_array_file(file_with(folder_.file("log.h5"), [](hid_t file) {
+    add_time_and_position(file);
+    H5Lcreate_soft("/q1", file, "position", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("q1", file, "beside", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("/tau", file, "tau1", H5P_DEFAULT, H5P_DEFAULT);
+  }));
+  ASSERT_EQ(read.issues.all().size(), 1u);
+  EXPECT_EQ(read.issues.all()[0].channel, "/tau1");
+}
+
+TEST_F(Hdf5, ASignalOfAnotherLengthIsNamed) {
+  const ReadArrays read = read_array_file(file_with(folder_.file("log.h5"), [](hid_t file) {
+    add_time_and_position(file);
+    add_vector(file, "tau1", 299);
+    add_vector(file, "gains", 7);
+  }));
+  EXPECT_TRUE(read.log.tau.empty());
+  const Issue* lost = read.issues.find("signal_left_out");
+  ASSERT_NE(lost, nullptr);
+  EXPECT_NE(lost->message.find("\"tau1\" (299) fits no table of 300 rows"), std::string::npos)
+      << lost->message;
+  const Issue* constants = read.issues.find("array_left_out");
+  ASSERT_NE(constants, nullptr);
+  EXPECT_EQ(constants->severity, Severity::note);
+}
+
+TEST_F(Hdf5, ConvertingALogThatLosesASignalEndsWithStatusOneAndNamesIt) {
+  const std::string other =
+      file_with(folder_.file("other.h5"), [](hid_t file) { add_vector(file, "tau1", 300); });
+  file_with(folder_.file("whole.h5"), add_time_and_position);
+  file_with(folder_.file("short.h5"), [](hid_t file) {
+    add_time_and_position(file);
+    add_vector(file, "tau1", 299);
+  });
+  file_with(folder_.file("link.h5"), [&](hid_t file) {
+    add_time_and_position(file);
+    H5Lcreate_external(other.c_str(), "/tau1", file, "tau1", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  const auto convert = [&](const char* name) {
+    return run_program({"convert", folder_.file(name), folder_.file("out.csv")});
+  };
+  EXPECT_EQ(convert("whole.h5").status, 0);
+  for (const char* name : {"short.h5", "link.h5"}) {
+    const ProgramRun run = convert(name);
+    EXPECT_EQ(run.status, 1) << name << run.err;
+    EXPECT_NE(run.err.find("tau1\""), std::string::npos) << run.err;
+    EXPECT_NE(read_file(folder_.file("out.csv")).find("tau1"), std::string::npos) << "the log says it, too";
+  }
 }
 
 TEST_F(Hdf5, ItsSignatureIsFoundBehindABlockOfTheProgramThatWroteIt) {
