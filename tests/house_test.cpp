@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/skip_unless_installed.hpp"
+#include "tests/support/python_module.hpp"
 
 namespace {
 
@@ -222,12 +222,8 @@ TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
 }
 
 TEST(House, ThePythonModuleTakesNoInexactFunctionFromTheCLibrary) {
-  const fs::path package = fs::path(FAULTLINE_PYTHON_DIR) / "faultline";
-  SKIP_UNLESS_INSTALLED(fs::is_directory(package), "the Python module is not built");
-  for (const auto& entry : fs::directory_iterator(package))
-    if (entry.path().extension() == ".so") {
-      EXPECT_GT(expect_exact_functions(entry.path()), 100);
-    }
+  SKIP_UNLESS_PYTHON_MODULE();
+  EXPECT_GT(expect_exact_functions(faultline::compiled_python_module()), 100);
 }
 
 }  // namespace

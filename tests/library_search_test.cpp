@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "tests/support/dynamic_section.hpp"
+#include "tests/support/python_module.hpp"
 #include "tests/support/run_program.hpp"
-#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -23,15 +23,8 @@ TEST(LibrarySearch, TheProgramAndItsTestsNameNoRelativeFolder) {
 }
 
 TEST(LibrarySearch, ThePythonModuleNamesNoRelativeFolder) {
-  const fs::path package = fs::path(FAULTLINE_PYTHON_DIR) / "faultline";
-  SKIP_UNLESS_INSTALLED(fs::is_directory(package), "the Python module is not built");
-  int modules = 0;
-  for (const auto& entry : fs::directory_iterator(package)) {
-    if (entry.path().extension() != ".so") continue;
-    EXPECT_EQ(relative_search_folders(entry.path().string()), kNone) << entry.path();
-    ++modules;
-  }
-  EXPECT_EQ(modules, 1);
+  SKIP_UNLESS_PYTHON_MODULE();
+  EXPECT_EQ(relative_search_folders(compiled_python_module()), kNone);
 }
 
 /// A library that is no library ends every program that loads it.

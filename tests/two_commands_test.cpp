@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "lib/core/atomic_file.hpp"
+#include "tests/support/python_module.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -39,8 +40,7 @@ TEST(TwoCommands, TheTestsKnowThatTheirPackagesWereInstalled) {
 }
 
 TEST(TwoCommands, ABuildFolderOfBeforeTheInstallationBuildsThePythonModuleAfterIt) {
-  SKIP_UNLESS_INSTALLED(run_command({"test", "-e", FAULTLINE_PYTHON_DIR "/faultline"}).status == 0,
-                        "the Python module is not built: pybind11-dev or python3-dev is missing");
+  SKIP_UNLESS_PYTHON_MODULE();
   const TemporaryFolder folder;
   const auto configure = [&](const std::string& option) {
     return run_command({"sh", "-c",

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The tests of the Python module, each file a process of Python's own unittest.
+#include "tests/support/python_module.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <string>
-
-#include "tests/support/skip_unless_installed.hpp"
 
 namespace faultline {
 namespace {
@@ -16,19 +16,10 @@ namespace fs = std::filesystem;
 
 const fs::path kTests = fs::path(FAULTLINE_SOURCE_DIR) / "tests/apps/python";
 
-bool module_is_built() {
-  const fs::path package = fs::path(FAULTLINE_PYTHON_DIR) / "faultline";
-  if (!fs::is_directory(package)) return false;
-  for (const auto& entry : fs::directory_iterator(package))
-    if (entry.path().filename().string().starts_with("_faultline.")) return true;
-  return false;
-}
-
 class PythonModule : public testing::TestWithParam<const char*> {};
 
 TEST_P(PythonModule, DoesAsItsTestsSay) {
-  SKIP_UNLESS_INSTALLED(module_is_built(),
-                        "the Python module is not built, which needs pybind11-dev and python3-dev");
+  SKIP_UNLESS_PYTHON_MODULE();
   const std::string command = "cd '" + kTests.string() +
                               "' && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" FAULTLINE_PYTHON_DIR
                               "' FAULTLINE_PROGRAM='" FAULTLINE_PROGRAM
