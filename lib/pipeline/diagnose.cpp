@@ -74,8 +74,8 @@ bool can_question(const Model& model) {
 /// The rows to judge: those of the log, or the log at the model's rate, which `kept` holds. What the log
 /// means is asked once its rate is settled; a log that was never what the model takes it for gets an issue
 /// that says what it is more likely to be.
-LogSource& settle_log(LogSource& log, const Model& model, Issues& issues, std::unique_ptr<LogSource>& kept) {
-  const LogRate rate = log_rate(log, model);
+LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, Issues& issues,
+                      std::unique_ptr<LogSource>& kept) {
   if (!rate.is_models()) {
     const ReadingDoubt clock =
         can_question(model) ? question_clock(log, model.motion, model.sample_period_s) : ReadingDoubt{};
@@ -104,7 +104,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
                    const DiagnoseOptions& options) {
   Issues doubts;
   std::unique_ptr<LogSource> kept;
-  const MonitoredLog run = monitor(settle_log(log, model, doubts, kept), model, options);
+  const LogRate rate = log_rate(log, model);
+  const MonitoredLog run = monitor(settle_log(log, rate, model, doubts, kept), model, options);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);
@@ -118,6 +119,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.roughness = run.roughness;
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
+  if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   if (run.log.is_tracked)
     doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
   return diagnosis;

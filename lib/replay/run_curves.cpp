@@ -17,9 +17,14 @@ int bins_for(double span_s, double period_s, int most) {
   return static_cast<int>(std::clamp(span_s / (2.0 * period_s), 1.0, static_cast<double>(most)));
 }
 
-CurveWindow window_of(const FaultFinding& fault, const LogFacts& log, const RunCurvesOptions& options,
-                      int most_bins) {
-  const double period = std::isfinite(log.sample_period_s) ? log.sample_period_s : 0.0;
+/// Of the rows that were judged.
+double judged_period(const Model& model, const LogFacts& log) {
+  if (log.issues.find(kResampled)) return model.sample_period_s;
+  return std::isfinite(log.sample_period_s) ? log.sample_period_s : 0.0;
+}
+
+CurveWindow window_of(const FaultFinding& fault, const LogFacts& log, double period,
+                      const RunCurvesOptions& options, int most_bins) {
   const double alarm = std::isfinite(fault.alarm_s) ? fault.alarm_s : fault.onset_s;
   CurveWindow window;
   window.fault_id = fault.id;
@@ -51,7 +56,8 @@ std::vector<WindowCurves> detail_windows(const Model& model, const Diagnosis& di
   std::vector<WindowCurves> details;
   for (int i = 0; i < shown; ++i) {
     const FaultFinding& fault = diagnosis.faults[i];
-    const CurveWindow window = window_of(fault, diagnosis.log, options, most_bins);
+    const CurveWindow window =
+        window_of(fault, diagnosis.log, judged_period(model, diagnosis.log), options, most_bins);
     if (window.end_s > window.start_s) details.emplace_back(window, model, asked_about(fault));
   }
   return details;
@@ -81,7 +87,7 @@ RunCurves run_curves(LogSource& log, const Model& model, const Diagnosis& diagno
   CurveWindow run;
   run.start_s = facts.start_s;
   run.end_s = facts.end_s;
-  run.bins = bins_for(run.end_s - run.start_s, facts.sample_period_s, options.whole_bins);
+  run.bins = bins_for(run.end_s - run.start_s, judged_period(model, facts), options.whole_bins);
   WindowCurves whole(run, model, {});
   std::vector<WindowCurves> details = detail_windows(model, diagnosis, options);
   std::unique_ptr<LogSource> kept;

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
 
 #include "lib/monitor/model_rate.hpp"
 #include "lib/pipeline/diagnose.hpp"
+#include "lib/replay/run_curves.hpp"
 #include "lib/report/json.hpp"
 #include "tests/pipeline/small_robot.hpp"
 
@@ -82,6 +84,12 @@ TEST(OtherRate, CurvesOfAReportAreThoseOfTheRowsThatWereJudged) {
   ASSERT_EQ(judged.rows(), 701);
   EXPECT_NEAR(judged.time[1], 0.01, 1e-12);
   EXPECT_NEAR(judged.q[0][1], log.q[0][5], 1e-9);
+
+  EXPECT_NEAR(diagnosis.log.sample_period_s, 0.002, 1e-9) << "of the log as it was recorded";
+  const RunCurves curves = run_curves(source, model, diagnosis);
+  ASSERT_GT(curves.whole.bins, 100);
+  for (const float q : curves.whole.joints[0].q.values)
+    EXPECT_TRUE(std::isfinite(q)) << "a bin without a row";
 }
 
 TEST(OtherRate, WhatALogMeansIsAskedAfterItsRate) {
