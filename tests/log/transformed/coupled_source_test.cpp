@@ -93,7 +93,7 @@ TEST(CoupledSource, ALogOfAnotherRobotIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::input);
     EXPECT_EQ(error.where(), "drives");
-    EXPECT_NE(error.message().find("has 2 joints"), std::string::npos) << error.what();
+    EXPECT_NE(error.message().find("positions of 2 joints"), std::string::npos) << error.what();
   }
 }
 
