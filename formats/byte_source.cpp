@@ -13,7 +13,7 @@ constexpr std::size_t kPassedAtOnce = 1 << 16;
 }  // namespace
 
 ByteSource::ByteSource(const std::string& path, bool hashed)
-    : file_(path, hashed), unpacker_(unpacker_of(file_)) {
+    : file_(path, hashed), unpacker_(unpacker_of(file_)), budget_(path) {
   if (unpacker_) fill_head(kHeadBytes);
 }
 
@@ -42,6 +42,7 @@ std::size_t ByteSource::read(char* to, std::size_t size) {
     return got;
   }
   const std::size_t more = unpacker_->read(to, size);
+  spend(unpack_work_ns(unpacker_->byte_ns(), static_cast<std::int64_t>(more)));
   if (more == 0 && size > 0) note_end();
   return more;
 }
@@ -62,6 +63,7 @@ void ByteSource::read_to_end() {
 void ByteSource::rewind() {
   file_.rewind();
   issues_ = {};
+  budget_.start();
   if (!unpacker_) return;
   unpacker_ = unpacker_of(file_);
   head_given_ = 0;

@@ -7,6 +7,7 @@
 
 #include "formats/bytes/file_bytes.hpp"
 #include "formats/bytes/unpacker.hpp"
+#include "formats/bytes/work_budget.hpp"
 #include "lib/core/issue.hpp"
 
 namespace faultline {
@@ -37,6 +38,9 @@ class ByteSource {
   std::int64_t file_size() const { return file_.size(); }
   /// Name of the compression around the bytes, null for none: then a library may read the file by its path.
   const char* compression() const { return unpacker_ ? unpacker_->name() : nullptr; }
+  /// Counts work on the bytes read so far. Throws Error(input) when it is more than a log of so many bytes
+  /// asks for, see WorkBudget.
+  void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_.position()); }
   /// Damage of the compression met so far.
   const Issues& issues() const { return issues_; }
 
@@ -49,6 +53,7 @@ class ByteSource {
   std::string head_;                    ///< unpacked
   std::size_t head_given_ = 0;          ///< bytes of head_ handed out by read()
   Issues issues_;
+  WorkBudget budget_;
 };
 
 }  // namespace faultline

@@ -43,6 +43,14 @@ void ByteWindow::advance(std::size_t size) {
   position_ += static_cast<std::int64_t>(size);
 }
 
+void ByteWindow::skip(std::uint64_t size) {
+  while (size > 0 && fill(1)) {
+    const std::size_t now = std::min<std::uint64_t>(size, view().size());
+    advance(now);
+    size -= now;
+  }
+}
+
 std::int64_t ByteWindow::drain() {
   const std::int64_t before = position_;
   do advance(end_ - begin_);

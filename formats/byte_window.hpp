@@ -21,6 +21,8 @@ class ByteWindow {
   std::string_view view() const { return {bytes_.get() + begin_, end_ - begin_}; }
   /// Goes on by so many of the bytes in view.
   void advance(std::size_t size);
+  /// Goes on by so many bytes, in view or not, as far as there are some.
+  void skip(std::uint64_t size);
   /// Bytes advanced over since the beginning.
   std::int64_t position() const { return position_; }
   /// Reads on to the end of the file; the number of bytes that were left, view included.

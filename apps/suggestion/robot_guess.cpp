@@ -69,7 +69,7 @@ class Guesser {
     return one ? values_of(excerpt_, *one) : std::vector<double>();
   }
   std::string header_unit(const GuessedChannel* one) const {
-    if (!one || one->column < 0) return "";
+    if (!one || one->column < 0 || excerpt_.columns[one->column].unit_assumed) return "";
     const std::string& unit = excerpt_.columns[one->column].unit;
     const auto known = known_unit(unit);
     return known && measures(known->dimension, one->channel.quantity) ? unit : "";

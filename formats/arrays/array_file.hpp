@@ -20,6 +20,7 @@ struct NamedArray {
   std::vector<std::string> names{}, units{};  ///< of its columns, where the file tells them
   bool exact = false;                         ///< `names` and `units` are to be taken as they are
   int rank = 0;                               ///< columns of arrays of a lower rank come first
+  bool unwritten = false;                     ///< the file has room for it, but no value of it was written
   bool records = false;  ///< its first dimension counts records: it cannot be channel major
   /// Rows, and columns, from the first one on, that the file can hold at most, whatever the shape says, once
   /// it is read by rows or by columns.
@@ -57,6 +58,9 @@ class ArrayFile {
   virtual const Issues& issues() const = 0;
   /// The text of notes_text() when a log was written to the file, else empty.
   virtual std::string notes() const = 0;
+  /// Which arrays read() will be asked for, before it is. Throws Error(input) when they cannot be read in
+  /// bounded memory.
+  virtual void will_read(const std::vector<ArrayBand>&) {}
   /// Bands of an array come in the order of their rows.
   virtual void read(const ArrayBand& band, BandValues& values) = 0;
   /// What is to be checked when all has been read.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/arrays/array_notes.hpp"
+#include "formats/arrays/array_shape.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/byte_window.hpp"
 #include "formats/missing.hpp"
@@ -34,9 +35,10 @@ class ArrayReader : public RawReader {
     arrays_ = named(*file);
     refuse_damaged(*file);
     table_ = table_of(arrays_, identity_.path);
-    if (table_.arrays.empty())
-      throw Error(ErrorCode::input, identity_.path,
-                  "is cut before its first row; nothing can be read from it");
+    if (table_.rows_held == 0) throw Error(ErrorCode::input, identity_.path, why_no_table(arrays_));
+    WorkBudget(identity_.path)
+        .spend(table_work_ns(table_.rows_held, std::ssize(table_.columns)), bytes_->file_size());
+    file->will_read(bands_of(table_));
     for (NamedArray& array : arrays_) array.rows_held = array.columns_held = nullptr;  // they need the file
     wanted_.assign(table_.columns.size(), true);
     gather_opening_issues(*file);
@@ -139,6 +141,7 @@ class ArrayReader : public RawReader {
     if (!std::equal(arrays.begin(), arrays.end(), arrays_.begin(), arrays_.end(), same))
       throw Error(ErrorCode::input, identity_.path,
                   "was replaced or changed while it was read; run again when it is complete");
+    file_->will_read(bands_of(table_));
   }
 
   bool next_slab() {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "formats/arrays/array_shape.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
@@ -20,48 +21,18 @@
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kMostColumns = 1 << 14;
-constexpr std::size_t kMostTold = 8;    ///< arrays that are left out and named
 constexpr double kMostOfARobot = 64.0;  ///< numbers, such as limits of its joints
 
-using Shape = std::vector<std::int64_t>;
+using Shape = ArrayShape;
 
 std::string leaf_of(const std::string& name) {
   const auto at = name.find_last_of("/.");
   return at == std::string::npos || at + 1 == name.size() ? name : name.substr(at + 1);
 }
 
-/// Without dimensions of one, but a vector of one element stays a vector.
-Shape squeezed(const Shape& shape) {
-  Shape kept;
-  for (const std::int64_t size : shape)
-    if (size != 1) kept.push_back(size);
-  if (kept.empty() && !shape.empty()) kept.push_back(1);
-  return kept;
-}
-
 /// Whether a vector of three or more dimensions becomes 1 x N once surplus dimensions of one are taken away,
 /// from the last on.
 bool after_ones(const Shape& shape) { return shape.size() > 2 && shape.back() != 1; }
-
-/// 100 x 3.
-std::string shape_text(const Shape& shape) {
-  std::string text;
-  for (const std::int64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
-  return text;
-}
-
-std::string label(const NamedArray& array) {
-  const std::string name =
-      array.name.empty() ? "the array" : "\"" + shortened(array.name, kLongestName) + "\"";
-  return name + " (" + shape_text(array.shape) + ")";
-}
-
-double elements(const Shape& shape) {
-  double count = 1.0;
-  for (const std::int64_t size : shape) count *= static_cast<double>(size);
-  return count;
-}
 
 /// Elements of arrays that have a dimension of each length.
 std::map<std::int64_t, double> votes_of(const std::vector<NamedArray>& arrays) {
@@ -171,16 +142,16 @@ class TableMaker {
     const std::int64_t width = width_of(array, table_.rows);
     const std::int64_t held =
         array.columns_held ? std::min(width, array.columns_held(*channel_major)) : width;
-    if (width > kMostColumns - static_cast<std::int64_t>(total_)) return left_out_.push_back(&array);
+    if (width > kMostArrayColumns - static_cast<std::int64_t>(total_)) return left_out_.push_back(&array);
     const Shape shape = squeezed(array.shape);
     if (shape.size() == 2 && shape[0] == shape[1] && table_.rows > 1)
       table_.issues.add(make_issue(
           "array_square", Severity::note,
-          label(array) + " has as many rows as columns; its rows were taken as samples", array.name));
+          array_label(array) + " has as many rows as columns; its rows were taken as samples", array.name));
     if (held < width)
       table_.issues.add(make_issue("file_truncated", Severity::severe,
                                    fmt::format("the file ends inside {}; {} of its {} columns were left out",
-                                               label(array), width - held, width),
+                                               array_label(array), width - held, width),
                                    array.name));
     if (held <= 0) return;
     const std::int64_t rows = array.rows_held ? array.rows_held(*channel_major) : table_.rows;
@@ -245,15 +216,11 @@ class TableMaker {
   void tell_left_out(const char* code, Severity severity, const std::vector<const NamedArray*>& arrays,
                      const char* advice) {
     if (arrays.empty()) return;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(kMostTold, arrays.size()); ++i)
-      names += (i > 0 ? ", " : "") + label(*arrays[i]);
-    if (arrays.size() > kMostTold) names += fmt::format(" and {} more", arrays.size() - kMostTold);
     const bool one = arrays.size() == 1;
     table_.issues.add(
         make_issue(code, severity,
-                   fmt::format("{} {} no table of {} rows, and {} left out{}", names, one ? "fits" : "fit",
-                               table_.rows, one ? "was" : "were", advice)));
+                   fmt::format("{} {} no table of {} rows, and {} left out{}", listed_arrays(arrays),
+                               one ? "fits" : "fit", table_.rows, one ? "was" : "were", advice)));
   }
 
   void find_time() {
@@ -272,7 +239,7 @@ class TableMaker {
       const bool clock = looks_like_time(array) || ((leaf.starts_with("t_") || leaf.starts_with("time_")) &&
                                                     squeezed(array.shape).size() == 1);
       if (!clock) continue;
-      clocks += (found++ > 0 ? ", " : "") + label(array);
+      clocks += (found++ > 0 ? ", " : "") + array_label(array);
     }
     if (found > 1)
       table_.issues.add(
@@ -291,6 +258,13 @@ class TableMaker {
 };
 
 }  // namespace
+
+std::vector<ArrayBand> bands_of(const ArrayTable& table) {
+  std::vector<ArrayBand> bands;
+  for (const TableArray& used : table.arrays)
+    bands.push_back({used.array, used.channel_major, 0, used.rows_held, {}});
+  return bands;
+}
 
 ArrayTable table_of(const std::vector<NamedArray>& arrays, const std::string& path) {
   return TableMaker(arrays, path).run();

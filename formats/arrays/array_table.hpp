@@ -30,6 +30,9 @@ struct ArrayTable {
   Issues issues;  ///< arrays that do not fit
 };
 
+/// What will be read of the arrays of a table.
+std::vector<ArrayBand> bands_of(const ArrayTable& table);
+
 /// The rows are as many as the time vector has, else as most elements share. A matrix has the rows along the
 /// dimension of that length, along the first when both have it. Throws Error(input) when there is no array of
 /// numbers.

@@ -14,8 +14,9 @@ namespace faultline {
 namespace {
 
 /// Compressed contents are unpacked into memory while they take no more together; larger ones are streamed.
-constexpr std::int64_t kMostUnpacked = 256 << 20;
-constexpr std::int64_t kRegionBytes = 16 << 20;  ///< read at once
+constexpr std::int64_t kMostUnpacked = 96 << 20;
+constexpr std::int64_t kRegionBytes = 16 << 20;     ///< read at once
+constexpr std::size_t kMostRegionBytes = 64 << 20;  ///< of one row, or of a column of few rows
 constexpr std::size_t kPiece = 1 << 20;
 
 /// How a two-dimensional array lies: bytes between its rows, and between its columns.
@@ -105,6 +106,11 @@ void StoredArrays::fetch(std::size_t content, StreamKey key, std::int64_t at, st
   region_.content = content;
   region_.at = at;
   region_.wanted = count;
+  if (count > kMostRegionBytes)
+    file_->fail(
+        fmt::format("has records of {} MiB, more than the {} MiB that are read at once; save the columns of "
+                    "the log as arrays of their own",
+                    count >> 20, kMostRegionBytes >> 20));
   region_.bytes.resize(std::max(region_.bytes.size(), count));
   if (const std::string* bytes = in_memory(content)) {
     const auto begin = std::min(static_cast<std::size_t>(at), bytes->size());

@@ -21,7 +21,7 @@ constexpr std::size_t kInputBytes = 1 << 16;
 
 }  // namespace
 
-RandomFile::RandomFile(const std::string& path) : path_(path) {
+RandomFile::RandomFile(const std::string& path) : path_(path), budget_(path) {
   file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0)
     throw Error(ErrorCode::input, path,
@@ -29,6 +29,8 @@ RandomFile::RandomFile(const std::string& path) : path_(path) {
   struct stat facts {};
   if (::fstat(file_, &facts) == 0) size_ = facts.st_size;
 }
+
+void RandomFile::fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
 
 RandomFile::~RandomFile() { ::close(file_); }
 
@@ -108,6 +110,7 @@ struct ContentStream::Inflater {
     }
     crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(to), got);
     position += static_cast<std::int64_t>(got);
+    file.spend(unpack_work_ns(kDeflateByte_ns, static_cast<std::int64_t>(got)));
     return got;
   }
 

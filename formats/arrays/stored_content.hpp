@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "formats/bytes/work_budget.hpp"
+
 namespace faultline {
 
 /// A file that is open for reading anywhere in it.
@@ -21,11 +23,15 @@ class RandomFile {
   /// Bytes read, fewer than `count` at the end only. Throws Error(input) when reading fails.
   std::size_t read(std::int64_t at, char* to, std::size_t count) const;
   std::string text(std::int64_t at, std::size_t count) const;
+  /// Counts the work of unpacking, see WorkBudget.
+  void spend(std::int64_t work_ns) const { budget_.spend(work_ns, size_); }
+  [[noreturn]] void fail(const std::string& what) const;
 
  private:
   std::string path_;
   int file_ = -1;
   std::int64_t size_ = 0;
+  mutable WorkBudget budget_;
 };
 
 enum class Packing { plain, deflate, zlib };

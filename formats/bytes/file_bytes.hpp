@@ -34,6 +34,8 @@ class FileBytes {
   /// Of all bytes once the end was reached, empty before and where they are not hashed.
   const std::string& sha256() const { return sha256_; }
   double share_read() const;
+  /// Bytes read since the beginning.
+  std::int64_t position() const { return position_; }
   /// Of the file, 0 for a pipe.
   std::int64_t size() const { return regular_ ? stamp_.size : 0; }
 

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "formats/bytes/packed_input.hpp"
+#include "formats/bytes/work_budget.hpp"
 
 namespace faultline {
 namespace {
@@ -26,6 +27,7 @@ class GzipUnpacker : public Unpacker {
   GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
   const char* name() const override { return "gzip"; }
+  double byte_ns() const override { return kDeflateByte_ns; }
   const std::string& damage() const override { return damage_; }
 
   std::size_t read(char* to, std::size_t size) override {

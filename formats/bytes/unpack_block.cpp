@@ -2,16 +2,17 @@
 #include "formats/bytes/unpack_block.hpp"
 
 #include <bzlib.h>
+#include <fmt/format.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
 #include <algorithm>
 #include <memory>
 
+#include "formats/bytes/work_budget.hpp"
+
 namespace faultline {
 namespace {
-
-constexpr std::size_t kFirstRoom = 1 << 20;
 
 /// What one step of a library did.
 struct Step {
@@ -22,25 +23,22 @@ struct Step {
 /// Lets `step(in, in_size, out, out_size)` work until its end, failure, the end of `packed`, or `promised`
 /// bytes came out.
 template <typename StepOnce>
-bool unpack_in_steps(std::string_view packed, std::uint64_t promised, std::string& out, StepOnce step) {
-  if (out.size() < std::min<std::uint64_t>(promised, kFirstRoom))
-    out.resize(std::min<std::uint64_t>(promised, kFirstRoom));
+bool unpack_in_steps(std::string_view packed, std::uint64_t promised, BlockBytes& out, StepOnce step) {
+  char* const to = out.make_room(promised);
   std::size_t made = 0;
   bool sound = true;
   while (made < promised) {
-    if (made == out.size()) out.resize(std::min<std::uint64_t>(promised, 2 * made));
-    const std::size_t room = std::min<std::uint64_t>(out.size(), promised) - made;
-    const Step done = step(packed.data(), packed.size(), out.data() + made, room);
+    const Step done = step(packed.data(), packed.size(), to + made, promised - made);
     packed.remove_prefix(done.taken);
     made += done.made;
     sound = !done.failed;
     if (done.failed || done.ended || (done.taken == 0 && done.made == 0)) break;
   }
-  out.resize(made);
+  out.set_size(made);
   return sound && made == promised;
 }
 
-bool unpack_zstd_block(std::string_view packed, std::uint64_t promised, std::string& out) {
+bool unpack_zstd_block(std::string_view packed, std::uint64_t promised, BlockBytes& out) {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
                                                                              ZSTD_freeDStream);
   return unpack_in_steps(
@@ -52,7 +50,7 @@ bool unpack_zstd_block(std::string_view packed, std::uint64_t promised, std::str
       });
 }
 
-bool unpack_lz4_block(std::string_view packed, std::uint64_t promised, std::string& out) {
+bool unpack_lz4_block(std::string_view packed, std::uint64_t promised, BlockBytes& out) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION))) return false;
   const std::unique_ptr<LZ4F_dctx, std::size_t (*)(LZ4F_dctx*)> owner(context, LZ4F_freeDecompressionContext);
@@ -65,7 +63,7 @@ bool unpack_lz4_block(std::string_view packed, std::uint64_t promised, std::stri
       });
 }
 
-bool unpack_bz2_block(std::string_view packed, std::uint64_t promised, std::string& out) {
+bool unpack_bz2_block(std::string_view packed, std::uint64_t promised, BlockBytes& out) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return false;
   const std::unique_ptr<bz_stream, int (*)(bz_stream*)> owner(&stream, BZ2_bzDecompressEnd);
@@ -85,12 +83,13 @@ bool unpack_bz2_block(std::string_view packed, std::uint64_t promised, std::stri
 
 }  // namespace
 
-bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t promised, std::string& out) {
+bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t promised, BlockBytes& out) {
   out.clear();
   if (promised > kLargestBlock || packed.size() > kLargestBlock) return false;
   switch (packing) {
     case BlockPacking::none:
-      out.assign(packed);
+      std::copy(packed.begin(), packed.end(), out.make_room(packed.size()));
+      out.set_size(packed.size());
       return packed.size() == promised;
     case BlockPacking::lz4_frame:
       return unpack_lz4_block(packed, promised, out);
@@ -100,6 +99,26 @@ bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t p
       return unpack_bz2_block(packed, promised, out);
   }
   return false;
+}
+
+std::string too_large_block(std::uint64_t bytes) {
+  return fmt::format(
+      "it takes {} MiB, more than the {} MiB that are read at once; write the recording again in smaller chunks",
+      bytes >> 20, kLargestBlock >> 20);
+}
+
+std::int64_t block_work_ns(BlockPacking packing, std::int64_t unpacked) {
+  switch (packing) {
+    case BlockPacking::none:
+      return 0;
+    case BlockPacking::lz4_frame:
+      return unpack_work_ns(kLz4Byte_ns, unpacked);
+    case BlockPacking::zstd:
+      return unpack_work_ns(kZstdByte_ns, unpacked);
+    case BlockPacking::bz2:
+      return unpack_work_ns(kBz2Byte_ns, unpacked);
+  }
+  return 0;
 }
 
 }  // namespace faultline

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -11,11 +13,36 @@ namespace faultline {
 enum class BlockPacking { none, lz4_frame, zstd, bz2 };
 
 /// Blocks larger than this are not unpacked; recorders write a few MiB.
-inline constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 26;
+
+/// Memory for an unpacked block, used again for the next one. It is touched only as far as it is filled.
+class BlockBytes {
+ public:
+  std::string_view view() const { return {bytes_.get(), size_}; }
+  void clear() { size_ = 0; }
+  /// Room for so many bytes; what was there is lost.
+  char* make_room(std::size_t bytes) {
+    if (bytes > capacity_) bytes_.reset(new char[capacity_ = bytes]);
+    size_ = 0;
+    return bytes_.get();
+  }
+  /// Bytes that were filled in.
+  void set_size(std::size_t size) { size_ = std::min(size, capacity_); }
+
+ private:
+  std::unique_ptr<char[]> bytes_;
+  std::size_t capacity_ = 0, size_ = 0;
+};
 
 /// Unpacks a whole block into `out`, of which `promised` bytes are expected. Memory grows with what comes
 /// out, not with the promise. What could be unpacked before damage stays in `out`; whether all was sound and
 /// as long as promised.
-bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t promised, std::string& out);
+bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t promised, BlockBytes& out);
+
+/// Why a block of so many bytes, unpacked, was passed over, and what to do.
+std::string too_large_block(std::uint64_t bytes);
+
+/// Work to unpack a block into so many bytes.
+std::int64_t block_work_ns(BlockPacking packing, std::int64_t unpacked);
 
 }  // namespace faultline

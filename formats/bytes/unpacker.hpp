@@ -13,6 +13,8 @@ class Unpacker {
  public:
   virtual ~Unpacker() = default;
   virtual const char* name() const = 0;
+  /// Usual time to unpack a byte, ns.
+  virtual double byte_ns() const = 0;
   /// Copies up to `size` of the next bytes to `to`; 0 at their end, or where damage ends them.
   virtual std::size_t read(char* to, std::size_t size) = 0;
   /// After the end: what was wrong with the compressed bytes and what it means; empty for nothing.

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "formats/bytes/packed_input.hpp"
+#include "formats/bytes/work_budget.hpp"
 
 namespace faultline {
 namespace {
@@ -21,6 +22,7 @@ class ZstdUnpacker : public Unpacker {
   ZstdUnpacker& operator=(const ZstdUnpacker&) = delete;
 
   const char* name() const override { return "zstd"; }
+  double byte_ns() const override { return kZstdByte_ns; }
   const std::string& damage() const override { return damage_; }
 
   std::size_t read(char* to, std::size_t size) override {

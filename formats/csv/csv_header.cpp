@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/csv/csv_header.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/log/channel_names.hpp"
+#include "lib/log/counted_time.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
@@ -148,6 +150,40 @@ std::string without_apostrophe(const std::string& name) {
   return inert ? name.substr(1) : name;
 }
 
+/// Of a field in the rows that have it.
+std::vector<double> values_of(std::span<const CsvLine> rows, int field, const CsvDialect& dialect) {
+  std::vector<double> values;
+  for (const CsvLine& row : rows)
+    if (is_data(row, dialect.fields))
+      values.push_back(read_cell(row.fields[static_cast<std::size_t>(field)], dialect.decimal).value);
+  return values;
+}
+
+/// Gives a time without unit the one in which it seems to count.
+void find_time_unit(std::span<const CsvLine> rows, CsvDialect& dialect) {
+  std::vector<std::string> names;
+  for (const RawColumn& column : dialect.columns) names.push_back(column.name);
+  const int time = find_time_column(names);
+  if (time < 0 || !dialect.columns[static_cast<std::size_t>(time)].unit.empty()) return;
+  std::vector<NamedValues> moving;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto quantity = read_name(names[i]).quantity;
+        quantity == Quantity::q || quantity == Quantity::dq)
+      moving.push_back({names[i], values_of(rows, dialect.value_fields[i], dialect)});
+  const auto cell_of_time = [&](const CsvLine& row) {
+    return row.fields[static_cast<std::size_t>(dialect.value_fields[static_cast<std::size_t>(time)])];
+  };
+  const bool is_clock = std::any_of(rows.begin(), rows.end(), [&](const CsvLine& row) {
+    return is_data(row, dialect.fields) && cell_of_time(row).find(':') != std::string_view::npos;
+  });
+  if (is_clock) return;  // of seconds
+  const CountedTime counted =
+      counted_time(values_of(rows, dialect.value_fields[static_cast<std::size_t>(time)], dialect), moving);
+  dialect.columns[static_cast<std::size_t>(time)].unit = counted.unit;
+  dialect.columns[static_cast<std::size_t>(time)].unit_assumed = !counted.why.empty();
+  dialect.time_note = counted.why;
+}
+
 void make_columns(const Header& header, int fields, const CsvLine* row, CsvDialect& dialect) {
   const auto& [names, units] = header;
   dialect.fields = fields;
@@ -162,8 +198,6 @@ void make_columns(const Header& header, int fields, const CsvLine* row, CsvDiale
     RawColumn column{name.empty() ? "column" + std::to_string(i + 1) : parts.name, parts.unit};
     if (column.unit.empty() && i < static_cast<int>(units.size())) column.unit = units[i];
     if (column.name == "rosbagTimestamp") column.unit = "ns";
-    if (column.unit.empty() && row && find_time_column({column.name}) >= 0)
-      column.unit = epoch_unit(read_cell(row->fields[i], dialect.decimal).value);
     dialect.columns.push_back(column);
     dialect.value_fields.push_back(i);
   }
@@ -179,6 +213,7 @@ void find_columns(std::span<const CsvLine> above, std::span<const CsvLine> rows,
   Header header = find_header(above, open_end, fields, dialect);
   if (!dialect.has_header && !rows.empty()) name_headless(rows, dialect, header.names);
   make_columns(header, fields, rows.empty() ? nullptr : &rows[0], dialect);
+  find_time_unit(rows, dialect);
 }
 
 bool repeats_header(const CsvDialect& dialect, const std::vector<std::string_view>& fields) {

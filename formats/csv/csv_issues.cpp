@@ -24,6 +24,8 @@ void CsvIssues::start() {
   if (dialect_.preamble_lines > 0)
     issues_.add({"preamble_skipped", "", Severity::note, "lines before the table were left out", 0, kNan,
                  dialect_.preamble_lines});
+  if (!dialect_.time_note.empty())
+    issues_.add({"time_unit_assumed", "t", Severity::note, dialect_.time_note});
   if (dialect_.names_in_rows)
     issues_.add(
         {"names_in_rows", "", Severity::note,

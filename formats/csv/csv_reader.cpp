@@ -23,6 +23,8 @@ constexpr int kBlockValues = 1 << 20;
 /// Fields that may be missing at the ends of rows before it is asked whether most are.
 constexpr std::int64_t kMostAbsent = 1 << 26;
 constexpr double kMostAbsentShare = 0.9;
+/// Of any line, also one that is no row.
+constexpr std::int64_t kLineWork_ns = 200;
 
 std::size_t longest_line(std::string_view text) {
   std::size_t longest = 0;
@@ -61,6 +63,7 @@ class CsvReader : public RawReader {
   void refuse_many_columns() const;
   void refuse_duplicates() const;
   void refuse_mostly_absent() const;
+  void spend(const CsvPlace& before, std::int64_t absent_before);
   int read_many(const char*& p, const char* end, int row, int max_rows);
   const char* read_line(const char* p, const char* end, int row, CsvRow& verdict);
   void start();
@@ -120,6 +123,13 @@ void CsvReader::refuse_duplicates() const {
   }
 }
 
+/// Counts the work on the lines since `before`.
+void CsvReader::spend(const CsvPlace& before, std::int64_t absent_before) {
+  const std::int64_t rows = at_.row - before.row, absent = rows_.absent_fields() - absent_before;
+  bytes_->spend(kLineWork_ns * (at_.line - before.line) + table_work_ns(rows, dialect_.fields) -
+                kValueWork_ns * absent);
+}
+
 /// Reads past the header.
 void CsvReader::start() {
   at_ = {0, dialect_.lines_before};
@@ -169,6 +179,8 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
   while (row < max_rows && lines_.fill()) {
     const char* p = lines_.position();
     const char* const end = lines_.end_of_lines();
+    const CsvPlace before = at_;
+    const std::int64_t absent_before = rows_.absent_fields();
     bool stop = false;
     while (row < max_rows && p < end && !stop) {
       if (const int rows = read_many(p, end, row, max_rows)) {
@@ -186,6 +198,7 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
       }
     }
     lines_.advance_to(p);
+    spend(before, absent_before);
     if (stop) break;
   }
   refuse_mostly_absent();

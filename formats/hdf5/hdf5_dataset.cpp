@@ -2,7 +2,6 @@
 #include "formats/hdf5/hdf5_dataset.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace faultline {
@@ -11,7 +10,6 @@ namespace {
 constexpr std::int64_t kMostNumbers = 1 << 14;  ///< of a record
 constexpr std::int64_t kMostElements = std::int64_t{1} << 53;
 constexpr std::int64_t kBlockNumbers = 1 << 20;  ///< read at once
-constexpr std::size_t kMostCache = 128 << 20;
 
 bool is_number(hid_t type) {
   const H5T_class_t kind = H5Tget_class(type);
@@ -38,7 +36,7 @@ std::optional<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& path
   if (!type.ok() || !opened.find_fields(type) || !opened.find_shape()) return std::nullopt;
   if (opened.shape_.size() > 2) return opened;  // its shape is told, no more
   if (!opened.find_storage(file_bytes, why)) return std::nullopt;
-  opened.set_chunk_cache(file, path);
+  opened.path_ = path;
   return opened;
 }
 
@@ -118,19 +116,17 @@ bool Hdf5Dataset::find_storage(std::int64_t file_bytes, std::string& why) {
   return storage.has_value();
 }
 
-/// Room for the chunks that a row of chunks has, so that none is unpacked twice.
-void Hdf5Dataset::set_chunk_cache(hid_t file, const std::string& path) {
-  if (storage_.chunk.empty()) return;
-  double most = static_cast<double>(storage_.chunk_bytes);
-  if (shape_.size() > 1)
-    most *= std::max(
-        std::ceil(static_cast<double>(shape_[1]) / static_cast<double>(storage_.chunk[1])),
-        std::ceil(std::min(static_cast<double>(shape_[0]), 64.0) / static_cast<double>(storage_.chunk[0])));
+std::int64_t Hdf5Dataset::row_chunk_bytes(bool channel_major) const {
+  if (storage_.chunk.empty()) return 0;
+  if (shape_.size() < 2) return storage_.chunk_bytes;
+  const std::size_t other = 1 - axis(channel_major);
+  return storage_.chunk_bytes * ((shape_[other] + storage_.chunk[other] - 1) / storage_.chunk[other]);
+}
+
+void Hdf5Dataset::set_chunk_cache(hid_t file, std::int64_t bytes) {
   const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  const std::size_t bytes =
-      static_cast<std::size_t>(std::clamp(2.0 * most, 1e6, static_cast<double>(kMostCache)));
-  H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, bytes, 1.0);
-  Hdf5Id again(H5Dopen2(file, path.c_str(), access), H5Dclose);
+  H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, static_cast<std::size_t>(bytes), 1.0);
+  Hdf5Id again(H5Dopen2(file, path_.c_str(), access), H5Dclose);
   if (again.ok()) dataset_ = std::move(again);
 }
 

@@ -32,8 +32,13 @@ class Hdf5Dataset {
   const std::vector<Hdf5Field>& fields() const { return fields_; }
   std::vector<Hdf5Field>& fields() { return fields_; }
   std::int64_t rows_held(bool channel_major) const;
+  bool unwritten() const { return storage_.unwritten; }
   std::int64_t columns_held(bool channel_major) const;
   hid_t id() const { return dataset_; }
+  /// Bytes of the chunks in which a row lies, unpacked.
+  std::int64_t row_chunk_bytes(bool channel_major) const;
+  /// Keeps so many bytes of chunks, so that none is unpacked twice.
+  void set_chunk_cache(hid_t file, std::int64_t bytes);
 
   /// Reads rows of the columns of a field, as ArrayFile::read() does.
   void read(const Hdf5Field& field, const ArrayBand& band, BandValues& values);
@@ -44,7 +49,6 @@ class Hdf5Dataset {
   bool find_fields(hid_t type);
   bool add_member(hid_t type, unsigned index);
   bool find_storage(std::int64_t file_bytes, std::string& why);
-  void set_chunk_cache(hid_t file, const std::string& path);
   bool read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
                   std::int64_t columns, double* to);
   bool read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first, std::int64_t rows,
@@ -54,6 +58,7 @@ class Hdf5Dataset {
   bool is_written(bool channel_major, std::int64_t first) const;
   std::size_t axis(bool channel_major) const { return channel_major && shape_.size() > 1 ? 1 : 0; }
 
+  std::string path_;
   Hdf5Id dataset_, memory_type_;
   std::vector<hsize_t> dimensions_;  ///< all
   std::vector<std::size_t> kept_;    ///< indices of those in shape_

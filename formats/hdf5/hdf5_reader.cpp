@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/array_reader.hpp"
+#include "formats/arrays/array_table.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_tree.hpp"
 #include "formats/hdf5/hdf5_trial.hpp"
@@ -22,6 +24,9 @@ namespace faultline {
 namespace {
 
 constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
+/// Chunks that are unpacked at once, together, and what HDF5 keeps of them at the least.
+constexpr std::int64_t kMostChunks = 96 << 20, kLeastCache = 1 << 20;
+constexpr std::size_t kMostDescription = 16 << 20;
 constexpr std::size_t kFirstBlock = 512;  ///< where the signature may be, and at twice that, and so on
 
 class Hdf5Arrays : public ArrayFile {
@@ -46,6 +51,30 @@ class Hdf5Arrays : public ArrayFile {
   const Issues& issues() const override { return issues_; }
   std::string notes() const override { return notes_; }
 
+  /// Chunks are unpacked whole, and those of a row are kept until the rows go past them.
+  void will_read(const std::vector<ArrayBand>& bands) override {
+    const Hdf5Turn turn;
+    std::map<std::size_t, std::int64_t> bytes_of;
+    for (const ArrayBand& band : bands) {
+      const std::size_t dataset = sources_[band.array].first;
+      const bool turned = band.channel_major != is_turned(datasets_[dataset]);
+      bytes_of[dataset] = datasets_[dataset].row_chunk_bytes(turned);
+    }
+    std::int64_t all = 0;
+    for (const auto& [dataset, bytes] : bytes_of) all += bytes;
+    if (all > kMostChunks)
+      throw Error(
+          ErrorCode::input, path_,
+          fmt::format(
+              "keeps its numbers in chunks of which {} MiB must be unpacked at once, more than the {} "
+              "MiB that are read so; write it again in smaller chunks, as by h5repack -l CHUNK=1000",
+              all >> 20, kMostChunks >> 20));
+    for (const auto& [dataset, bytes] : bytes_of)
+      if (bytes > 0)
+        datasets_[dataset].set_chunk_cache(file_,
+                                           2 * all > kMostChunks ? bytes : std::max(2 * bytes, kLeastCache));
+  }
+
   void read(const ArrayBand& band, BandValues& values) override {
     const Hdf5Turn turn;
     const auto& [dataset, field] = sources_[band.array];
@@ -54,16 +83,15 @@ class Hdf5Arrays : public ArrayFile {
     datasets_[dataset].read(datasets_[dataset].fields()[field], mine, values);
   }
 
-  /// Reads the first and the last row of each dataset.
+  /// Reads the first and the last row of each dataset that is part of the log.
   void touch() {
-    const Hdf5Turn turn;
-    for (Hdf5Dataset& dataset : datasets_) {
-      const std::int64_t rows = dataset.shape().size() > 2 ? 0 : dataset.rows_held(false);
-      for (const std::int64_t row : {std::int64_t{0}, rows - 1}) {
+    const std::vector<ArrayBand> bands = bands_of(table_of(arrays_, path_));
+    will_read(bands);
+    for (const ArrayBand& band : bands)
+      for (const std::int64_t row : {std::int64_t{0}, band.rows - 1}) {
         BandValues values{{{0.0}}, {}};
-        if (row >= 0 && row < rows) dataset.read(dataset.fields()[0], {0, false, row, 1, {0}}, values);
+        if (row >= 0 && row < band.rows) read({band.array, band.channel_major, row, 1, {0}}, values);
       }
-    }
   }
 
  private:
@@ -95,12 +123,18 @@ class Hdf5Arrays : public ArrayFile {
     issues_.merge(tree.issues);
     notes_ = tree.notes;
     for (const std::string& path : tree.datasets) add(path);
+    if (arrays_.empty() && !no_numbers_.empty())
+      issues_.add(make_issue(
+          "array_left_out", Severity::note,
+          "its datasets hold no numbers (" + no_numbers_ + "); a log has times and positions as numbers"));
   }
 
   void add(const std::string& path) {
     std::string why;
     auto dataset = Hdf5Dataset::open(file_, path, bytes_, why);
     if (!dataset) {
+      if (why.empty() && no_numbers_.size() < kLongestName)
+        no_numbers_ += (no_numbers_.empty() ? "" : ", ") + shortened(path, kLongestName);
       if (!why.empty())
         issues_.add(make_issue("array_damaged", Severity::severe,
                                fmt::format("\"{}\" was left out: {}", shortened(path, kLongestName), why),
@@ -108,11 +142,25 @@ class Hdf5Arrays : public ArrayFile {
       return;
     }
     if (matlab_ && with_attributes_ && is_text_of_matlab(dataset->id())) return;
-    if (with_attributes_) describe_hdf5_fields(file_, path, *dataset);
+    if (with_attributes_ && described_bytes_ <= kMostDescription) describe(path, *dataset);
     datasets_.push_back(std::move(*dataset));
     const std::size_t index = datasets_.size() - 1;
     for (std::size_t field = 0; field < datasets_[index].fields().size(); ++field)
       add_array(path, index, field);
+  }
+
+  void describe(const std::string& path, Hdf5Dataset& dataset) {
+    describe_hdf5_fields(file_, path, dataset);
+    for (const Hdf5Field& field : dataset.fields()) {
+      described_bytes_ += field.unit.size();
+      for (const auto* texts : {&field.names, &field.units})
+        for (const std::string& text : *texts) described_bytes_ += text.size();
+    }
+    if (described_bytes_ > kMostDescription)
+      issues_.add(
+          make_issue("array_damaged", Severity::warning,
+                     "the attributes of the datasets take more text than names and units do; those of "
+                     "later datasets were not read"));
   }
 
   void add_array(const std::string& path, std::size_t index, std::size_t field) {
@@ -125,6 +173,7 @@ class Hdf5Arrays : public ArrayFile {
     if (turned) std::reverse(array.shape.begin(), array.shape.end());
     if (about.width > 1) array.shape.push_back(about.width);
     array.unit = about.unit;
+    array.unwritten = datasets_[index].unwritten();
     array.records = !about.name.empty();
     array.names = about.names;
     array.units = about.units;
@@ -148,7 +197,8 @@ class Hdf5Arrays : public ArrayFile {
   std::vector<NamedArray> arrays_;
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  ///< dataset and field of each array
   Issues issues_;
-  std::string notes_;
+  std::string notes_, no_numbers_;   ///< names of datasets without numbers, the first
+  std::size_t described_bytes_ = 0;  ///< of names and units
 };
 
 std::unique_ptr<ArrayFile> open_plain(const std::string& path) { return open_hdf5_arrays(path, nullptr); }

@@ -76,6 +76,7 @@ std::optional<Hdf5Storage> chunk_storage(hid_t dataset, hid_t creation, const Hd
     chunks *= std::ceil(static_cast<double>(shape.shape[i]) / static_cast<double>(storage.chunk[i]));
   }
   storage.has_holes = static_cast<double>(written) < chunks;
+  storage.unwritten = written == 0;
   storage.held =
       storage.has_holes ? written_part(dataset, space, shape, storage.chunk, written) : shape.shape;
   return storage;
@@ -113,6 +114,7 @@ std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, s
   const auto item = static_cast<std::int64_t>(std::max<std::size_t>(1, H5Tget_size(type)));
   Hdf5Storage storage;
   storage.elements_held = std::min(elements_of(shape), bytes / item);
+  storage.unwritten = at == HADDR_UNDEF;
   return storage;
 }
 

@@ -22,6 +22,7 @@ struct Hdf5Storage {
   std::vector<std::int64_t> chunk;  ///< empty when it is in one piece
   std::int64_t chunk_bytes = 0;
   std::vector<std::int64_t> held;  ///< of chunked ones, up to where chunks were written
+  bool unwritten = false;          ///< there is room for elements, but none was written
   bool has_holes = false;          ///< some chunks were never written
   std::int64_t elements_held = 0;  ///< of others: from the front on, that the file can hold
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@ namespace {
 constexpr std::size_t kMostObjects = 1 << 14;
 constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kLongestTarget = 4096;  ///< bytes of a link's text
+constexpr std::size_t kLongestPath = 1 << 12;
 
 /// A walk through the groups.
 struct Walk {
@@ -75,6 +77,13 @@ std::string soft_target(const Walk& walk, hid_t group, const char* name, std::si
 herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* walk_at) {
   Walk& walk = *static_cast<Walk*>(walk_at);
   if (++walk.objects > kMostObjects) return 1;
+  if (walk.path.size() + std::strlen(name) > kLongestPath) {
+    walk.tree.issues.add(
+        make_issue("array_damaged", Severity::warning,
+                   fmt::format("what lies below \"{}\" was left out, as its path is longer than any name",
+                               shortened(walk.path, kLongestName))));
+    return 0;
+  }
   if (link->type == H5L_TYPE_HARD) visit(walk, group, name);
   if (link->type == H5L_TYPE_SOFT)
     walk.soft_links.emplace_back(walk.path + name, soft_target(walk, group, name, link->u.val_size));

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-/// Content that is looked at; larger records, such as attachments, are passed over.
+/// Content that is looked at; larger records are passed over.
 constexpr std::uint64_t kLargestContent = kLargestBlock;
 /// Of a message, before its data.
 constexpr std::uint64_t kMessageHead = 22;
@@ -37,9 +37,11 @@ bool is_chunk(std::string_view content, std::uint64_t size) {
 
 void McapRecords::start(std::int64_t file_size) {
   file_size_ = file_size;
-  record_size_ = kMcapMagic.size();
+  record_size_ = 0;
   last_time_ = 0;
-  cut_ = finished_ = damaged_ = false;
+  cut_ = too_large_ = finished_ = damaged_ = behind_footer_ = false;
+  recordings_ = 0;
+  recording_begin_ = 0;
 }
 
 std::uint64_t McapRecords::left() const {
@@ -49,6 +51,7 @@ std::uint64_t McapRecords::left() const {
 
 /// Whether a record that would be found by search stands at the front of `bytes`.
 bool McapRecords::is_record(std::string_view bytes) const {
+  if (bytes.starts_with(kMcapMagic)) return true;  // another recording follows
   ByteCursor head(bytes);
   const auto op = static_cast<McapOp>(head.take<unsigned char>());
   const auto size = head.take<std::uint64_t>();
@@ -86,14 +89,6 @@ bool McapRecords::find_record() {
   return found;
 }
 
-void McapRecords::skip(std::uint64_t size) {
-  while (size > 0 && bytes_.fill(1)) {
-    const std::size_t now = std::min<std::uint64_t>(size, bytes_.view().size());
-    bytes_.advance(now);
-    size -= now;
-  }
-}
-
 void McapRecords::end() {
   finished_ = true;
   damaged_ = true;
@@ -103,45 +98,91 @@ void McapRecords::end() {
                    bytes_.position() + static_cast<std::int64_t>(bytes_.view().size()))});
 }
 
-/// At the footer, behind which the mark of the beginning stands once more.
-void McapRecords::finish_whole() {
-  bytes_.fill(record_size_ + kMcapMagic.size());
+/// Goes past the marks that stand here; a recording begins and ends with one.
+int McapRecords::pass_marks() {
+  int marks = 0;
+  for (; bytes_.fill(kMcapMagic.size()) && bytes_.view().starts_with(kMcapMagic); ++marks) {
+    mark_at_ = bytes_.position();
+    bytes_.advance(kMcapMagic.size());
+  }
+  return marks;
+}
+
+void McapRecords::begin_recording() {
+  behind_footer_ = false;
+  recording_begin_ = mark_at_;
+  last_time_ = 0;
+  if (++recordings_ == 1) return;
+  issues_.add(
+      {"recordings_joined", "", Severity::warning,
+       fmt::format("another recording begins at byte {}, as where files were joined by cat; it is read "
+                   "as part of the log",
+                   recording_begin_)});
+}
+
+/// Behind the footer the mark of the beginning stands once more, and perhaps another recording.
+void McapRecords::end_recording(int marks) {
+  const bool more = bytes_.fill(kMcapRecordHead);
+  const bool header_follows = more && static_cast<McapOp>(bytes_.view()[0]) == McapOp::header;
+  if (marks > 1 || (marks == 1 && header_follows)) return begin_recording();
   finished_ = true;
-  if (bytes_.view().substr(record_size_).starts_with(kMcapMagic)) return;
-  damaged_ = true;
-  issues_.add({"file_truncated", "", Severity::warning,
-               "the last bytes of the file are missing or damaged; they hold no data"});
+  const auto left_over = static_cast<std::int64_t>(bytes_.view().size());
+  if (marks == 0) {
+    damaged_ = true;
+    issues_.add({"file_truncated", "", Severity::warning,
+                 "the last bytes of the file are missing or damaged; they hold no data"});
+  } else if (left_over > 0) {
+    issues_.add(
+        {"trailing_bytes", "", Severity::warning,
+         fmt::format("the bytes from {} on, behind the recording, were not looked at", bytes_.position())});
+  }
+}
+
+/// Whether a record that is larger than is read at once can be what it says.
+bool McapRecords::is_likely(McapOp op, std::uint64_t size) {
+  constexpr std::size_t kHeadOfAChunk = 64;
+  bytes_.fill(kMcapRecordHead + kHeadOfAChunk);
+  const std::string_view content = bytes_.view().substr(kMcapRecordHead);
+  if (op == McapOp::chunk) return is_chunk(content, size);
+  ByteCursor message(content);
+  return op == McapOp::attachment ||
+         (op == McapOp::message && topics_.topic_of(message.take<std::uint16_t>()) >= 0);
+}
+
+/// Takes the record whose head stands here; false when there is none.
+bool McapRecords::take_record() {
+  ByteCursor head(bytes_.view());
+  const auto op = head.take<unsigned char>();
+  const auto size = head.take<std::uint64_t>();
+  op_ = static_cast<McapOp>(op);
+  too_large_ = is_mcap_op(op) && size > kLargestContent && size <= left() && is_likely(op_, size);
+  const bool whole = is_mcap_op(op) && size <= kLargestContent && bytes_.fill(kMcapRecordHead + size);
+  // A chunk or message that the file ends in still holds what came before.
+  cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > left() && op_ == McapOp::chunk &&
+         is_chunk(bytes_.view().substr(kMcapRecordHead), size);
+  if (!whole && !cut_ && !too_large_) return false;
+  size_ = std::min<std::size_t>(size, bytes_.view().size() - kMcapRecordHead);
+  record_size_ = kMcapRecordHead + (too_large_ ? size : size_);
+  behind_footer_ = op_ == McapOp::footer;
+  return true;
 }
 
 bool McapRecords::next() {
-  skip(record_size_);
+  bytes_.skip(record_size_);
   record_size_ = 0;
   while (!finished_) {
+    const int marks = pass_marks();
+    if (behind_footer_)
+      end_recording(marks);
+    else if (marks > 0 && bytes_.fill(1))
+      begin_recording();
+    if (finished_) break;
     if (!bytes_.fill(kMcapRecordHead)) {
       end();
       break;
     }
-    ByteCursor head(bytes_.view());
-    const auto op = head.take<unsigned char>();
-    const auto size = head.take<std::uint64_t>();
-    const bool passed_over = size > kLargestContent && size <= left() && is_mcap_op(op);
-    if (passed_over && static_cast<McapOp>(op) == McapOp::attachment) {
-      skip(kMcapRecordHead + size);
-      continue;
-    }
-    const bool whole = is_mcap_op(op) && size <= kLargestContent && bytes_.fill(kMcapRecordHead + size);
-    // A chunk or message that the file ends in still holds what came before.
-    cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > left() &&
-           static_cast<McapOp>(op) == McapOp::chunk && is_chunk(head.rest(), size);
-    if (!whole && !cut_) {
-      if (!find_record()) end();
-      continue;
-    }
-    op_ = static_cast<McapOp>(op);
-    size_ = std::min<std::size_t>(size, bytes_.view().size() - kMcapRecordHead);
-    record_size_ = kMcapRecordHead + size_;
-    if (op_ == McapOp::footer) finish_whole();
-    return true;
+    if (take_record()) return true;
+    if (!find_record()) end();
   }
   return false;
 }

@@ -26,8 +26,16 @@ class McapRecords {
   McapOp op() const { return op_; }
   /// Valid until the next call; shorter than the record where the file ends in it.
   std::string_view content() const { return bytes_.view().substr(kMcapRecordHead, size_); }
+  /// Of the content as the record says, which may be more than is in view.
+  std::uint64_t size() const { return record_size_ - kMcapRecordHead; }
   /// Whether the file ends in this record.
   bool is_cut() const { return cut_; }
+  /// Whether the record is larger than is read at once; then only its beginning is in content().
+  bool is_too_large() const { return too_large_; }
+  /// Recordings that begin before this record: one, unless the file was joined from several.
+  std::size_t recordings() const { return recordings_; }
+  /// Byte of the file at which the recording begins.
+  std::int64_t recording_begin() const { return recording_begin_; }
   /// Byte of the file at which the record begins.
   std::int64_t begin() const { return bytes_.position(); }
   bool damaged() const { return damaged_; }
@@ -38,9 +46,12 @@ class McapRecords {
   std::uint64_t left() const;
   bool is_record(std::string_view bytes) const;
   bool find_record();
-  void skip(std::uint64_t size);
   void end();
-  void finish_whole();
+  int pass_marks();
+  void begin_recording();
+  void end_recording(int marks);
+  bool is_likely(McapOp op, std::uint64_t size);
+  bool take_record();
 
   ByteWindow& bytes_;
   const McapTopics& topics_;
@@ -50,7 +61,10 @@ class McapRecords {
   std::size_t size_ = 0;           ///< of the content in view
   std::uint64_t record_size_ = 0;  ///< with its head; passed at the next call
   std::uint64_t last_time_ = 0;
-  bool cut_ = false, finished_ = false, damaged_ = false;
+  bool cut_ = false, too_large_ = false, finished_ = false, damaged_ = false;
+  bool behind_footer_ = false;
+  std::size_t recordings_ = 0;
+  std::int64_t recording_begin_ = 0, mark_at_ = 0;
 };
 
 }  // namespace faultline

@@ -9,6 +9,7 @@
 
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/unpack_block.hpp"
+#include "formats/mcap/mcap_chunk.hpp"
 #include "formats/mcap/mcap_index.hpp"
 #include "formats/mcap/mcap_records.hpp"
 #include "formats/mcap/mcap_writer.hpp"
@@ -18,12 +19,6 @@
 
 namespace faultline {
 namespace {
-
-/// A message inside the present chunk.
-struct ChunkedMessage {
-  std::uint64_t log_time_ns = 0;
-  std::string_view content;  ///< of its record
-};
 
 std::optional<BlockPacking> mcap_packing(std::string_view name) {
   if (name.empty()) return BlockPacking::none;
@@ -35,7 +30,10 @@ std::optional<BlockPacking> mcap_packing(std::string_view name) {
 class McapSource : public MessageSource {
  public:
   explicit McapSource(std::unique_ptr<ByteSource> bytes)
-      : bytes_(std::move(bytes)), window_(*bytes_), records_(window_, topics_, issues_) {
+      : bytes_(std::move(bytes)),
+        window_(*bytes_),
+        topics_(bytes_->path()),
+        records_(window_, topics_, issues_) {
     records_.start(size_if_known());
   }
 
@@ -45,12 +43,13 @@ class McapSource : public MessageSource {
   const Issues& issues() const override { return issues_; }
   const std::string& sha256() const override { return bytes_->sha256(); }
   double share_read() const override { return bytes_->share_read(); }
+  void spend(std::int64_t work_ns) override { bytes_->spend(work_ns); }
 
   bool next(Message& message) override {
     while (!at_end_) {
       if (lost_.next(message)) return true;
-      if (next_in_chunk_ < in_chunk_.size()) {
-        if (read_message(in_chunk_[next_in_chunk_++].content, chunk_doubtful_, message)) return true;
+      if (std::string_view content; chunk_.next(content)) {
+        if (read_message(content, chunk_doubtful_, message)) return true;
       } else if (!next_record(message)) {
         end();
       } else if (given_) {
@@ -66,9 +65,8 @@ class McapSource : public MessageSource {
     window_.clear();
     issues_ = {};
     index_ = {};
-    in_chunk_.clear();
+    chunk_.close();
     lost_ = {};
-    next_in_chunk_ = 0;
     given_ = at_end_ = false;
     records_.start(size_if_known());
   }
@@ -81,6 +79,9 @@ class McapSource : public MessageSource {
     if (!records_.next()) return false;
     const std::string_view content = records_.content();
     switch (records_.op()) {
+      case McapOp::header:
+        begin_recording();
+        break;
       case McapOp::schema:
         topics_.add_schema(content);
         break;
@@ -88,7 +89,7 @@ class McapSource : public MessageSource {
         topics_.add_channel(content);
         break;
       case McapOp::message:
-        given_ = read_message(content, false, message);
+        given_ = read_message(content, records_.is_too_large(), message);
         break;
       case McapOp::chunk:
         open_chunk(content);
@@ -111,6 +112,12 @@ class McapSource : public MessageSource {
     return true;
   }
 
+  void begin_recording() {
+    if (records_.recordings() > 1) index_.tell(records_.damaged() || issues_.find("chunk_damaged"), issues_);
+    index_ = {};
+    topics_.start_recording(std::max<std::size_t>(records_.recordings(), 1) - 1);
+  }
+
   void read_provenance(std::string_view content) {
     ByteCursor record(content);
     if (record.text() != kMcapProvenance) return;
@@ -127,6 +134,7 @@ class McapSource : public MessageSource {
     const auto log_time = record.take<std::uint64_t>();
     record.take<std::uint64_t>();
     if (!record.ok()) return false;
+    bytes_->spend(kMessageWork_ns);
     index_.met_message();
     lost_.met(channel);
     message = {topics_.topic_of(channel), static_cast<std::int64_t>(log_time), record.rest(), lost};
@@ -148,57 +156,35 @@ class McapSource : public MessageSource {
     const auto checksum = chunk.take<std::uint32_t>();
     const auto packing = mcap_packing(chunk.text());
     chunk.take<std::uint64_t>();
-    in_chunk_.clear();
-    next_in_chunk_ = 0;
+    chunk_.close();
     lost_.begin_chunk();
     chunk_doubtful_ = false;
     if (!chunk.ok() || !packing) return lose_chunk("its head cannot be read");
-    index_.met_chunk(records_.begin(), static_cast<std::int64_t>(kMcapRecordHead + content.size()));
+    if (records_.is_too_large() || size > kLargestBlock)
+      return lose_chunk(too_large_block(std::max<std::uint64_t>(size, records_.size())));
+    index_.met_chunk(records_.begin() - records_.recording_begin(),
+                     static_cast<std::int64_t>(kMcapRecordHead + content.size()));
     std::string_view inside = chunk.rest();
     bool sound = inside.size() == size;
     if (*packing != BlockPacking::none) {
       sound = unpack_block(*packing, inside, size, unpacked_);
-      inside = unpacked_;
+      inside = unpacked_.view();
+      bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside.size())));
     }
     const bool wrong = sound && checksum != 0 && mcap_crc(inside) != checksum;
     if (records_.is_cut())
       lose_chunk("the file ends in it; what stands before is read", false);
     else if (!sound || wrong)
       lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end");
-    list_messages(inside);
+    chunk_.begin(inside, topics_);
   }
 
-  void lose_chunk(const char* why, bool doubtful = true) {
+  void lose_chunk(const std::string& why, bool doubtful = true) {
     chunk_doubtful_ = doubtful;
     lost_.lose();
     issues_.add({"chunk_damaged", "", Severity::severe,
                  fmt::format("the chunk at byte {}: {}{}", records_.begin(), why,
                              doubtful ? "; its messages were left out" : "")});
-  }
-
-  /// Finds the messages of the open chunk, in the order of their times.
-  void list_messages(std::string_view inside) {
-    bool sorted = true;
-    while (inside.size() >= kMcapRecordHead) {
-      ByteCursor record(inside);
-      const auto op = static_cast<McapOp>(record.take<unsigned char>());
-      const std::string_view content = record.bytes(record.take<std::uint64_t>());
-      if (!record.ok()) break;
-      inside = record.rest();
-      if (op == McapOp::schema) topics_.add_schema(content);
-      if (op == McapOp::channel) topics_.add_channel(content);
-      if (op != McapOp::message) continue;
-      ByteCursor message(content);
-      message.take<std::uint16_t>();
-      message.take<std::uint32_t>();
-      const auto time = message.take<std::uint64_t>();
-      sorted = sorted && (in_chunk_.empty() || in_chunk_.back().log_time_ns <= time);
-      in_chunk_.push_back({time, content});
-    }
-    if (!sorted)
-      std::stable_sort(
-          in_chunk_.begin(), in_chunk_.end(),
-          [](const ChunkedMessage& a, const ChunkedMessage& b) { return a.log_time_ns < b.log_time_ns; });
   }
 
   /// The index behind a damaged chunk tells how many messages it had.
@@ -223,9 +209,8 @@ class McapSource : public MessageSource {
   Issues issues_;
   McapRecords records_;
   McapIndex index_;
-  std::string unpacked_;  ///< the open chunk, where it was compressed
-  std::vector<ChunkedMessage> in_chunk_;
-  std::size_t next_in_chunk_ = 0;
+  BlockBytes unpacked_;          ///< the open chunk, where it was compressed
+  McapChunk chunk_;              ///< the open one
   bool chunk_doubtful_ = false;  ///< its bytes may be wrong
   LostMessages lost_;
   bool given_ = false, at_end_ = false;

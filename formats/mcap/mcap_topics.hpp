@@ -14,17 +14,29 @@ namespace faultline {
 /// Schemas and channels of an MCAP file, as they are met.
 class McapTopics {
  public:
+  /// `path` for messages.
+  explicit McapTopics(const std::string& path) : topics_(path) {}
+  /// From here on numbers are those of this recording of the file, from 0; each has its own.
+  void start_recording(std::size_t recording);
   /// Content of a schema or channel record; those that are damaged or known already are passed over.
   void add_schema(std::string_view content);
   void add_channel(std::string_view content);
-  const std::vector<Topic>& all() const { return topics_; }
+  const std::vector<Topic>& all() const { return topics_.all(); }
   /// Of a channel id; -1 for one that was not met.
   int topic_of(std::uint16_t channel) const;
 
  private:
-  std::map<std::uint16_t, std::string> type_of_schema_;
-  std::map<std::uint16_t, int> topic_of_channel_;
-  std::vector<Topic> topics_;
+  /// Of one recording, by their numbers.
+  struct Numbers {
+    std::map<std::uint16_t, std::string> type_of_schema;
+    std::map<std::uint16_t, int> topic_of_channel;
+  };
+  const Numbers& numbers() const { return recordings_[recording_]; }
+  Numbers& numbers() { return recordings_[recording_]; }
+
+  std::vector<Numbers> recordings_ = std::vector<Numbers>(1);
+  std::size_t recording_ = 0;
+  TopicList topics_;
 };
 
 }  // namespace faultline

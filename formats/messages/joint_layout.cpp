@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "formats/messages/own_topics.hpp"
 #include "lib/core/error.hpp"
@@ -19,6 +20,8 @@ constexpr std::array kMeasured{Quantity::q, Quantity::dq, Quantity::tau};
 constexpr std::array kCommanded{Quantity::q_ref, Quantity::dq_ref, Quantity::tau_ref};
 /// Of a stream with torques only.
 constexpr std::array kMeasuredBeside{Quantity::q, Quantity::dq, Quantity::tau_meas};
+/// Columns beyond those of the log's own joints; each has a value in each row.
+constexpr std::size_t kMostLogColumns = 1024;
 constexpr std::array kArrays{"position", "velocity", "effort"};
 
 std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
@@ -114,8 +117,15 @@ class Layouter {
     add_time(choice, main);
     const std::vector<int> order = order_joints(main, choice, path, layout_.issues);
     add_stream(layout_.main, kMeasured, order);
-    for (int s = 0; s < std::ssize(streams_); ++s)
-      if (s != layout_.main) add_other(s, order);
+    for (int s = 0; s < std::ssize(streams_); ++s) {
+      layout_.is_rival.push_back(s != layout_.main && is_rival(streams_[s], main));
+      if (s == layout_.main) continue;
+      if (layout_.columns.size() + kArrays.size() * streams_[s].joints.size() > kMostLogColumns)
+        leave_out(s);
+      else
+        add_other(s, order);
+    }
+    tell_left_out();
     return std::move(layout_);
   }
 
@@ -153,6 +163,30 @@ class Layouter {
     } else {
       add_stream(s, kMeasured, {});
     }
+  }
+
+  /// Positions, not commanded, of joints on the same topic or with some of the same names.
+  bool is_rival(const JointStream& stream, const JointStream& main) const {
+    const std::string& topic = topics_[stream.topic].name;
+    if (!stream.position || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
+    return stream.topic == main.topic ||
+           std::any_of(stream.joints.begin(), stream.joints.end(), [&](const std::string& joint) {
+             return std::find(main.joints.begin(), main.joints.end(), joint) != main.joints.end();
+           });
+  }
+
+  void leave_out(int s) {
+    add_nothing(s);
+    if (left_out_++ == 0) first_left_out_ = topics_[streams_[s].topic].name;
+  }
+
+  void tell_left_out() {
+    if (left_out_ > 0)
+      layout_.issues.add(
+          {"streams_left_out", "", Severity::warning,
+           fmt::format(
+               "{} further lists of joints, the first on {}, were left out: a log has at most {} columns",
+               left_out_, quoted(std::as_const(first_left_out_)), kMostLogColumns)});
   }
 
   void add_nothing(int s) {
@@ -207,6 +241,8 @@ class Layouter {
   const std::vector<JointStream>& streams_;
   JointLayout layout_;
   bool has_reference_ = false, has_measured_ = false;
+  int left_out_ = 0;  ///< streams for which there are too many columns
+  std::string first_left_out_;
 };
 
 }  // namespace

@@ -23,6 +23,9 @@ struct JointLayout {
   int stamp_column = -1, receipt_column = -1;  ///< s; -1 where it says nothing
   /// By stream: the columns of position, velocity and effort.
   std::vector<std::array<JointColumns, 3>> of_stream;
+  /// By stream: whether its messages could be rows of the log, as those of another publisher or under other
+  /// names.
+  std::vector<bool> is_rival;
   Issues issues;  ///< choices that somebody may want to know of
 };
 

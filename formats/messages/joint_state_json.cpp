@@ -13,6 +13,8 @@ using MessageJson = nlohmann::json;
 constexpr std::int64_t kStateNanoseconds = 1'000'000'000;
 /// Of a stamp; more would not fit 64 bits of nanoseconds.
 constexpr double kStateMostSeconds = 9e9;
+/// Bytes of a message; parsed, it takes many times as much memory.
+constexpr std::size_t kLongestJson = 1 << 20;
 
 /// The first of the members that is a number; 0 for none.
 double number_of(const MessageJson& object, std::initializer_list<const char*> names) {
@@ -52,6 +54,7 @@ PackedNumbers packed(const std::vector<double>& numbers) {
 class JsonDecoder : public JointStateDecoder {
  public:
   bool decode(std::string_view bytes, JointMessage& state) override {
+    if (bytes.size() > kLongestJson) return false;
     const MessageJson message = MessageJson::parse(bytes, nullptr, false);
     if (!message.is_object()) return false;
     if (!take_names(message)) return false;

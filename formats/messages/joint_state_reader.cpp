@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "formats/messages/joint_state_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "formats/messages/alternating_rows.hpp"
 #include "formats/messages/joint_layout.hpp"
+#include "formats/messages/message_issues.hpp"
 #include "formats/messages/receipt_gap.hpp"
+#include "formats/messages/rival_streams.hpp"
 #include "formats/missing.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -17,23 +17,14 @@ namespace {
 /// Joint states that are looked at to find the joints, and bytes of messages of any kind.
 constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;
-constexpr std::size_t kNamedTopics = 20;
+/// Values of a block at most, whatever its columns: 8 MiB.
+constexpr std::size_t kMostBlockValues = 1 << 20;
 
 /// Exact for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
   if (nanoseconds < kExact) return static_cast<double>(nanoseconds) / 1e9;
   return static_cast<double>(nanoseconds / kSecond) + static_cast<double>(nanoseconds % kSecond) / 1e9;
-}
-
-std::string topics_sentence(const std::vector<Topic>& topics) {
-  if (topics.empty()) return "it holds no topic at all";
-  std::string text = "its topics are ";
-  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
-    text += fmt::format("{}\"{}\" ({}, {})", i ? ", " : "", shortened(topics[i].name, kLongestName),
-                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
-  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
-  return text;
 }
 
 class JointStateReader : public RawReader {
@@ -69,12 +60,16 @@ class JointStateReader : public RawReader {
     source_->rewind();
     issues_ = {};
     gap_ = {};
+    alternating_ = {};
+    rivals_ = RivalStreams(streams_.streams(), layout_);
     at_end_ = false;
     identity_.rows_read = 0;
     held_.assign(layout_.columns.size(), kNan);
   }
 
   bool next(RawBlock& block, int max_rows) override {
+    const std::size_t columns = std::max<std::size_t>(1, layout_.columns.size());
+    max_rows = std::min(max_rows, static_cast<int>(std::max<std::size_t>(1, kMostBlockValues / columns)));
     begin_block(block, max_rows);
     block.first_row = identity_.rows_read;
     Message message;
@@ -100,9 +95,15 @@ class JointStateReader : public RawReader {
     if (!learned)
       throw Error(ErrorCode::input, identity_.path,
                   "has no sensor_msgs/JointState message that can be read; " +
-                      topics_sentence(source_->topics()) +
+                      topics_sentence(source_->topics()) + first_issue() +
                       ". Record the topic of the joint states, or export the signals as CSV");
     streams_.settle();
+  }
+
+  /// What was found wrong first, perhaps why there is none.
+  std::string first_issue() const {
+    const Issues& issues = source_->issues();
+    return issues.empty() ? "" : " (" + issues.all().front().message + ")";
   }
 
   /// Whether there was any joint state.
@@ -134,42 +135,53 @@ class JointStateReader : public RawReader {
     const Topic& topic = source_->topics()[message.topic];
     bool damaged = message.lost;
     const JointPlacing* placing = damaged ? nullptr : streams_.read(topic, message, state_, damaged);
-    if (damaged && message.topic == streams_.streams()[layout_.main].topic) {
-      lose_row(message.lost);
-      if (block.rows > 0) return false;
-      block.first_row = identity_.rows_read;
-    } else if (damaged && !message.lost) {
-      issues_.add({"message_damaged", "", Severity::warning,
-                   "a message of \"" + shortened(topic.name, kLongestName) + "\" cannot be read"});
-    } else if (placing && placing->stream < 0) {
-      issues_.add({"joints_appear_late", "", Severity::severe,
-                   "a message of \"" + shortened(topic.name, kLongestName) +
-                       "\" speaks of joints that no earlier one had; it was left out"});
-    } else if (placing && placing->stream == layout_.main) {
-      put_row(message, *placing, block);
-    } else if (placing) {
-      hold(*placing);
+    const bool of_main_topic = message.topic == main_stream().topic;
+    if (damaged && of_main_topic) {
+      issues_.add(lost_row(++identity_.rows_read, message.lost));
+      return pass_lost_row(block);
     }
+    if (placing && placing->stream < 0 && of_main_topic) {
+      issues_.add(late_row(++identity_.rows_read, topic));
+      return pass_lost_row(block);
+    }
+    if (damaged && !message.lost)
+      issues_.add(damaged_message(topic));
+    else if (placing && placing->stream < 0)
+      issues_.add(late_message(topic));
+    else if (placing && placing->stream == layout_.main)
+      put_row(message, *placing, block);
+    else if (placing && lose_rival_rows(placing->stream))
+      return pass_lost_row(block);
+    else if (placing)
+      hold(*placing);
     return true;
   }
 
-  void lose_row(bool with_its_block) {
-    ++identity_.rows_read;
-    const std::int64_t row = identity_.rows_read;
-    if (with_its_block)
-      issues_.add({"messages_lost", "", Severity::severe,
-                   fmt::format("message {} of the joints stood in a damaged part of the file", row), row,
-                   kNan, 1, 1});
-    else
-      issues_.add(
-          {"message_damaged", "", Severity::warning,
-           fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row), row,
-           kNan, 1, 1});
+  const JointStream& main_stream() const { return streams_.streams()[layout_.main]; }
+
+  /// Rows of a block follow each other; false when it must end.
+  bool pass_lost_row(RawBlock& block) const {
+    if (block.rows > 0) return false;
+    block.first_row = identity_.rows_read;
+    return true;
+  }
+
+  /// Whether the message of another stream is a row that the log lacks.
+  bool lose_rival_rows(int s) {
+    const std::int64_t rows = rivals_.rows_lost_by(s);
+    if (rows == 0) return false;
+    const JointStream& stream = streams_.streams()[s];
+    issues_.add(joints_changed(stream, source_->topics()[stream.topic], identity_.rows_read + 1, rows));
+    identity_.rows_read += rows;
+    return true;
   }
 
   void put_row(const Message& message, const JointPlacing& placing, RawBlock& block) {
     const int row = block.rows++;
     ++identity_.rows_read;
+    source_->spend(kRowWork_ns + kValueWork_ns * std::ssize(layout_.columns));
+    rivals_.at_row();
+    if (placing.complete && state_.position.count == placing.joint_of.size()) watch_course(placing);
     gap_.add(state_.stamp_ns, message.receipt_ns);
     put(layout_.stamp_column, row, seconds_of(state_.stamp_ns));
     put(layout_.receipt_column, row, seconds_of(message.receipt_ns));
@@ -179,6 +191,13 @@ class JointStateReader : public RawReader {
     put_array(columns[2], placing, state_.effort, row);
     for (const int column : held_columns_) put(column, row, held_[column]);
     if (!placing.complete) note_partial(placing);
+  }
+
+  void watch_course(const JointPlacing& placing) {
+    positions_.resize(placing.joint_of.size());
+    for (std::size_t i = 0; i < placing.joint_of.size(); ++i)
+      positions_[static_cast<std::size_t>(placing.joint_of[i])] = state_.position[i];
+    alternating_.add(positions_);
   }
 
   void put(int column, int row, double value) {
@@ -197,30 +216,16 @@ class JointStateReader : public RawReader {
       if (joint >= 0 && columns[joint] >= 0) put(columns[joint], row, numbers[i]);
     }
     if (numbers.count > 0 && numbers.count != placing.joint_of.size())
-      issues_.add({"array_length", "", Severity::warning,
-                   fmt::format("message {} has {} values for {} joints; those without a joint were left out, "
-                               "and missing ones are missing",
-                               identity_.rows_read, numbers.count, placing.joint_of.size()),
-                   identity_.rows_read});
+      issues_.add(array_length(identity_.rows_read, numbers.count, placing.joint_of.size()));
   }
 
   void note_partial(const JointPlacing& placing) {
     const auto& joints = streams_.streams()[layout_.main].joints;
-    const bool unknown = std::count(placing.joint_of.begin(), placing.joint_of.end(), -1) > 0;
-    if (unknown)
-      issues_.add(
-          {"joints_appear_late", "", Severity::severe,
-           fmt::format(
-               "message {} speaks of joints that no earlier one had, or of one twice; their values were left out",
-               identity_.rows_read),
-           identity_.rows_read});
+    if (std::count(placing.joint_of.begin(), placing.joint_of.end(), -1) > 0)
+      issues_.add(late_joints(identity_.rows_read));
     const auto missing = std::find(placing.is_present.begin(), placing.is_present.end(), false);
-    if (missing == placing.is_present.end()) return;
-    issues_.add(
-        {"joint_missing", "", Severity::warning,
-         fmt::format("message {} does not speak of joint \"{}\"; its values are missing", identity_.rows_read,
-                     shortened(joints[missing - placing.is_present.begin()], kLongestName)),
-         identity_.rows_read});
+    if (missing != placing.is_present.end())
+      issues_.add(joint_missing(identity_.rows_read, joints[missing - placing.is_present.begin()]));
   }
 
   /// Keeps what another stream says until its next message.
@@ -245,8 +250,11 @@ class JointStateReader : public RawReader {
   }
 
   void end() {
+    if (at_end_) return;
     at_end_ = true;
     identity_.sha256 = source_->sha256();
+    if (alternating_.alternate()) issues_.add(publishers_mixed(source_->topics()[main_stream().topic]));
+    rivals_.tell_end(issues_);
   }
 
   std::unique_ptr<MessageSource> source_;
@@ -258,6 +266,9 @@ class JointStateReader : public RawReader {
   std::vector<double> held_;  ///< by column: the latest value of the other streams
   JointMessage state_;
   ReceiptGap gap_;
+  AlternatingRows alternating_;
+  std::vector<double> positions_;  ///< of the present row, by joint
+  RivalStreams rivals_;
   bool at_end_ = false;
   LogIdentity identity_;
   Issues issues_;

@@ -2,6 +2,7 @@
 #include "formats/messages/joint_streams.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace faultline {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 /// Lists of names that are told apart in one file; a recording has a few.
 constexpr std::size_t kMostPatterns = 256;
 constexpr std::size_t kMostJoints = 256;
+constexpr std::size_t kMostNameBytes = 1 << 15;  ///< bytes of the names in a message
 
 int index_of(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -21,7 +23,8 @@ bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::str
 
 void add_to(JointStream& stream, const JointStream& more) {
   for (const std::string& joint : more.joints)
-    if (index_of(stream.joints, joint) < 0) stream.joints.push_back(joint);
+    if (stream.joints.size() < kMostJoints && index_of(stream.joints, joint) < 0)
+      stream.joints.push_back(joint);
   stream.messages += more.messages;
   stream.position = stream.position || more.position;
   stream.velocity = stream.velocity || more.velocity;
@@ -57,8 +60,10 @@ JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointMessage& s
                                                 const JointStateDecoder& decoder) {
   Pattern*& last = last_[static_cast<std::size_t>(topic)];
   if (last && last->encoded == state.names) return last;
-  for (const auto& pattern : patterns_)
-    if (pattern->topic == topic && pattern->encoded == state.names) return last = pattern.get();
+  if (state.names.size() > kMostNameBytes) return nullptr;
+  std::string key = std::to_string(topic) + ' ';
+  key += state.names;
+  if (const auto known = pattern_of_.find(key); known != pattern_of_.end()) return last = known->second;
   if (patterns_.size() == kMostPatterns) return nullptr;
   auto fresh = std::make_unique<Pattern>();
   fresh->topic = topic;
@@ -66,6 +71,7 @@ JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointMessage& s
   fresh->names = names_in(state, decoder);
   if (settled_) place(*fresh);
   patterns_.push_back(std::move(fresh));
+  pattern_of_.emplace(std::move(key), patterns_.back().get());
   return last = patterns_.back().get();
 }
 
@@ -138,9 +144,9 @@ const JointPlacing* JointStreams::read(const Topic& topic, const Message& messag
   if (!decoder) return nullptr;
   damaged = !decoder->decode(message.bytes, state);
   if (damaged) return nullptr;
+  static const JointPlacing kNowhere;
   const Pattern* pattern = pattern_of(message.topic, state, *decoder);
-  damaged = pattern == nullptr;
-  return pattern ? &pattern->placing : nullptr;
+  return pattern ? &pattern->placing : &kNowhere;
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "formats/messages/joint_state.hpp"
@@ -40,7 +41,7 @@ class JointStreams {
   const std::vector<JointStream>& streams() const { return streams_; }
 
   /// Reads a message; null when it is no JointState, or is damaged (then `damaged` is set). Both results are
-  /// valid until the next call.
+  /// valid until the next call. Lists of names beyond the most that are told apart lead to no stream.
   const JointPlacing* read(const Topic& topic, const Message& message, JointMessage& state, bool& damaged);
 
  private:
@@ -61,7 +62,8 @@ class JointStreams {
   std::vector<std::unique_ptr<JointStateDecoder>> decoders_;  ///< by topic
   std::vector<bool> asked_;                                   ///< by topic, whether there is a decoder
   std::vector<std::unique_ptr<Pattern>> patterns_;
-  std::vector<Pattern*> last_;  ///< by topic
+  std::vector<Pattern*> last_;                            ///< by topic
+  std::unordered_map<std::string, Pattern*> pattern_of_;  ///< by topic and encoded names
   std::vector<JointStream> streams_;
   bool settled_ = false;
 };

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "lib/core/issue.hpp"
@@ -15,13 +18,28 @@ struct Topic {
   std::string name;
   std::string type;      ///< such as "sensor_msgs/msg/JointState"
   std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
-
-  bool operator==(const Topic&) const = default;
 };
 
-/// The index of a topic, which is added unless it is there: what a second publisher or a driver that was
-/// started again sends belongs to the same one.
-int add_topic(std::vector<Topic>& topics, const Topic& topic);
+/// Bytes of each text of a topic that are kept; no name is as long.
+inline constexpr std::size_t kLongestTopicText = 1 << 12;
+
+/// The topics of a recording as they are met.
+class TopicList {
+ public:
+  /// `path` for messages.
+  explicit TopicList(std::string path) : path_(std::move(path)) {}
+  /// The index of a topic, which is added unless it is there: what a second publisher or a driver that was
+  /// started again sends belongs to the same one. Throws Error(input) when there are more than any recording
+  /// has.
+  int add(Topic topic);
+  const std::vector<Topic>& all() const { return topics_; }
+
+ private:
+  std::string path_;
+  std::vector<Topic> topics_;
+  std::map<std::tuple<std::string, std::string, std::string>, int> index_of_;
+  std::size_t bytes_ = 0;
+};
 
 /// One message. The bytes are valid until the next one is asked for.
 struct Message {
@@ -45,6 +63,8 @@ class MessageSource {
   /// Starts again, with issues empty; the topics stay.
   virtual void rewind() = 0;
   virtual const Issues& issues() const = 0;
+  /// Counts work on the message, see WorkBudget.
+  virtual void spend(std::int64_t work_ns) = 0;
   /// Of the file once its end was reached, empty before.
   virtual const std::string& sha256() const = 0;
   virtual double share_read() const = 0;

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/array_reader.hpp"
@@ -19,6 +22,7 @@ namespace {
 
 constexpr std::string_view kNpyEnding = ".npy";
 constexpr std::size_t kLongestNotes = 1 << 24;
+constexpr std::size_t kNamedMembers = 8;
 
 std::unique_ptr<ArrayFile> open_npy_file(const std::string& path) {
   auto file = std::make_unique<RandomFile>(path);
@@ -63,6 +67,27 @@ std::string read_text(const RandomFile& file, const StoredContent& member) {
   return text.empty() ? " " : text;
 }
 
+/// A ZIP archive without arrays of NumPy: what it is, and what to do.
+std::string other_archive(const std::vector<StoredContent>& members) {
+  const auto has = [&](std::string_view begin) {
+    return std::any_of(members.begin(), members.end(),
+                       [&](const StoredContent& member) { return member.name.starts_with(begin); });
+  };
+  if (has("xl/")) return "is an Excel workbook; save the sheet with the log as CSV in UTF-8";
+  if (has("content.xml")) return "is an OpenDocument file; save the sheet with the log as CSV in UTF-8";
+  if (has("word/") || has("ppt/")) return "is a document of Office and no log; export the log itself as CSV";
+  std::string names;
+  std::size_t files = 0;
+  for (const StoredContent& member : members) {
+    if (member.name.ends_with('/')) continue;
+    if (++files <= kNamedMembers) names += (files > 1 ? ", " : "") + shortened(member.name, kLongestName);
+  }
+  if (files == 0) return "is an empty ZIP archive";
+  if (files > kNamedMembers) names += fmt::format(" and {} more", files - kNamedMembers);
+  return "is a ZIP archive without arrays of NumPy; it holds " + names +
+         ". Unpack it first, and give the file that is the log";
+}
+
 std::unique_ptr<ArrayFile> open_npz_file(const std::string& path) {
   auto file = std::make_unique<RandomFile>(path);
   StoredList list;
@@ -73,6 +98,9 @@ std::unique_ptr<ArrayFile> open_npz_file(const std::string& path) {
     else if (list.contents[i].name.ends_with(kNpyEnding))
       add_member(*file, i, list);
   }
+  const bool any = std::any_of(list.contents.begin(), list.contents.end(),
+                               [](const StoredContent& member) { return member.name.ends_with(kNpyEnding); });
+  if (!any && list.issues.empty()) throw Error(ErrorCode::input, path, other_archive(list.contents));
   return std::make_unique<StoredArrays>(std::move(file), std::move(list));
 }
 

@@ -8,13 +8,20 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr int kLongestMessage = 1 << 28;
+constexpr int kLongestMessage = 1 << 26;
+constexpr int kMostCacheKib = 16 << 10;
+/// Steps of SQLite's machine between two counts of the work, and the usual time for one; a message takes some
+/// ten.
+constexpr int kCountedSteps = 1000;
+constexpr std::int64_t kStep_ns = 20;
+constexpr std::int64_t kMessageByte_ns = 1;
 constexpr const char* kFromNumber =
     "SELECT id, topic_id, timestamp, data FROM messages WHERE id >= ?1 ORDER BY id";
 
@@ -31,6 +38,26 @@ std::string text_of(sqlite3_stmt* statement, int column) {
   return text ? std::string(text, sqlite3_column_bytes(statement, column)) : std::string();
 }
 
+/// Only tables are read, and nothing is computed but the largest number of a message.
+int allow(void*, int action, const char*, const char* detail, const char*, const char*) {
+  switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_READ:
+      return SQLITE_OK;
+    case SQLITE_FUNCTION:
+      return detail && std::string_view(detail) == "max" ? SQLITE_OK : SQLITE_DENY;
+    default:
+      return SQLITE_DENY;
+  }
+}
+
+/// Bytes of a file, 0 when it is not there.
+std::int64_t bytes_of(const std::string& path) {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path, none);
+  return none ? 0 : static_cast<std::int64_t>(bytes);
+}
+
 /// The file as it stands, without locks; what a recorder left in a log beside it counts.
 std::string uri_of(const std::string& path) {
   std::string uri = "file:";
@@ -43,9 +70,13 @@ std::string uri_of(const std::string& path) {
 
 }  // namespace
 
-MessageTable::MessageTable(const std::string& path) : path_(path) {
+MessageTable::MessageTable(const std::string& path)
+    : path_(path), topics_(path), file_bytes_(bytes_of(path) + bytes_of(path + "-wal")), budget_(path) {
   try {
     open(path);
+    bound_work();
+    for (const char* table : {"topics", "messages"}) refuse_computed(table);
+    sqlite3_set_authorizer(db_, allow, nullptr);
     read_topics();
   } catch (...) {
     sqlite3_close(db_);
@@ -73,6 +104,53 @@ void MessageTable::open(const std::string& path) {
   sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
 }
 
+/// What SQLite is asked for ends when it takes far more steps than a file of this size has use for.
+void MessageTable::bound_work() {
+  sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
+               nullptr, nullptr, nullptr);
+  sqlite3_progress_handler(
+      db_, kCountedSteps,
+      [](void* self) {
+        auto& table = *static_cast<MessageTable*>(self);
+        try {
+          table.budget_.spend(kCountedSteps * kStep_ns, table.file_bytes_);
+        } catch (const Error&) {
+          table.over_budget_ = true;
+        }
+        return table.over_budget_ ? 1 : 0;
+      },
+      this);
+}
+
+void MessageTable::refuse_work() const {
+  fail(
+      "asks SQLite for far more work than a recording of its size needs, and was not read on; a recording of "
+      "rosbag2 has plain tables of topics and messages. Export it as CSV");
+}
+
+/// A view, a virtual table or a column that is computed could make any amount of work of a small file.
+void MessageTable::refuse_computed(const char* table) {
+  const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
+  if (!kind) return;
+  sqlite3_bind_text(kind.get(), 1, table, -1, SQLITE_STATIC);
+  if (sqlite3_step(kind.get()) == SQLITE_ROW &&
+      (text_of(kind.get(), 0) != "table" || sqlite3_column_type(kind.get(), 1) != SQLITE_TEXT ||
+       text_of(kind.get(), 1).find("VIRTUAL") != std::string::npos))
+    fail(fmt::format(
+        "is no rosbag2 recording: \"{}\" is no plain table but is computed, which is not run. Export "
+        "it as CSV",
+        table));
+  const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
+  if (!columns) return;
+  sqlite3_bind_text(columns.get(), 1, table, -1, SQLITE_STATIC);
+  while (sqlite3_step(columns.get()) == SQLITE_ROW)
+    if (sqlite3_column_int(columns.get(), 0) != 0)
+      fail(fmt::format(
+          "is no rosbag2 recording: the table \"{}\" has a column that is computed, which is not run. "
+          "Export it as CSV",
+          table));
+}
+
 void MessageTable::read_topics() {
   const Statement topics =
       prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
@@ -82,19 +160,24 @@ void MessageTable::read_topics() {
         "topics and messages. Export it as CSV",
         sqlite3_errmsg(db_)));
   while (sqlite3_step(topics.get()) == SQLITE_ROW) {
+    spend(kMessageWork_ns);
     topic_of_id_.emplace(
         sqlite3_column_int64(topics.get(), 0),
-        add_topic(topics_, {text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
+        topics_.add({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
   }
+  if (over_budget_) refuse_work();
 }
 
 void MessageTable::find_last_number() {
   const Statement last = prepared(db_, "SELECT max(id) FROM messages");
   last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
+  if (over_budget_) refuse_work();
 }
 
 void MessageTable::rewind() {
   number_ = std::numeric_limits<std::int64_t>::min();
+  budget_.start();
+  over_budget_ = false;
   find_last_number();
   seek(number_);
   at_row_ = at_end_ = false;
@@ -117,6 +200,7 @@ bool MessageTable::pass_damage(Issues& issues) {
   std::int64_t step = 1;
   while (step < kFarthest && !seek(first + step)) step *= 2;
   const bool found = at_row_;
+  if (over_budget_) refuse_work();
   if (found) {
     std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at the one, not at the other
     while (light - dark > 1) {
@@ -138,6 +222,7 @@ bool MessageTable::next(Message& message, Issues& issues) {
     if (!at_row_) {
       const int result = sqlite3_step(messages_);
       const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
+      if (over_budget_) refuse_work();
       at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
       if (at_end_) break;
     }
@@ -157,6 +242,7 @@ bool MessageTable::take(Message& message, Issues& issues) {
     return false;
   }
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
+  spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_, 3));
   message = {topic->second,
              sqlite3_column_int64(messages_, 2),
              {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "formats/rosbag/rosbag1_record.hpp"
 
+#include <algorithm>
+
 #include "formats/bytes/byte_cursor.hpp"
 
 namespace faultline {
@@ -42,6 +44,19 @@ std::uint64_t rosbag1_record_size(std::string_view bytes) {
   record.text();
   const std::uint64_t data = record.take<std::uint32_t>();
   return record.ok() ? record.position() + data : 0;
+}
+
+std::size_t rosbag1_record_before(std::string_view bytes, std::size_t at, std::uint64_t left) {
+  constexpr std::size_t kFarthest = 256;
+  for (std::size_t back = 2 * sizeof(std::uint32_t); back <= std::min(at, kFarthest); ++back) {
+    const std::string_view candidate = bytes.substr(at - back);
+    const auto header = ByteCursor(candidate).take<std::uint32_t>();
+    if (header < back || header > kFarthest) continue;
+    const Rosbag1Fields fields(candidate.substr(sizeof header, header));
+    const std::uint64_t size = rosbag1_record_size(candidate);
+    if (fields.has_op() && size > 0 && size <= left) return at - back;
+  }
+  return std::string_view::npos;
 }
 
 }  // namespace faultline

@@ -47,4 +47,7 @@ Rosbag1Record rosbag1_record(std::string_view bytes);
 /// of its data is not.
 std::uint64_t rosbag1_record_size(std::string_view bytes);
 
+/// Where a record of at most `left` bytes begins in whose header the operation stands at `at`; npos for none.
+std::size_t rosbag1_record_before(std::string_view bytes, std::size_t at, std::uint64_t left);
+
 }  // namespace faultline

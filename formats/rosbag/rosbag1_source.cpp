@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -33,16 +34,18 @@ std::optional<BlockPacking> bag_packing(std::string_view name) {
 
 class Rosbag1Source : public MessageSource {
  public:
-  explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)), window_(*bytes_) {
+  explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes)
+      : bytes_(std::move(bytes)), window_(*bytes_), topics_(bytes_->path()) {
     start();
   }
 
   const std::string& path() const override { return bytes_->path(); }
   const char* format() const override { return "rosbag1"; }
-  const std::vector<Topic>& topics() const override { return topics_; }
+  const std::vector<Topic>& topics() const override { return topics_.all(); }
   const Issues& issues() const override { return issues_; }
   const std::string& sha256() const override { return bytes_->sha256(); }
   double share_read() const override { return bytes_->share_read(); }
+  void spend(std::int64_t work_ns) override { bytes_->spend(work_ns); }
 
   bool next(Message& message) override {
     while (!at_end_) {
@@ -71,11 +74,12 @@ class Rosbag1Source : public MessageSource {
     inside_ = {};
     lost_ = {};
     given_ = at_end_ = chunk_doubtful_ = false;
-    record_size_ = kRosbag1Magic.size();
+    record_size_ = 0;
+    recordings_ = 0;
   }
 
   std::uint64_t left() const {
-    if (bytes_->compression() || bytes_->file_size() == 0) return kLargestBlock;
+    if (bytes_->compression() || bytes_->file_size() == 0) return std::numeric_limits<std::uint64_t>::max();
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes_->file_size() - window_.position()));
   }
 
@@ -85,18 +89,23 @@ class Rosbag1Source : public MessageSource {
     const auto header = ByteCursor(window_.view()).take<std::uint32_t>();
     if (header > kSourceLongestHeader || !window_.fill(header + kLeastRecord)) return 0;
     if (!Rosbag1Fields(window_.view().substr(sizeof header, header)).has_op()) return 0;
-    const std::uint64_t size = rosbag1_record_size(window_.view());
-    return size <= kLargestBlock ? size : 0;
+    return rosbag1_record_size(window_.view());
   }
 
   /// Takes the next record; `given_` when it is a message. False at the end.
   bool next_record(Message& message) {
-    window_.fill(record_size_);
-    window_.advance(std::min<std::size_t>(record_size_, window_.view().size()));
+    window_.skip(record_size_);
     record_size_ = 0;
+    pass_mark();
     if (!window_.fill(1)) return false;
     const std::uint64_t size = likely_size();
-    if (size == 0) return find_record();
+    if (size > kLargestBlock && size <= left() && is_chunk()) {
+      lost_.begin_chunk();
+      lose_chunk(too_large_block(size));
+      record_size_ = size;
+      return true;
+    }
+    if (size == 0 || size > kLargestBlock) return find_record();
     const bool whole = size <= left() && window_.fill(size);
     if (!whole && !is_chunk()) {
       // Either its length is wrong, then others follow, or the file is cut in it.
@@ -106,6 +115,23 @@ class Rosbag1Source : public MessageSource {
     take(window_.view().substr(0, record_size_), whole, message);
     return true;
   }
+
+  /// A bag begins with a mark, and so does another one that was appended, whose connections have numbers of
+  /// their own.
+  void pass_mark() {
+    if (!window_.fill(kRosbag1Magic.size()) || !window_.view().starts_with(kRosbag1Magic)) return;
+    if (recordings_ > 0)
+      issues_.add(
+          {"recordings_joined", "", Severity::warning,
+           fmt::format("another bag begins at byte {}, as where files were joined by cat; it is read as "
+                       "part of the log",
+                       window_.position())});
+    if (topics_of_.size() == recordings_) topics_of_.emplace_back();
+    ++recordings_;
+    window_.advance(kRosbag1Magic.size());
+  }
+
+  std::map<std::uint32_t, int>& topic_of() { return topics_of_[recordings_ - 1]; }
 
   bool is_chunk() {
     const auto header = ByteCursor(window_.view()).text();
@@ -121,35 +147,27 @@ class Rosbag1Source : public MessageSource {
       window_.fill(kSourceSearchedAtOnce);
       const std::string_view view = window_.view();
       const auto at = view.find("op=");
+      const auto mark =
+          view.substr(0, at == std::string_view::npos ? at : at + kRosbag1Magic.size()).find(kRosbag1Magic);
+      if (mark < at) {
+        window_.advance(mark);
+        found = true;
+        break;
+      }
       constexpr std::size_t kBefore = 2 * sizeof(std::uint32_t);
       // Headers that this program looks for begin with their operation or have it soon.
       if (at == std::string_view::npos) {
         window_.advance(view.size() > kSourceSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
         continue;
       }
-      found = step_to_header(at);
+      const auto begins = rosbag1_record_before(view, at, left());
+      found = begins != std::string_view::npos;
+      window_.advance(found ? begins : at + 1);
     } while (!found && !window_.view().empty());
     issues_.add(
         {"records_damaged", "", Severity::severe,
          fmt::format("bytes {} to {} are no records; what they held is lost", begin, window_.position())});
     return found;
-  }
-
-  /// Looks for the beginning of the header in which "op=" stands at `at`; else passes it.
-  bool step_to_header(std::size_t at) {
-    constexpr std::size_t kFarthest = 256;
-    for (std::size_t back = 2 * sizeof(std::uint32_t); back <= std::min(at, kFarthest); ++back) {
-      const std::string_view candidate = window_.view().substr(at - back);
-      const auto header = ByteCursor(candidate).take<std::uint32_t>();
-      if (header < back || header > kFarthest) continue;
-      const Rosbag1Fields fields(candidate.substr(sizeof header, header));
-      if (!fields.has_op() || rosbag1_record_size(candidate) == 0) continue;
-      if (rosbag1_record_size(candidate) > left()) continue;
-      window_.advance(at - back);
-      return true;
-    }
-    window_.advance(at + 1);
-    return false;
   }
 
   void take(std::string_view bytes, bool whole, Message& message) {
@@ -176,16 +194,17 @@ class Rosbag1Source : public MessageSource {
 
   void add_connection(const Rosbag1Fields& fields, std::string_view data) {
     const std::uint32_t id = fields.word("conn");
-    if (topic_of_.count(id)) return;
-    topic_of_.emplace(id, add_topic(topics_, {std::string(fields.text("topic")),
-                                              std::string(Rosbag1Fields(data).text("type")), "ros1"}));
+    if (topic_of().count(id)) return;
+    topic_of().emplace(id, topics_.add({std::string(fields.text("topic")),
+                                        std::string(Rosbag1Fields(data).text("type")), "ros1"}));
   }
 
   bool read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {
     const std::uint32_t id = fields.word("conn");
     lost_.met(id);
-    const auto topic = topic_of_.find(id);
-    if (topic == topic_of_.end()) {
+    bytes_->spend(kMessageWork_ns);
+    const auto topic = topic_of().find(id);
+    if (topic == topic_of().end()) {
       issues_.add(
           {"channel_unknown", "", Severity::warning,
            fmt::format("a message of connection {} was left out, as the file does not tell what it is", id)});
@@ -200,11 +219,13 @@ class Rosbag1Source : public MessageSource {
     const auto packing = bag_packing(fields.text("compression"));
     const std::uint32_t size = fields.word("size");
     if (!packing) return lose_chunk("its compression is not known");
+    if (size > kLargestBlock) return lose_chunk(too_large_block(size));
     bool sound = data.size() == size;
     inside_ = data;
     if (*packing != BlockPacking::none) {
       sound = unpack_block(*packing, data, size, unpacked_);
-      inside_ = unpacked_;
+      inside_ = unpacked_.view();
+      bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside_.size())));
     }
     if (!whole)
       lose_chunk("the file ends in it; what stands before is read");
@@ -213,7 +234,7 @@ class Rosbag1Source : public MessageSource {
     chunk_doubtful_ = whole && !sound;
   }
 
-  void lose_chunk(const char* why) {
+  void lose_chunk(const std::string& why) {
     lost_.lose();
     issues_.add({"chunk_damaged", "", Severity::severe,
                  fmt::format("the chunk at byte {}: {}", window_.position(), why)});
@@ -234,8 +255,8 @@ class Rosbag1Source : public MessageSource {
 
   /// The index behind a damaged chunk tells how many messages it had.
   void count_lost(const Rosbag1Fields& fields) {
-    const auto topic = topic_of_.find(fields.word("conn"));
-    if (topic == topic_of_.end()) return;
+    const auto topic = topic_of().find(fields.word("conn"));
+    if (topic == topic_of().end()) return;
     // Entries take 12 bytes each in the data, which was read with the record.
     constexpr std::size_t kEntry = 12;
     lost_.told(topic->first, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry),
@@ -250,11 +271,12 @@ class Rosbag1Source : public MessageSource {
 
   std::unique_ptr<ByteSource> bytes_;
   ByteWindow window_;
-  std::vector<Topic> topics_;
-  std::map<std::uint32_t, int> topic_of_;  ///< by connection
+  TopicList topics_;
+  std::size_t recordings_ = 0;                           ///< that have begun
+  std::vector<std::map<std::uint32_t, int>> topics_of_;  ///< by recording, of each connection
   Issues issues_;
   std::uint64_t record_size_ = 0;  ///< of the present record; passed at the next one
-  std::string unpacked_;           ///< the open chunk, where it was compressed
+  BlockBytes unpacked_;            ///< the open chunk, where it was compressed
   std::string_view inside_;        ///< what is left of the open chunk
   bool chunk_doubtful_ = false;    ///< its bytes may be wrong
   LostMessages lost_;

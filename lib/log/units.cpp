@@ -26,9 +26,9 @@ Units known_units() {
        "segundos", "secondi"});
   add(Dimension::time, 1e-3,
       {"ms", "msec", "millisec", "milliseconds", "millisekunden", "millisecondes", "milisegundos",
-       "millisecondi"});
-  add(Dimension::time, 1e-6, {"us", "µs", "usec", "microseconds"});
-  add(Dimension::time, 1e-9, {"ns", "nsec", "nanosec", "nanoseconds"});
+       "millisecondi", "millis"});
+  add(Dimension::time, 1e-6, {"us", "µs", "usec", "microsec", "microseconds", "micros"});
+  add(Dimension::time, 1e-9, {"ns", "nsec", "nanosec", "nanoseconds", "nanos"});
   add(Dimension::time, 60.0, {"min"});
   add(Dimension::angle, 1.0, {"rad", "radian", "radians", "radianes", "radianti", "bogenmaß"});
   add(Dimension::angle, 1e-3, {"mrad"});
@@ -77,9 +77,10 @@ std::string plain(std::string_view unit) {
 
 /// Units that are one after an underscore too; "_m", "_a" or "_min" more often mean something else.
 bool is_clear_suffix(std::string_view unit) {
-  for (const char* known : {"s",      "sec",     "ms",  "msec",  "us",    "usec",  "ns",   "nsec",    "deg",
-                            "rad",    "mm",      "rpm", "nm",    "mnm",   "ncm",   "knm",  "percent", "%",
-                            "degree", "degrees", "dps", "degps", "rad/s", "deg/s", "mm/s", "m/s"})
+  for (const char* known :
+       {"s",      "sec",    "ms",      "msec", "us",    "usec",  "ns",    "nsec", "deg", "micros",
+        "millis", "nanos",  "rad",     "mm",   "rpm",   "nm",    "mnm",   "ncm",  "knm", "percent",
+        "%",      "degree", "degrees", "dps",  "degps", "rad/s", "deg/s", "mm/s", "m/s"})
     if (plain(unit) == known) return true;
   return false;
 }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "formats/messages/message_issues.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "formats/missing.hpp"
+#include "lib/core/text.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kNamedTopics = 20, kNamedJoints = 8;
+
+std::string name_of(const Topic& topic) { return shortened(topic.name, kLongestName); }
+
+}  // namespace
+
+std::string topics_sentence(const std::vector<Topic>& topics) {
+  if (topics.empty()) return "it holds no topic at all";
+  std::string text = "its topics are ";
+  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
+    text += fmt::format("{}\"{}\" ({}, {})", i ? ", " : "", shortened(topics[i].name, kLongestName),
+                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
+  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
+  return text;
+}
+
+Issue lost_row(std::int64_t row, bool with_its_block) {
+  if (with_its_block)
+    return {"messages_lost",
+            "",
+            Severity::severe,
+            fmt::format("message {} of the joints stood in a damaged part of the file", row),
+            row,
+            kNan,
+            1,
+            1};
+  return {"message_damaged",
+          "",
+          Severity::warning,
+          fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row),
+          row,
+          kNan,
+          1,
+          1};
+}
+
+Issue late_row(std::int64_t row, const Topic& topic) {
+  return {
+      "joints_appear_late",
+      "",
+      Severity::severe,
+      fmt::format("message {} of \"{}\" speaks of joints that no earlier one had, or in more orders than a "
+                  "recording has; it was left out",
+                  row, name_of(topic)),
+      row,
+      kNan,
+      1,
+      1};
+}
+
+Issue joints_changed(const JointStream& stream, const Topic& topic, std::int64_t first, std::int64_t rows) {
+  std::string joints;
+  for (std::size_t j = 0; j < std::min(kNamedJoints, stream.joints.size()); ++j)
+    joints += (j > 0 ? ", " : "") + shortened(stream.joints[j], kLongestName);
+  return {
+      "joints_changed",
+      "",
+      Severity::severe,
+      fmt::format("from row {} on only messages of \"{}\" about the joints {} follow, which are not those of "
+                  "the log: names or topic changed, or another robot goes on. They were left out; name their "
+                  "[log] topic and joints in a robot file to read them instead",
+                  first, name_of(topic), joints),
+      first,
+      kNan,
+      rows,
+      rows};
+}
+
+Issue damaged_message(const Topic& topic) {
+  return {"message_damaged", "", Severity::warning, "a message of \"" + name_of(topic) + "\" cannot be read"};
+}
+
+Issue late_message(const Topic& topic) {
+  return {
+      "joints_appear_late", "", Severity::severe,
+      "a message of \"" + name_of(topic) + "\" speaks of joints that no earlier one had; it was left out"};
+}
+
+Issue late_joints(std::int64_t row) {
+  return {
+      "joints_appear_late", "", Severity::severe,
+      fmt::format("message {} speaks of joints that no earlier one had, or of one twice; their values were "
+                  "left out",
+                  row),
+      row};
+}
+
+Issue joint_missing(std::int64_t row, const std::string& joint) {
+  return {"joint_missing", "", Severity::warning,
+          fmt::format("message {} does not speak of joint \"{}\"; its values are missing", row,
+                      shortened(joint, kLongestName)),
+          row};
+}
+
+Issue array_length(std::int64_t row, std::size_t values, std::size_t joints) {
+  return {"array_length", "", Severity::warning,
+          fmt::format(
+              "message {} has {} values for {} joints; those without a joint were left out, and missing ones "
+              "are missing",
+              row, values, joints),
+          row};
+}
+
+Issue publishers_mixed(const Topic& topic) {
+  return {
+      "publishers_mixed", "", Severity::severe,
+      "the positions jump to and fro from row to row between two courses, as where two publishers send on \"" +
+          name_of(topic) + "\"; record them on topics of their own"};
+}
+
+}  // namespace faultline
