@@ -10,6 +10,7 @@
 #include "lib/fault/label_text.hpp"
 #include "lib/monitor/model_rate.hpp"
 #include "lib/replay/expected_joint.hpp"
+#include "lib/replay/required_torque.hpp"
 #include "lib/report/json.hpp"
 
 namespace faultline {
@@ -21,7 +22,8 @@ ComputedSignals signals_of(const char* topic, int joints, bool with_velocity) {
 }
 
 /// Residuals in units of their healthy rms, that of the torque in N m or N.
-ComputedRows computed_rows(const Model& model, const Log& segment, const Residuals& residuals) {
+ComputedRows computed_rows(const Model& model, const Log& segment, const Residuals& residuals,
+                           const RequiredTorque& torque) {
   ComputedRows computed;
   const int joints = residuals.joints();
   if (joints == 0) return computed;
@@ -35,7 +37,7 @@ ComputedRows computed_rows(const Model& model, const Log& segment, const Residua
           expected_joint(model.residual.healthy, segment, computed.row.back(), residuals, i, j);
       predicted.position[j].push_back(expected.q);
       if (measured) predicted.velocity[j].push_back(expected.dq);
-      predicted.effort[j].push_back(expected.tau_required);
+      predicted.effort[j].push_back(torque(j, computed.row.back()));
       residual.position[j].push_back(residuals.position(j, i));
       residual.velocity[j].push_back(residuals.velocity(j, i));
       residual.effort[j].push_back(residuals.torque(j, i));
@@ -65,9 +67,11 @@ void write_recording(const std::string& path, LogSource& log, const Model& model
   std::unique_ptr<LogSource> kept;
   LogSource& judged = judged_rows(log, model, diagnosis.log.issues, kept);
   ResidualState state;
-  for (Log segment; judged.next(segment);)
-    recording->write(segment,
-                     computed_rows(model, segment, compute_residuals(model.residual, segment, state)));
+  for_each_with_required_torque(
+      judged, model, diagnosis, [&](const Log& segment, const RequiredTorque& torque) {
+        const Residuals residuals = compute_residuals(model.residual, segment, state);
+        recording->write(segment, computed_rows(model, segment, residuals, torque));
+      });
   for (const FaultFinding& fault : diagnosis.faults)
     if (!fault.trace.time.empty()) recording->write(evidence_of(fault));
   const std::string report = render_json(diagnosis);

@@ -12,7 +12,6 @@ ExpectedJoint expected_joint(const HealthyResiduals& healthy, const Log& segment
   expected.dq = segment.dq.empty()
                     ? std::numeric_limits<double>::quiet_NaN()
                     : segment.dq[joint][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint];
-  expected.tau_required = residuals.tau(joint, i) + residuals.torque(joint, i);
   return expected;
 }
 

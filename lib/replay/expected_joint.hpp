@@ -6,10 +6,9 @@
 
 namespace faultline {
 
-/// What was expected of the healthy robot at the row where a prediction ends.
+/// What was expected of the healthy robot one step ahead, at the row where a prediction ends.
 struct ExpectedJoint {
-  double q = 0.0, dq = 0.0;   ///< one step ahead, rad or m and per s; dq is NaN without measured velocities
-  double tau_required = 0.0;  ///< N m or N, by the motion that was measured
+  double q = 0.0, dq = 0.0;  ///< rad or m and per s; dq is NaN without measured velocities
 };
 
 /// Of joint `joint` (from 0) by prediction `i` of `residuals`, which belongs to row `row` of the segment.

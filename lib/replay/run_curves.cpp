@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "lib/monitor/model_rate.hpp"
+#include "lib/replay/required_torque.hpp"
 #include "lib/replay/window_curves.hpp"
 
 namespace faultline {
@@ -93,11 +94,12 @@ RunCurves run_curves(LogSource& log, const Model& model, const Diagnosis& diagno
   std::unique_ptr<LogSource> kept;
   LogSource& judged = judged_rows(log, model, facts.issues, kept);
   ResidualState state;
-  for (Log segment; judged.next(segment);) {
-    const Residuals residuals = compute_residuals(model.residual, segment, state);
-    whole.take(segment, residuals);
-    for (WindowCurves& detail : details) detail.take(segment, residuals);
-  }
+  for_each_with_required_torque(
+      judged, model, diagnosis, [&](const Log& segment, const RequiredTorque& torque) {
+        const Residuals residuals = compute_residuals(model.residual, segment, state);
+        whole.take(segment, residuals, torque);
+        for (WindowCurves& detail : details) detail.take(segment, residuals, torque);
+      });
   curves.whole = whole.curves();
   for (const WindowCurves& detail : details) curves.details.push_back(detail.curves());
   return curves;

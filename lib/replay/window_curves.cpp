@@ -61,10 +61,11 @@ int WindowCurves::first_bin_of(int bin, double time_s, const Reached& last) cons
   return follows ? std::min(last.bin + 1, bin) : bin;
 }
 
-void WindowCurves::take(const Log& segment, const Residuals& residuals) {
+void WindowCurves::take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque) {
   if (segment.rows() == 0 || segment.time.front() > window_.end_s || segment.time.back() < window_.start_s)
     return;
   take_rows(segment);
+  if (torque.size() > 0) take_torque(segment, torque);
   if (residuals.joints() == 0) take_references(segment);
   take_predictions(segment, residuals);
   if (!networks_.empty()) take_outputs(residuals);
@@ -79,6 +80,15 @@ void WindowCurves::take_rows(const Log& segment) {
       if (!segment.tau.empty()) joints_[j].tau.add(bin, segment.tau[j][k]);
       if (!segment.dq.empty()) joints_[j].dq.add(bin, segment.dq[j][k]);
     }
+  }
+}
+
+void WindowCurves::take_torque(const Log& segment, const RequiredTorque& torque) {
+  for (int k = 0; k < segment.rows(); ++k) {
+    const int bin = bin_of(segment.time[k]);
+    if (bin < 0) continue;
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      joints_[j].tau_required.add(bin, torque(static_cast<Eigen::Index>(j), k));
   }
 }
 
@@ -114,7 +124,6 @@ void WindowCurves::take_prediction(const Log& segment, int row, const Residuals&
     to.residual.add(bin, std::abs(residuals.velocity(joint, i)));
     to.q_predicted.add(bin, expected.q);
     if (!segment.dq.empty()) to.dq_predicted.add(bin, expected.dq);
-    to.tau_required.add(bin, expected.tau_required);
   }
 }
 

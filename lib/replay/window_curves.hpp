@@ -7,6 +7,7 @@
 #include "lib/log/log.hpp"
 #include "lib/model/model.hpp"
 #include "lib/replay/envelope_builder.hpp"
+#include "lib/replay/required_torque.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
@@ -18,8 +19,9 @@ class WindowCurves {
   /// `labels`: what the networks are asked about in this window; none for a window that does not show them.
   WindowCurves(const CurveWindow& window, const Model& model, const std::vector<FaultLabel>& labels);
 
-  /// The rows of `segment` and the predictions that end in it.
-  void take(const Log& segment, const Residuals& residuals);
+  /// The rows of `segment`, the predictions that end in it, and the torque required at its rows (empty where
+  /// none is known).
+  void take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque);
   CurveWindow curves() const;
 
  private:
@@ -41,6 +43,7 @@ class WindowCurves {
   int bin_of(double time_s) const;
   int first_bin_of(int bin, double time_s, const Reached& last) const;
   void take_rows(const Log& segment);
+  void take_torque(const Log& segment, const RequiredTorque& torque);
   void take_references(const Log& segment);
   void take_predictions(const Log& segment, const Residuals& residuals);
   void take_prediction(const Log& segment, int row, const Residuals& residuals, int i, int bin);

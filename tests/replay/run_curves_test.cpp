@@ -91,6 +91,28 @@ void what_is_predicted_is_near_what_is_measured_when_healthy() {
   EXPECT_GT(compared, 500);
 }
 
+/// Root mean square of the differences of both curves over that of the first, both in the middle of each bin.
+double off_by(const Envelope& shown, const Envelope& expected) {
+  double difference = 0.0, square = 0.0;
+  EXPECT_EQ(shown.values.size(), expected.values.size());
+  for (std::size_t i = 0; i + 1 < shown.values.size(); i += 2) {
+    const double a = 0.5 * (shown.values[i] + shown.values[i + 1]),
+                 b = 0.5 * (expected.values[i] + expected.values[i + 1]);
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    difference += (a - b) * (a - b);
+    square += b * b;
+  }
+  return std::sqrt(difference / square);
+}
+
+void torque_needed_by_the_healthy_robot_is_the_command_while_it_is_healthy() {
+  MemorySource source(simulate(small_robot(), small_run(7.0), 33).log, "run.csv");
+  const Diagnosis d = diagnose(source, learned().model, learned().cases);
+  ASSERT_EQ(d.verdict, Verdict::healthy);
+  const JointCurves joint = run_curves(source, learned().model, d).whole.joints.at(0);
+  EXPECT_LT(off_by(joint.tau_required, joint.tau), 0.02);
+}
+
 void log_without_a_span_of_time_gives_none() {
   MemorySource source(slice(free_swinging_run(), 0, 1), "run.csv");
   const Diagnosis d = diagnose(source, learned().model, learned().cases);
@@ -118,6 +140,7 @@ void evidence_grows_from_the_onset_past_the_threshold() {
 TEST(RunCurves, ShowTheRun) {
   no_peak_is_lost_however_few_the_bins();
   what_is_predicted_is_near_what_is_measured_when_healthy();
+  torque_needed_by_the_healthy_robot_is_the_command_while_it_is_healthy();
   log_without_a_span_of_time_gives_none();
   detail_lies_around_the_fault_and_holds_both_networks();
   evidence_grows_from_the_onset_past_the_threshold();

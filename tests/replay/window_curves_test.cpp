@@ -57,11 +57,11 @@ CurveWindow window(double start_s, double end_s, int bins) {
   return made;
 }
 
-TEST(WindowCurves, PredictedMotionIsTheMeasuredOneLessTheResidualAndRequiredTorqueIsWithIt) {
+TEST(WindowCurves, PredictedMotionIsTheMeasuredOneLessTheResidual) {
   const Model model = slide();
   const Log log = rows(9);
   WindowCurves curves(window(0.0, 8.0, 8), model, {});
-  curves.take(log, residuals_of_rows(log));
+  curves.take(log, residuals_of_rows(log), RequiredTorque::Constant(1, log.rows(), 1.0));
   const JointCurves joint = curves.curves().joints.at(0);
   ASSERT_EQ(joint.q.values.size(), 16u);
   EXPECT_EQ(joint.q.values[4], 12.0f);
@@ -76,7 +76,7 @@ TEST(WindowCurves, RowsOutsideTheWindowDoNotCount) {
   const Model model = slide();
   const Log log = rows(9);
   WindowCurves curves(window(2.0, 4.0, 1), model, {});
-  curves.take(log, residuals_of_rows(log));
+  curves.take(log, residuals_of_rows(log), RequiredTorque::Constant(1, log.rows(), 1.0));
   const JointCurves joint = curves.curves().joints.at(0);
   EXPECT_EQ(joint.q.values, (std::vector<float>{12.0f, 14.0f}));
   EXPECT_EQ(joint.q_predicted.values, (std::vector<float>{11.5f, 13.5f}));
@@ -87,7 +87,7 @@ TEST(WindowCurves, APredictionStandsForTheBinsSinceTheOneBeforeItButNotAcrossAGa
   Log log = rows(9);
   for (int k = 5; k < 9; ++k) log.time[k] += 3.0;  // 4 s, then 8 s
   WindowCurves curves(window(0.0, 11.0, 22), model, {});
-  curves.take(log, residuals_of_rows(log));
+  curves.take(log, residuals_of_rows(log), RequiredTorque::Constant(1, log.rows(), 1.0));
   const std::vector<float> predicted = curves.curves().joints.at(0).q_predicted.values;
   for (const int bin : {3, 4, 5, 6, 7, 8, 17, 18}) EXPECT_TRUE(std::isfinite(predicted[2 * bin])) << bin;
   for (const int bin : {0, 1, 10, 12, 14}) EXPECT_TRUE(std::isnan(predicted[2 * bin])) << bin;
@@ -99,7 +99,7 @@ TEST(WindowCurves, ASignalThatTheLogDoesNotHaveIsEmpty) {
   const Residuals residuals = residuals_of_rows(log);
   log.dq.clear();
   WindowCurves curves(window(0.0, 8.0, 4), model, {});
-  curves.take(log, residuals);
+  curves.take(log, residuals, {});
   const JointCurves joint = curves.curves().joints.at(0);
   EXPECT_TRUE(joint.dq.values.empty());
   EXPECT_TRUE(joint.dq_predicted.values.empty());

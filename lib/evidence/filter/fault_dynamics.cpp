@@ -17,22 +17,6 @@ constexpr double kWide = 3.0;  // rad or m
 constexpr double kGolden = 0.6180339887498949;
 constexpr double kMostTakenOff = 0.9;  // of the mass that the tip feels like
 
-/// One more kilogram on the tip: at the last link's origin for a prismatic last axis, at its end otherwise.
-Chain<double> with_unit_payload(const Chain<double>& chain) {
-  Chain<double> loaded = chain;
-  const int last = chain.joints() - 1;
-  LinkInertia<double>& link = loaded.links[last];
-  const JointGeometry& joint = chain.geometry[last];
-  const bool has_reach = joint.kind == AxisKind::revolute && joint.direction.squaredNorm() > 0.0;
-  const Eigen::Vector3d at =
-      has_reach ? Eigen::Vector3d(chain.length[last] * joint.direction) : Eigen::Vector3d::Zero();
-  const LinkInertia<double> kilogram = general_body(1.0, at, Eigen::Matrix3d::Zero());
-  link.mass += kilogram.mass;
-  link.first_moment += kilogram.first_moment;
-  link.inertia += kilogram.inertia;
-  return loaded;
-}
-
 /// Joint positions spread over the healthy range, and widely where it is not known: multiples of
 /// irrational shares (Weyl's sequence).
 JointVector<double> spread_position(const MotionModel& model, int i) {
@@ -74,7 +58,7 @@ double least_payload_of(const RobotLoad& load) {
 RobotLoad::RobotLoad(const MotionModel& motion_model)
     : model(motion_model),
       healthy(motion_model.chain),
-      unit_payload(with_unit_payload(motion_model.chain)),
+      unit_payload(with_tip_mass(motion_model.chain, 1.0)),
       payload_bodies(healthy.planar() ? healthy.bodies_more_in(unit_payload) : FastDynamics::Bodies{}),
       least_payload(least_payload_of(*this)) {}
 
