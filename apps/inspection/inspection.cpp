@@ -16,6 +16,9 @@
 namespace faultline {
 namespace {
 
+/// An inspection looks at the recording; a bad run may be recorded well.
+constexpr const char* kNotOfTheRobot = "; `faultline diagnose` judges whether the robot has a fault";
+
 const char* unit_of(Quantity quantity, AxisKind axis) {
   switch (quantity) {
     case Quantity::time:
@@ -188,10 +191,13 @@ std::string verdict_sentence_of(const Inspection& inspection) {
         return analysis.name == "torque_residuals" && analysis.fit == AnalysisFit::impossible;
       });
   if (verdict == "sound")
-    return for_all ? "sound: nothing wrong was found" : "sound, but not good for every analysis";
+    return std::string(for_all ? "the recording is sound: nothing is wrong with its data"
+                               : "the recording is sound, but not good for every analysis") +
+           kNotOfTheRobot;
   const auto severe = number(Severity::severe), warned = number(Severity::warning);
-  if (verdict == "doubtful") return fmt::format("usable with care: {}", counted(warned, "warning"));
-  return fmt::format("look before you use it: {}{}", counted(severe, "severe finding"),
+  if (verdict == "doubtful")
+    return fmt::format("the recording is usable with care: {}{}", counted(warned, "warning"), kNotOfTheRobot);
+  return fmt::format("look at the recording before you use it: {}{}", counted(severe, "severe finding"),
                      warned > 0 ? ", " + counted(warned, "warning") : "");
 }
 

@@ -52,7 +52,7 @@ struct Inspection {
 
 /// "sound", "doubtful" (a warning), "damaged" (something severe) or "no_joint_log".
 const char* verdict_of(const Inspection& inspection);
-/// The verdict in a sentence.
+/// The verdict on the recording in a sentence, which leaves the robot to `faultline diagnose`.
 std::string verdict_sentence_of(const Inspection& inspection);
 
 /// Throws Error(input) when nothing can be read from the file.

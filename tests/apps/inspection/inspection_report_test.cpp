@@ -52,6 +52,17 @@ TEST(InspectionReport, AHealthyLogIsSoundWholeAndGoodForAll) {
   EXPECT_EQ(analysis(log, "tracking").at("fit"), "impossible");
 }
 
+TEST(InspectionReport, SpeaksOfTheRecordingAloneAndLeavesTheRobotToDiagnose) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("run.csv", log_text(2000)), page = folder.file("page.html");
+  const std::string text = run_program({"inspect", log, "--html", page}).out;
+  for (const std::string& shown : {text, read_file(page)}) {
+    EXPECT_NE(shown.find("he recording is sound"), std::string::npos) << shown.substr(0, 2000);
+    EXPECT_NE(shown.find("faultline diagnose"), std::string::npos);
+    EXPECT_EQ(shown.find("nothing wrong was found"), std::string::npos);
+  }
+}
+
 TEST(InspectionReport, GapsAreListedAndMissedInTheCompleteness) {
   const Json log = inspected(log_text(2000, 999));
   EXPECT_EQ(log.at("verdict"), "doubtful");
