@@ -75,10 +75,10 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   relations.finish();
   LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
   facts.issues.merge(day.notes);
-  return {std::move(facts),        whole.joints(),           evidence.episodes(),
-          samples.alarms(),        evidence.largest_ratio(), evidence.slow_estimates(),
-          evidence.slow_faults(),  relations.episodes(),     relations.judged_s(),
-          std::move(day.roughness)};
+  return {std::move(facts),       whole.joints(),           evidence.episodes(),
+          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
+          evidence.slow_faults(), relations.episodes(),     relations.judged_s(),
+          relations.beyond_s(),   std::move(day.roughness)};
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct MonitoredLog {
   std::vector<SlowFault> slow_faults;              ///< likewise
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
+  std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged
   std::vector<double> roughness;           ///< Diagnosis::roughness
 };
 

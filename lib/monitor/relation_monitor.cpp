@@ -36,4 +36,10 @@ std::vector<double> RelationMonitor::judged_s() const {
   return out;
 }
 
+std::vector<double> RelationMonitor::beyond_s() const {
+  std::vector<double> out;
+  for (const RelationWatch& watch : watches_) out.push_back(watch.beyond_s());
+  return out;
+}
+
 }  // namespace faultline

@@ -24,6 +24,8 @@ class RelationMonitor {
   std::vector<RelationEpisode> episodes() const;
   /// By relation: for how long the log could be judged, s; 0 for those of the other sort.
   std::vector<double> judged_s() const;
+  /// By relation: for how long its inputs were beyond all that was learned, s.
+  std::vector<double> beyond_s() const;
 
  private:
   std::deque<RelationWatch> watches_;

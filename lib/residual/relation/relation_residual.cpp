@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/residual/relation/relation_residual.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/log/log_channels.hpp"
@@ -25,7 +26,11 @@ bool RelationResidual::terms_are_known() const {
 std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
   const double target = signals_of(log, relation_.target)[relation_.joint][row];
   if (!line_.take(log, row)) return std::nullopt;
-  if (!terms_are_known()) unknown_s_ = log.time[row];
+  if (!terms_are_known()) {
+    if (std::isfinite(unknown_s_) && log.time[row] - unknown_s_ < kSettle_s)
+      beyond_s_ += log.time[row] - unknown_s_;
+    unknown_s_ = log.time[row];
+  }
   if (!std::isfinite(target) || log.time[row] - unknown_s_ < kSettle_s) return std::nullopt;
   double predicted = 0.0;
   double by_command = 0.0;
@@ -39,10 +44,16 @@ std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
   double by_speed = drive ? predicted - by_command - relation_.weights.back() : 0.0;
   if (motion && std::isfinite(last_predicted_)) by_speed = predicted - last_predicted_;
   last_predicted_ = predicted;
-  const bool above = target >= relation_.high && predicted >= relation_.high;
-  const bool below = target <= relation_.low && predicted <= relation_.low;
-  const bool in_limit = relation_.kind != RelationKind::tracking && (above || below);
-  return RelationSample{log.time[row], predicted, by_speed, in_limit ? 0.0 : target - predicted};
+  return RelationSample{log.time[row], line_.terms().front(), predicted, by_speed,
+                        residual(target, predicted)};
+}
+
+/// A torque beyond all that healthy logs reached is no more than wished for: the drive may give it or stay at
+/// the most that it ever gave.
+double RelationResidual::residual(double target, double predicted) const {
+  if (relation_.kind == RelationKind::tracking) return target - predicted;
+  const double reachable = std::clamp(predicted, relation_.low, relation_.high);
+  return target - std::clamp(target, std::min(predicted, reachable), std::max(predicted, reachable));
 }
 
 }  // namespace faultline

@@ -2,6 +2,7 @@
 #include "lib/residual/relation/relation_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ranges>
 
@@ -17,6 +18,9 @@ constexpr double kJolt_s = 0.3;  // shorter ones that average out are such
 // Of the residual, which a share of the command explains, and what it leaves of what a constant leaves.
 constexpr double kShareExplains = 0.5, kBetterThanOffset = 0.5;
 constexpr double kAtFirst_s = 0.3;
+constexpr double kQuiet = 1.5;     // times the root mean square before the episode: nothing strays any more
+constexpr double kQuiet_s = 0.08;  // for which nothing strays: current loops settle sooner
+constexpr int kFewestQuiet = 20;   // rows that tell it
 constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
 
 std::vector<double> lengths_of(const SignalRelation& relation) {
@@ -36,6 +40,11 @@ void RelationWatch::Sums::add(const RelationSample& sample) {
   high = std::max(high, sample.predicted + sample.residual);
   predicted_low = std::min(predicted_low, sample.predicted);
   predicted_high = std::max(predicted_high, sample.predicted);
+  reference_low = std::min(reference_low, sample.reference);
+  reference_high = std::max(reference_high, sample.reference);
+  const double target = sample.predicted + sample.residual;
+  target_square += target * target;
+  reference_square += sample.reference * sample.reference;
   ++rows;
 }
 
@@ -44,7 +53,9 @@ RelationWatch::RelationWatch(const SignalRelation& relation)
       residual_(relation),
       means_(window_rows(lengths_of(relation), relation.period_s)),
       predicted_(window_rows(lengths_of(relation), relation.period_s)),
-      by_speed_(window_rows(lengths_of(relation), relation.period_s)) {}
+      by_speed_(window_rows(lengths_of(relation), relation.period_s)),
+      quiet_(window_rows(std::array{kQuiet_s}, relation.period_s)),
+      quiet_squares_(window_rows(std::array{kQuiet_s}, relation.period_s)) {}
 
 void RelationWatch::take(const Log& segment) {
   if (!has_signals(segment, relation_)) return;
@@ -85,6 +96,8 @@ void RelationWatch::judge(const RelationSample& sample) {
   means_.add(sample.residual, sample.time);
   predicted_.add(std::abs(sample.predicted), sample.time);
   by_speed_.add(std::abs(sample.by_speed), sample.time);
+  quiet_.add(sample.residual, sample.time);
+  quiet_squares_.add(sample.residual * sample.residual, sample.time);
   recent_.push_back(sample);
   const auto longest = static_cast<std::size_t>(means_.rows(static_cast<int>(relation_.windows.size()) - 1));
   if (recent_.size() > 2 * longest) recent_.pop_front();
@@ -130,8 +143,25 @@ std::size_t RelationWatch::onset_in(int window) const {
   return at;
 }
 
+/// Of the rows in recent_ before the window in which the onset was looked for; what was known before where
+/// they are too few, as right after another episode.
+double RelationWatch::quiet_rms_before(std::size_t onset) const {
+  if (onset < kFewestQuiet) return quiet_rms_;
+  double square = 0.0;
+  for (std::size_t i = 0; i < onset; ++i) square += recent_[i].residual * recent_[i].residual;
+  return std::sqrt(square / static_cast<double>(onset));
+}
+
+/// Whether for a while nothing was left of what strayed: not the mean alone, which passes zero wherever a
+/// residual changes its sign.
+bool RelationWatch::is_quiet_again() const {
+  return quiet_.full() > 0 && std::sqrt(quiet_squares_.mean(0)) < kQuiet * quiet_rms_ &&
+         std::abs(quiet_.mean(0)) < kStillStrays * allowed(0) && says_something();
+}
+
 void RelationWatch::open(const RelationSample& sample, const Strayed& strayed) {
   const std::size_t onset = onset_in(strayed.window);
+  quiet_rms_ = quiet_rms_before(onset);
   now_ = RelationEpisode{.kind = relation_.kind, .joint = relation_.joint, .target = relation_.target};
   now_->onset_s = recent_[onset].time;
   now_->alarm_s = sample.time;
@@ -158,11 +188,15 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
     now_->strongest = means_.mean(strayed.window);
     now_->nats = 0.5 * z * z;
   }
-  if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {
+  if (sample.time - now_->alarm_s > kQuiet_s && is_quiet_again()) {
+    now_->end_s = std::max(sample.time - kQuiet_s, now_->onset_s);
+    close(false);
+  } else if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {
     now_->end_s = sample.time;
     strayed_ = since_onset_;
     calm_rows_ = 0;
   } else if (says_something() && ++calm_rows_ * relation_.period_s > kCalm_s) {
+    now_->end_s = end_of(now_->end_s);
     close(false);
   }
 }
@@ -188,13 +222,29 @@ double RelationWatch::end_of(double last_s) const {
   return std::max(last_s - late_s, now_->onset_s + relation_.period_s);
 }
 
+void RelationWatch::describe_first(RelationEpisode& episode) const {
+  const auto rms = [&](double square) {
+    return std::sqrt(square / static_cast<double>(std::max(at_first_.rows, 1LL)));
+  };
+  episode.first_share = at_first_.share();
+  episode.first_share_explains = at_first_.share_explains();
+  episode.first_span = at_first_.high - at_first_.low;
+  episode.first_predicted_span = at_first_.predicted_high - at_first_.predicted_low;
+  episode.first_reference_span = at_first_.reference_high - at_first_.reference_low;
+  episode.first_rms = rms(at_first_.target_square);
+  episode.first_predicted_rms = rms(at_first_.predicted_square);
+  episode.first_reference_rms = rms(at_first_.reference_square);
+}
+
 void RelationWatch::close(bool lasts) {
-  if (!lasts) now_->end_s = std::max(end_of(now_->end_s), now_->alarm_s);
+  if (!lasts) now_->end_s = std::max(now_->end_s, now_->alarm_s);
   RelationEpisode episode = *now_;
   now_.reset();
   means_.restart();
   predicted_.restart();
   by_speed_.restart();
+  quiet_.restart();
+  quiet_squares_.restart();
   recent_.clear();
   episode.lasts = lasts;
   const double rows = std::max((episode.end_s - episode.onset_s) / relation_.period_s + 1.0, 1.0);
@@ -202,10 +252,7 @@ void RelationWatch::close(bool lasts) {
   if (strayed_.square > 0.0) episode.offset_explains = episode.mean * episode.mean * rows / strayed_.square;
   episode.share = strayed_.share();
   episode.share_explains = strayed_.share_explains();
-  episode.first_share = at_first_.share();
-  episode.first_share_explains = at_first_.share_explains();
-  episode.first_span = at_first_.high - at_first_.low;
-  episode.first_predicted_span = at_first_.predicted_high - at_first_.predicted_low;
+  describe_first(episode);
   const bool is_long = episode.end_s - episode.onset_s > kJolt_s;
   if (is_long || std::abs(episode.mean) > kOfItsLength * allowed_over(strayed_)) episodes_.push_back(episode);
 }

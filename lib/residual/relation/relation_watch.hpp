@@ -29,6 +29,9 @@ struct RelationEpisode {
   double nats = 0.0;             ///< log likelihood ratio of an offset in that window against none
   /// Over the first .3 s at most: as above, and from the least to the largest value of target and prediction.
   double first_share = 0.0, first_share_explains = 0.0, first_span = 0.0, first_predicted_span = 0.0;
+  /// The same of the first input: a reference that moves has a span, or as a velocity a root mean square.
+  double first_reference_span = 0.0, first_reference_rms = 0.0;
+  double first_rms = 0.0, first_predicted_rms = 0.0;  ///< root mean squares of target and prediction
 };
 
 /// Watches one relation along a log for means over windows beyond their limits.
@@ -42,6 +45,8 @@ class RelationWatch {
   void finish();
   const std::vector<RelationEpisode>& episodes() const { return episodes_; }
   double judged_s() const { return static_cast<double>(judged_rows_) * relation_.period_s; }
+  /// For how long the inputs were beyond all that was learned, so that nothing was judged, s.
+  double beyond_s() const { return residual_.beyond_s(); }
 
  private:
   /// The window whose mean is farthest beyond what is allowed, and how far.
@@ -55,6 +60,8 @@ class RelationWatch {
     double residual = 0.0, square = 0.0, product = 0.0, predicted_square = 0.0;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     double predicted_low = low, predicted_high = high;
+    double reference_low = low, reference_high = high;
+    double target_square = 0.0, reference_square = 0.0;
     long long rows = 0;
 
     void add(const RelationSample& sample);
@@ -75,18 +82,24 @@ class RelationWatch {
   void open(const RelationSample& sample, const Strayed& strayed);
   void go_on(const RelationSample& sample, const Strayed& strayed);
   void close(bool lasts);
+  void describe_first(RelationEpisode& episode) const;
   double end_of(double last_s) const;
   bool says_something() const;
+  double quiet_rms_before(std::size_t onset) const;
+  bool is_quiet_again() const;
 
   const SignalRelation& relation_;
   RelationResidual residual_;
   WindowedMeans means_, predicted_, by_speed_;
-  std::deque<RelationSample> recent_;  ///< in step, of twice the longest window
+  WindowedMeans quiet_, quiet_squares_;  ///< of the residual over the time that tells an end
+  std::deque<RelationSample> recent_;    ///< in step, of twice the longest window
   std::vector<RelationEpisode> episodes_;
   std::optional<RelationEpisode> now_;
   int window_ = 0;  ///< the shortest that showed the episode
   Sums since_onset_, strayed_, at_first_;
   int calm_rows_ = 0;  ///< judged, since the last that strayed
+  /// Root mean square of the residual before the episode; NaN while none is known.
+  double quiet_rms_ = std::numeric_limits<double>::quiet_NaN();
   double peak_ = 0.0;  ///< largest mean over that window, either sign
   long long judged_rows_ = 0;
   bool target_moves_ = false, input_moves_ = false;  ///< a channel that never changes is not connected

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "lib/log/memory_source.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 #include "tests/residual/relation/driven_joint.hpp"
@@ -57,6 +60,46 @@ TEST(RelationWatch, PulsesHalfASecondApartAreTwo) {
   DrivenJoint joint{.seed = 12};
   joint.in_drive = [](double t) { return (t >= 6.0 && t < 6.2) || (t >= 6.7 && t < 6.9) ? -2.0 : 0.0; };
   EXPECT_EQ(watched(RelationKind::actuator, joint.log(20.0)).size(), 2u);
+}
+
+TEST(RelationWatch, PulsesAThirdOfASecondLongEach150MillisecondsApartAreSoMany) {
+  DrivenJoint joint{.seed = 12};
+  joint.in_drive = [](double t) {
+    const double of_period = std::fmod(t - 6.0, 0.45);
+    return t >= 6.0 && t < 8.2 && of_period < 0.3 ? 2.0 : 0.0;
+  };
+  const auto episodes = watched(RelationKind::actuator, joint.log(20.0));
+  ASSERT_EQ(episodes.size(), 5u);
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    EXPECT_NEAR(episodes[i].onset_s, 6.0 + 0.45 * static_cast<double>(i), 0.06) << i;
+    EXPECT_NEAR(episodes[i].end_s, 6.3 + 0.45 * static_cast<double>(i), 0.13) << i;
+  }
+}
+
+/// From 6 s on the drive stays at `limit` N m where the command exceeds it.
+Log with_drive_limit(double limit, std::uint64_t seed) {
+  Log log = DrivenJoint{.seed = seed}.log(20.0);
+  for (double& torque : log.tau_meas[0]) torque = std::clamp(torque, -limit, limit);
+  return log;
+}
+
+TEST(RelationWatch, ACommandBeyondAllThatTheDriveEverGaveIsNoFaultOfTheDrive) {
+  constexpr double kLimit = 3.0;
+  std::vector<MemorySource> days;
+  for (const std::uint64_t seed : {1, 2, 3}) days.emplace_back(with_drive_limit(kLimit, seed));
+  std::vector<LogSource*> pointers;
+  for (MemorySource& day : days) pointers.push_back(&day);
+  const std::vector<SignalRelation> learned = learn_relations(pointers, {.period_s = 0.005});
+  ASSERT_FALSE(learned.empty());
+  ASSERT_EQ(learned[0].kind, RelationKind::actuator);
+  EXPECT_NEAR(learned[0].high, kLimit, 0.1);
+  // The same drive at its limit for longer than ever in the healthy logs.
+  Log log = with_drive_limit(kLimit, 11);
+  for (int k = 1000; k < 1200; ++k) log.tau[0][k] = 3.4, log.tau_meas[0][k] = kLimit - 0.05;
+  RelationWatch watch(learned[0]);
+  watch.take(log);
+  watch.finish();
+  EXPECT_TRUE(watch.episodes().empty());
 }
 
 TEST(RelationWatch, ALostShareOfTheTorqueIsToldFromAnOffset) {
