@@ -19,12 +19,14 @@ constexpr const char* kSchema = "faultline/batch/2";
 Json model_json(const ModelFacts& model) {
   Json json{{"name", valid_utf8(model.name)}, {"sha256", model.sha256}, {"cases_sha256", model.cases_sha256}};
   if (!model.notes.empty()) json["notes"] = model.notes;
+  if (!model.grave_doubts.empty()) json["grave_doubts"] = model.grave_doubts;
   return json;
 }
 
 ModelFacts model_from(const Json& json) {
   ModelFacts model{json.at("name"), json.at("sha256"), json.at("cases_sha256")};
   if (json.contains("notes")) model.notes = json["notes"];
+  if (json.contains("grave_doubts")) model.grave_doubts = json["grave_doubts"];
   return model;
 }
 

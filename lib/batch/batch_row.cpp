@@ -34,6 +34,7 @@ BatchRow row_of(const Diagnosis& d) {
   row.model_sha256 = d.model.sha256;
   row.verdict = to_string(d.verdict);
   row.reason = valid_utf8(d.verdict_reason);
+  if (!d.model.grave_doubts.empty()) row.doubt = valid_utf8(d.model.grave_doubts.front());
   row.format = d.log.format;
   row.rows = d.log.rows_read;
   row.rows_used = d.log.rows_used;

@@ -21,6 +21,7 @@ struct BatchRow {
   std::string result;   ///< "logs/<result>.json", without folder and extension; empty without a diagnosis
   std::string verdict;  ///< as in the diagnosis, "unusable", or "failed" for a defect of the program
   std::string reason;
+  std::string doubt;  ///< about the model, with which no log can be called healthy; empty without one
   std::string format;
   std::int64_t rows = 0, rows_used = 0;
   double start_s = std::numeric_limits<double>::quiet_NaN();

@@ -69,7 +69,8 @@ std::string to_json_line(const BatchRow& row) {
       {"residual_rms", numbers_or_null(row.residual_rms)},
       {"residual_peak", numbers_or_null(row.residual_peak)},
       {"condition", parameters_json(row.condition)},
-      {"parameters", parameters_json(row.parameters)}};
+      {"parameters", parameters_json(row.parameters)},
+      {"doubt", text_or_null(row.doubt)}};
   return inert_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
@@ -97,12 +98,13 @@ BatchRow row_from_json(const std::string& line) {
   row.residual_peak = numbers_or_nan(json.at("residual_peak"));
   row.condition = parameters_from(json.at("condition"));
   row.parameters = parameters_from(json.at("parameters"));
+  if (json.contains("doubt")) row.doubt = text_or_empty(json["doubt"]);
   return row;
 }
 
 std::string batch_csv_header() {
   return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,"
-         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256,model,model_sha256\n";
+         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256,model,model_sha256,doubt\n";
 }
 
 std::string to_csv_line(const BatchRow& row) {
@@ -113,12 +115,12 @@ std::string to_csv_line(const BatchRow& row) {
     first = fmt::format("{},{},{},{},{},{}", to_string(f.label.kind), csv_joint(f.label.joint),
                         csv_cell(f.onset_s), csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence));
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log),
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log),
                      row.verdict, row.faults.size(), first, csv_cell(all), csv_cell(residual_level(row)),
                      row.rows, row.rows_used, csv_cell(row.start_s), csv_cell(row.end_s),
                      csv_cell(row.sample_period_s), row.warnings, row.severe, csv_cell(row.reason),
                      row.result.empty() ? "" : "logs/" + row.result + ".json", row.sha256,
-                     csv_cell(row.model), row.model_sha256);
+                     csv_cell(row.model), row.model_sha256, csv_cell(row.doubt));
 }
 
 }  // namespace faultline

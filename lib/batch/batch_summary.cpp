@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
@@ -16,6 +17,8 @@ namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownReasons = 5;  // more would push the counts off the terminal
 
 void count_verdict(BatchCounts& counts, const BatchRow& row) {
   ++counts.logs;
@@ -62,6 +65,17 @@ Json models_json(const BatchSummary& summary) {
   return models;
 }
 
+/// The first logs without a diagnosis with their reasons, and where the others stand.
+std::string reasons_text(const std::vector<LogWithoutDiagnosis>& logs) {
+  std::string text;
+  for (const LogWithoutDiagnosis& log : logs | std::views::take(kShownReasons))
+    text += fmt::format("  not diagnosed: {}: {}\n", brief(log.log), brief(log.reason));
+  if (logs.size() > kShownReasons)
+    text += fmt::format("  and {} more without a diagnosis; index.csv has the reason of each\n",
+                        logs.size() - kShownReasons);
+  return text;
+}
+
 }  // namespace
 
 BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
@@ -88,6 +102,8 @@ BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& fac
     models[row.model_sha256].push_back(&row);
     for (const FaultEvent& fault : row.faults)
       ++summary.kinds[to_string(fault.label.kind)][fault.label.joint];
+    if (row.verdict == "unusable" || row.verdict == "failed")
+      summary.not_diagnosed.push_back({row.log, row.reason});
     summary.status = std::max(summary.status, status_of(row));
   }
   summary.all = counts_of(all);
@@ -126,7 +142,10 @@ std::string to_text(const BatchSummary& summary) {
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
       text += fmt::format("  {:>6}  {}{}\n", count, kind, joint > 0 ? fmt::format(", joint {}", joint) : "");
-  return text;
+  for (const ModelFacts& model : summary.facts.models)
+    for (const std::string& doubt : model.grave_doubts)
+      text += fmt::format("  no log can be called healthy by {}: {}\n", brief(model.name), brief(doubt));
+  return text + reasons_text(summary.not_diagnosed);
 }
 
 }  // namespace faultline

@@ -20,6 +20,12 @@ struct BatchCounts {
 };
 BatchCounts counts_of(const std::vector<const BatchRow*>& rows);
 
+/// A log without a diagnosis.
+struct LogWithoutDiagnosis {
+  std::string log;
+  std::string reason;
+};
+
 /// A batch as a whole.
 struct BatchSummary {
   BatchFacts facts;
@@ -27,6 +33,7 @@ struct BatchSummary {
   std::map<std::string, BatchCounts> models;        ///< by BatchRow::model_sha256
   std::map<std::string, BatchCounts> folders;       ///< by folder_of()
   std::map<std::string, std::map<int, int>> kinds;  ///< faults by kind and joint; joint 0 = of no joint
+  std::vector<LogWithoutDiagnosis> not_diagnosed;   ///< unusable or failed, in the order of the rows
   int status = 0;                                   ///< exit status: the worst of all logs
 };
 BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts);

@@ -125,7 +125,7 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
                       const BatchOptions& options) {
   std::vector<ModelFacts> all;
   for (const auto& [model, cases] : models)
-    all.push_back({model.name, model.sha256, cases.sha256(), notes_of(model)});
+    all.push_back({model.name, model.sha256, cases.sha256(), notes_of(model), model.grave_doubts});
   BatchFacts facts;
   facts.models = used(all, logs);
   facts.program_version = program_version();

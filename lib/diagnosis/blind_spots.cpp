@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -44,6 +45,20 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
         drive ? "measured torque follows the commanded one" : "commanded torque follows reference and motion",
         drive ? "commanded and measured torque" : "references, motion and torque",
         drive ? "small faults of the drive" : "faults of control and of who commands"));
+  }
+  return spots;
+}
+
+std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& relations,
+                                           const std::vector<double>& beyond_s, const Chain<double>& chain) {
+  std::vector<std::string> spots;
+  for (std::size_t i = 0; i < std::min(relations.size(), beyond_s.size()); ++i) {
+    const SignalRelation& drive = relations[i];
+    if (drive.kind != RelationKind::actuator || !(beyond_s[i] > 0.0)) continue;
+    spots.push_back(fmt::format(
+        "Joint {} was asked for {:.2g} s for torques that no healthy log holds, where its drive gave {:.3g} to "
+        "{:.3g} {}: whether it gave what was asked then is not judged.",
+        drive.joint + 1, beyond_s[i], drive.low, drive.high, torque_unit(chain.geometry[drive.joint].kind)));
   }
   return spots;
 }

@@ -15,6 +15,11 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
 std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,
                                         const std::vector<double>& judged_s);
 
+/// Drives that were asked for more than in the healthy logs, which does not show what they can give then; a
+/// sentence each. `beyond_s` by relation: for how long.
+std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& relations,
+                                           const std::vector<double>& beyond_s, const Chain<double>& chain);
+
 /// Share of the simulated faults that a model found; NaN where none were simulated.
 double power_of(const Validation& validation);
 

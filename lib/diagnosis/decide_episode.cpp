@@ -5,13 +5,14 @@
 #include "lib/diagnosis/describe_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
 #include "lib/diagnosis/precedents.hpp"
+#include "lib/evidence/standstill.hpp"
 
 namespace faultline {
 namespace {
 
 /// An unknown fault is nothing that the runs held it against had.
 double calibrated(const Decision& decision, const ConfidenceCalibration& calibration) {
-  if (decision.label.kind == FaultKind::unknown) return decision.confidence;
+  if (decision.label.joint == 0 || decision.label.kind == FaultKind::unknown) return decision.confidence;
   return calibration.of(confidence_source(decision.decided_by), decision.confidence);
 }
 
@@ -23,7 +24,13 @@ FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model
                       std::move(described.episode),
                       {},
                       observed.evidence.usual,
-                      observed.evidence.end_s - observed.evidence.onset_s};
+                      observed.evidence.end_s - observed.evidence.onset_s,
+                      model.evidence.threshold,
+                      {}};
+  // A torque that was commanded need not have reached the joint, one measured behind the amplifier has.
+  const bool torque_flows = model.robot.log.torque != TorqueMeaning::commanded;
+  for (int j = 0; j < model.robot.joints(); ++j)
+    basis.is_held[j] = is_held(observed.evidence.standstill[j], torque_flows);
   basis.votes = votes_on(basis.episode, cases);
   Decision decision = decide(basis);
   decision.confidence = calibrated(decision, model.confidence);

@@ -8,8 +8,9 @@ namespace faultline {
 namespace {
 
 constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
-constexpr double kSureOfUnknown = 0.9;  // that no known fault leaves so much
-constexpr double kLongestPush_s = 5.0;  // what disturbs for longer is no hit
+constexpr double kSureOfUnknown = 0.9;   // that no known fault leaves so much
+constexpr double kFarBeyondAlarm = 2.0;  // times the threshold: something is there, whatever it is
+constexpr double kLongestPush_s = 5.0;   // what disturbs for longer is no hit
 
 Decision abstained(DecisionReason reason) {
   return {kUnknownFault, 0.0, DecidedBy::abstained, reason, kUnknownFault};
@@ -78,6 +79,28 @@ const LabelEvidence* likeliest_known(const std::vector<LabelEvidence>& evidence)
   return best;
 }
 
+/// What is left of a decision whose name must have raised the alarm by itself. Where it did not, and the
+/// alarm was just passed by faults of which none stands out, nothing was found that could be named or
+/// plotted.
+Decision unless_without_evidence(const Decision& decision, const DecisionBasis& basis,
+                                 const DecisionOptions& options) {
+  const auto reaches = [&](const FaultLabel& label) {
+    const LabelEvidence* const evidence = find(label, basis.evidence);
+    return evidence != nullptr && evidence->log_likelihood_ratio >= basis.threshold;
+  };
+  if (decision.label.kind == FaultKind::unknown || basis.evidence.empty() || reaches(decision.label) ||
+      reaches(decision.voted))
+    return decision;
+  const LabelEvidence& best = *likeliest_known(basis.evidence);
+  const FaultLabel label = named_by_size(best.label, basis.evidence);
+  constexpr DecisionReason kReason = DecisionReason::lacks_evidence;
+  if (best.log_likelihood_ratio >= basis.threshold && lead_of(best, basis.evidence) >= options.close_ratio)
+    return {label, posterior_of(label, known(basis.evidence)), DecidedBy::evidence, kReason, decision.voted};
+  if (best.log_likelihood_ratio >= kFarBeyondAlarm * basis.threshold)
+    return {kUnknownFault, 0.0, DecidedBy::abstained, kReason, decision.voted};
+  return {{FaultKind::none, 0}, 0.0, DecidedBy::abstained, kReason, decision.voted};
+}
+
 /// What is left of a decision once the innovations are looked at.
 Decision unless_refuted(const Decision& decision, const DecisionBasis& basis) {
   const auto refuted = [&](const FaultLabel& label) {
@@ -93,6 +116,24 @@ Decision unless_refuted(const Decision& decision, const DecisionBasis& basis) {
             DecisionReason::others_refuted, decision.voted};
   }
   return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::all_refuted, decision.voted};
+}
+
+bool loses_torque(const FaultLabel& label) {
+  return label.kind == FaultKind::free_swinging || label.kind == FaultKind::torque_loss;
+}
+
+/// A joint that does not move under torque has not lost it: something holds it.
+Decision unless_held(const Decision& decision, const DecisionBasis& basis) {
+  const FaultLabel& lost = decision.label;
+  if (!loses_torque(lost) || !basis.is_held[lost.joint - 1]) return decision;
+  std::vector<LabelEvidence> others = known(basis.evidence);
+  std::erase_if(others,
+                [&](const LabelEvidence& e) { return loses_torque(e.label) && e.label.joint == lost.joint; });
+  const LabelEvidence* const best = likeliest_known(others);
+  if (best == nullptr || !(best->log_likelihood_ratio > 0.0))
+    return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::joint_is_held, lost};
+  return {best->label, posterior_of(best->label, others), DecidedBy::evidence, DecisionReason::joint_is_held,
+          lost};
 }
 
 Decision unless_it_lasts(const Decision& decision, double lasts_s) {
@@ -111,7 +152,8 @@ Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
   decision.label = named_by_size(decision.label, basis.evidence);
   const bool unnamed = decision.label.kind == FaultKind::unknown;
   if (unnamed && !basis.evidence.empty()) decision = by_likelihood(decision, basis, options);
-  return unless_it_lasts(unless_refuted(decision, basis), basis.lasts_s);
+  decision = unless_held(unless_refuted(unless_without_evidence(decision, basis, options), basis), basis);
+  return unless_it_lasts(decision, basis.lasts_s);
 }
 
 }  // namespace faultline

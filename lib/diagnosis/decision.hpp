@@ -25,8 +25,10 @@ enum class DecisionReason {
   votes_even,        ///< abstained: the networks disagree and the votes do not settle it
   votes_settle,      ///< the networks disagree and the votes settle it
   likelihood_names,  ///< neither networks nor cases name a fault, the likelihood does
+  lacks_evidence,    ///< the likelihood of what networks and cases say would have raised no alarm
   others_refuted,    ///< what networks and cases say leaves far more than noise, the likeliest fault does not
   all_refuted,       ///< unknown: every known fault leaves far more than noise
+  joint_is_held,     ///< what networks or cases call a free joint stands still under torque
   push_lasts,        ///< unknown: what looks like a push goes on for longer than pushes do
 };
 
@@ -44,9 +46,12 @@ struct Decision {
 /// the level of the episode). Two networks that agree are believed; when they disagree, the votes of similar
 /// cases and of both networks settle it; with nothing near it is an unknown fault. A loss of nearly all
 /// torque then is a free joint, and where all that leaves no name, the likelihood gives one, if a network
-/// seconds it or nothing else comes near. A name that leaves far more than noise unexplained
-/// (is_far_from_white) does not stand: the likeliest known fault takes its place, or, where that leaves as
-/// much, the fault is unknown. Without evidence of labels none of the three happens.
+/// seconds it or nothing else comes near. A name whose own likelihood would have raised no alarm gives way to
+/// the likeliest known fault where that stands out, to an unknown one far beyond the alarm, and else to no
+/// finding (FaultKind::none). A name that leaves far more than noise unexplained (is_far_from_white) does not
+/// stand: the likeliest known fault takes its place, or, where that leaves as much, the fault is unknown.
+/// Without evidence of labels none of the three happens. A joint that stands still under torque is not free:
+/// the likeliest other fault gives the name.
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
 
 }  // namespace faultline

@@ -54,6 +54,12 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
       return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes{}",
                          disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
                          words(decision.voted), 100.0 * decision.confidence, renaming(decision));
+    case DecisionReason::lacks_evidence:
+      return fmt::format(
+          "networks and cases say {}, but its own likelihood stays below the alarm threshold of {:.0f} nats{}",
+          words(decision.voted), basis.threshold,
+          decision.label.joint > 0 ? fmt::format("; {} explains the log best", words(decision.label))
+                                   : std::string("; and no other fault stands out"));
     case DecisionReason::others_refuted:
       return fmt::format("{} leaves far more of the motion unexplained than noise does; {} does not",
                          words(decision.voted), words(decision.label));
@@ -61,6 +67,12 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
       return fmt::format(
           "every known fault leaves far more of the motion unexplained than noise does, {} too",
           words(decision.voted));
+    case DecisionReason::joint_is_held:
+      return fmt::format(
+          "{} is ruled out, as the joint stands still while torque acts on it{}", words(decision.voted),
+          decision.label.kind == FaultKind::unknown
+              ? std::string()
+              : fmt::format("; of the other faults {} explains the log best", words(decision.label)));
     case DecisionReason::push_lasts:
       return fmt::format("it begins as {}, but goes on for {:.2g} s", words(decision.voted), basis.lasts_s);
     case DecisionReason::likelihood_names:

@@ -72,9 +72,20 @@ struct EpisodeFacts {
   std::vector<std::pair<std::string, double>> features;  ///< by CaseBase::feature_names(); NaN = not measured
 };
 
+/// How large a fault is, by the size that its kind is told by.
+struct FaultExtent {
+  double size = std::numeric_limits<double>::quiet_NaN();
+  double least_size = std::numeric_limits<double>::quiet_NaN();  ///< from which on it is reported as a fault
+  std::string unit;                                              ///< "1" for a share of the torque
+  /// Every size of the kind over the least one of it, the largest of them: below 1 it is too small to act on.
+  /// NaN where no size is known.
+  double times_least = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct FaultFinding {
   int id = 0;  ///< from 1, in the order of onset
   FaultLabel label;
+  FaultExtent extent;
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< estimated start of the fault
   double alarm_s =
       std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
@@ -114,7 +125,8 @@ struct ModelFacts {
   std::string name;
   std::string sha256;
   std::string cases_sha256;
-  std::vector<std::string> notes{};  ///< what its reader must know of the model, a sentence each
+  std::vector<std::string> notes{};         ///< what its reader must know of the model, a sentence each
+  std::vector<std::string> grave_doubts{};  ///< Model::grave_doubts
 };
 
 struct Diagnosis {
@@ -123,9 +135,10 @@ struct Diagnosis {
   std::string program_version;
   Verdict verdict = Verdict::not_run;
   std::string verdict_reason;
-  std::vector<JointResidual> residuals;  ///< of the MLP over the whole log, a joint each
-  std::vector<FaultFinding> faults;      ///< by onset
-  std::vector<ConditionItem> condition;  ///< what differs from day to day; empty where it was not followed
+  std::vector<JointResidual> residuals;     ///< of the MLP over the whole log, a joint each
+  std::vector<FaultFinding> faults;         ///< by onset
+  std::vector<FaultFinding> small_changes;  ///< below the least size of their kind: no faults, by onset
+  std::vector<ConditionItem> condition;     ///< what differs from day to day; empty where it was not followed
   /// By joint: torque that the model misses, times that in the learned logs; empty where that is as usual.
   std::vector<double> roughness;
   std::vector<std::string>

@@ -6,6 +6,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/diagnosis/alternatives.hpp"
 #include "lib/diagnosis/finding_evidence.hpp"
+#include "lib/diagnosis/least_size.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
@@ -27,6 +28,7 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   const auto& [observed, basis, decision] = decided;
   FaultFinding finding;
   finding.label = decision.label;
+  finding.extent = extent_of(decision.label, basis.evidence, model);
   finding.onset_s = observed.evidence.onset_s;
   finding.alarm_s = observed.evidence.alarm_s;
   finding.end_s = observed.evidence.end_s;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/least_size.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
 
 namespace faultline {
@@ -54,9 +55,19 @@ std::string why_too_damaged(const Issues& issues) {
   return "";
 }
 
+/// Why the model cannot call any log healthy; empty when it can.
+std::string why_too_doubtful(const ModelFacts& model) {
+  if (model.grave_doubts.empty()) return "";
+  return fmt::format(
+      "no fault was found, but this model cannot call a log healthy: {}; learn one from logs that are surely "
+      "healthy",
+      model.grave_doubts.front());
+}
+
 /// Why a log in which no fault was found is not called healthy; empty when it can be.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
+  if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
   if (power < kLeastPower)
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
@@ -101,6 +112,7 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
     diagnosis.condition.clear();
     return;
   }
+  diagnosis.small_changes = take_small_changes(faults);
   diagnosis.faults = merge_continued(std::move(faults));
   number_by_onset(diagnosis.faults);
   const std::size_t count = diagnosis.faults.size();
@@ -115,6 +127,9 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
   if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
     diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;
+  if (const std::size_t small = diagnosis.small_changes.size(); count == 0 && small > 0)
+    diagnosis.verdict_reason += "; " + counted(static_cast<long long>(small), "change") +
+                                " found, too small to be reported as a fault";
 }
 
 }  // namespace faultline

@@ -43,6 +43,7 @@ class Bank {
 
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   int joints() const { return model_.joints(); }
+  const MotionModel& model() const { return model_; }
   bool asks_for(const Hypothesis& hypothesis) const;
   HypothesisEvidence evidence_of(const RunningHypothesis& running) const;
 

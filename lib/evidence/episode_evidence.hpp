@@ -22,6 +22,16 @@ struct HypothesisEvidence {
   Surprise surprise{};                       ///< what it leaves unexplained
 };
 
+/// A joint that stands still at the end of an episode, within its healthy range, and what acts on it there;
+/// all 0 for a joint that moves, or that stands where an end stop may hold it. A joint that no torque reaches
+/// comes to rest by friction and weight alone, and rests only where friction holds its weight.
+struct Standstill {
+  double lasts_s = 0.0;
+  double drive = 0.0;   ///< mean logged torque beyond what weight asks, over the joint's Coulomb friction
+  double weight = 0.0;  ///< mean torque of gravity over the same; 0 where the joint sank since the onset
+  double braked = 0.0;  ///< motion energy at the onset over what friction and weight take until it stands
+};
+
 /// A stretch of a log that the healthy robot does not explain, and what each hypothesis of the bank makes of
 /// it.
 struct EpisodeEvidence {
@@ -35,6 +45,7 @@ struct EpisodeEvidence {
   std::vector<HypothesisEvidence> hypotheses;                    ///< in the order of the bank
   Surprise usual{};  ///< of the filter without this fault, a while before the onset
   EvidenceTrace trace;
+  std::array<Standstill, kMaxJoints> standstill{};  ///< of each joint
 };
 
 }  // namespace faultline

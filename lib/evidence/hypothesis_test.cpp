@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lib/evidence/refined_run.hpp"
+#include "lib/evidence/standstill.hpp"
 
 namespace faultline {
 namespace {
@@ -286,6 +287,8 @@ HypothesisTest::Conclusion HypothesisTest::conclude() const {
   for (std::int64_t k = std::max(winner.onset - kUsualRows, earliest_); k < winner.onset; ++k)
     add_to(out.usual, history_[k], bank_.joints());
   out.trace = trace_evidence(bank_, history_, best, now_);
+  for (int j = 0; j < bank_.joints(); ++j)
+    out.standstill[j] = standstill_of(bank_.model(), history_, j, winner.onset, now_);
   // Its length tells when it was over; as evidence, a push of any length would explain what is no push.
   conclusion.best = describe(bank_.hypotheses()[out.best].label.kind).passes
                         ? with_refined_duration(bank_, history_, now_, winner)

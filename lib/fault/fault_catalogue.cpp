@@ -60,6 +60,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.2, .high = 0.9},  // less is wear, more is free-swinging
         }}},
         .size_count = 1,
+        .least_size = 0.03,  // magnets and amplifiers differ by as much from day to day
     },
     {
         .kind = FaultKind::sensor_bias,
@@ -69,11 +70,12 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .next_check =
             "Move {} to its reference mark and compare the reading: look for a slipped encoder coupling, "
             "lost counts or a wrong home offset, then home again.",
-        .size_words = "the position reads {first:+.4g} {length} too much",
+        .size_words = "the position reads {magnitude:.4g} {length} too {much}",
         .acts_on = FaultActsOn::sensor,
         .shows_in_each_sample = false,  // only in its first: after it, samples look healthy
         .size = {{{.measure = SizeMeasure::length, .twin = kShareOfRange}}},
         .size_count = 1,
+        .least_size = 0.001,  // a tenth of a degree of a joint that turns by a quarter of a turn
     },
     {
         .kind = FaultKind::stuck_encoder,
@@ -99,6 +101,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .shows_in_each_sample = false,  // nor does a drift: from one sample to the next it is next to nothing
         .size = {{{.measure = SizeMeasure::length_per_s, .twin = kShareOfRange}}},
         .size_count = 1,
+        .least_size = 0.0005,  // a bias that matters after two seconds
     },
     {
         .kind = FaultKind::friction_increase,
@@ -125,6 +128,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
                       .twin = {.low = 0.4, .high = 3.0, .spread = Spread::log_uniform},
                   }}},
         .size_count = 2,
+        .least_size = 0.1,  // temperature alone does more
     },
     {
         .kind = FaultKind::payload_change,
@@ -144,6 +148,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.15, .high = 1.2, .spread = Spread::log_uniform},
         }}},
         .size_count = 1,
+        .least_size = 0.03,  // hoses and tools make as much
     },
     {
         .kind = FaultKind::collision,
@@ -162,6 +167,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.15, .high = 1.0, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
+        .least_size = 0.03,  // half the least push that the twin knows
         .twin_length_s = {.low = 0.02, .high = 0.8, .spread = Spread::log_uniform},  // from a bump to a push
     },
     {
@@ -173,7 +179,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "Read torque or motor current of {} with the drive off: it should be 0. Look at the zero of the "
             "current sensor, the calibration of the torque sensor and loose shields; see also whether "
             "something leans on the arm or pulls at it.",
-        .size_words = "the torque reads {first:+.3g} {torque} too much",
+        .size_words = "the torque reads {magnitude:.3g} {torque} too {much}",
         .acts_on = FaultActsOn::motion,  // a drive that misreads its current gives another torque
         .size = {{{
             .measure = SizeMeasure::torque,
@@ -181,6 +187,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.1, .high = 0.6, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
+        .least_size = 0.02,  // offsets of healthy days reach half of it
     },
     {
         .kind = FaultKind::unknown,

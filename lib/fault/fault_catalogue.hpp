@@ -40,7 +40,8 @@ struct FaultDescription {
   const char* heading = "";     ///< in words
   const char* of_a_joint = "";  ///< in words, after "joint N "
   const char* next_check = "";  ///< sentences to a technician; "{}" stands for the joint
-  /// How its size is said: {first} and {second} size, {percent} of the first, units {length} and {torque}.
+  /// How its size is said: {first} and {second} size; of the first its {percent}, its {magnitude} and whether
+  /// that is {much} or little; units {length} and {torque}.
   const char* size_words = "";
 
   FaultActsOn acts_on = FaultActsOn::nothing;
@@ -56,6 +57,9 @@ struct FaultDescription {
   /// two its `viscous`.
   std::array<FaultSize, kMostSizes> size{};
   int size_count = 0;
+  /// Smaller ones are no fault to act on: share of usual_of() the measure that stands for each size among the
+  /// features. Below what the twin draws, about as much as healthy days differ. 0 for kinds without a size.
+  double least_size = 0.0;
   DrawRange twin_length_s{};  ///< of one that passes
 
   std::span<const FaultSize> sizes() const { return {size.data(), static_cast<std::size_t>(size_count)}; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace faultline {
 namespace {
@@ -62,6 +63,8 @@ std::string next_check_for(const FaultLabel& label) {
 std::string size_text(const FaultLabel& label, const std::array<double, kMostSizes>& sizes, bool turns) {
   return fmt::format(fmt::runtime(describe(label.kind).size_words), fmt::arg("first", sizes[0]),
                      fmt::arg("second", sizes[1]), fmt::arg("percent", 100.0 * sizes[0]),
+                     fmt::arg("magnitude", std::abs(sizes[0])),
+                     fmt::arg("much", sizes[0] < 0.0 ? "little" : "much"),
                      fmt::arg("length", unit_of(SizeMeasure::length, turns)),
                      fmt::arg("torque", unit_of(SizeMeasure::torque, turns)));
 }

@@ -147,6 +147,8 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
     text += html_finding(d.faults[i], figures, period);
     all.insert(all.end(), figures.begin(), figures.end());
   }
+  if (!d.small_changes.empty())
+    text += fmt::format("<h2 id=\"small\">{}</h2>\n", kSmallChangesTitle) + html_list(small_change_lines(d));
   const FactTable condition = condition_table(d);
   if (!condition.rows.empty())
     text += fmt::format("<h2 id=\"condition\">{}</h2>\n", escaped_markup(condition.title)) +

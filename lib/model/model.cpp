@@ -67,6 +67,7 @@ ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
 void read_origin(const nlohmann::json& json, Model& model) {
   model.identity = json.value("identity", "");
   model.doubts = json.value("doubts", std::vector<std::string>{});
+  model.grave_doubts = json.value("grave_doubts", std::vector<std::string>{});
   if (json.contains("edited"))
     for (const auto& edit : json["edited"])
       model.edits.push_back({edit.at("digest_before").get<std::string>(), edit.at("why").get<std::string>()});
@@ -132,6 +133,7 @@ std::string model_to_json(const Model& model) {
   if (model.identification.status != IdentificationStatus::not_run)
     json["identification"] = summary_to_json(model.identification);
   if (!model.doubts.empty()) json["doubts"] = model.doubts;
+  if (!model.grave_doubts.empty()) json["grave_doubts"] = model.grave_doubts;
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
   json["sources"] = sources_to_json(model.sources);

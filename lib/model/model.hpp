@@ -109,6 +109,7 @@ struct Model {
   std::string identity;
   std::vector<ModelEdit> edits;
   std::vector<std::string> doubts;  ///< why it is not to be trusted as others are; each diagnosis says so
+  std::vector<std::string> grave_doubts;  ///< those of them with which no log can be called healthy
   bool has_digest = true;  ///< false where it was read from a file of an earlier program, which carries none
 
   /// False where it was learned from logs without torque: then only `relations` judge.

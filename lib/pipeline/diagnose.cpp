@@ -12,8 +12,9 @@
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
-#include "lib/diagnosis/relation_findings.hpp"
-#include "lib/diagnosis/tracking_findings.hpp"
+#include "lib/diagnosis/least_size.hpp"
+#include "lib/diagnosis/relation/relation_findings.hpp"
+#include "lib/diagnosis/relation/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
 #include "lib/evidence/reading/question_reading.hpp"
 #include "lib/model/model_files.hpp"
@@ -40,17 +41,24 @@ std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, 
   if (run.log.is_tracked) return tracking_findings(run.relation_episodes, model.robot.chain);
   std::vector<FaultFinding> faults;
   for (const MonitoredEpisode& episode : run.episodes)
-    faults.push_back(decide_episode(episode, model, cases));
+    if (FaultFinding finding = decide_episode(episode, model, cases); finding.label.kind != FaultKind::none)
+      faults.push_back(std::move(finding));
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
   add_slow_faults(run.slow_faults, model, faults);
-  return with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
+  faults = with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
+  for (FaultFinding& fault : faults)
+    if (fault.decided_by == DecidedBy::actuator && fault.label.kind == FaultKind::torque_loss)
+      fault.extent = extent_of_torque_loss(fault.extent.size, model);
+  return faults;
 }
 
 std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
   if (run.log.is_tracked) return tracking_spots(model, run.relations_judged_s);
   std::vector<std::string> spots = blind_spots(model.robot.log.torque, run.log.has_velocity);
-  for (auto& more : {relation_spots(model.relations, run.relations_judged_s), weak_spots(model.validation),
-                     rough_spots(run.roughness), reach_sentences(model.validation.reach, model.robot.chain)})
+  for (auto& more : {relation_spots(model.relations, run.relations_judged_s),
+                     drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
+                     weak_spots(model.validation), rough_spots(run.roughness),
+                     reach_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
     spots.insert(spots.end(), more.begin(), more.end());
   return spots;
 }
@@ -112,7 +120,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   if (run.log.is_tracked)
     diagnosis.log.judgeable_rows =
         std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
-  diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model)};
+  diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model), model.grave_doubts};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.slow, model.motion.chain);

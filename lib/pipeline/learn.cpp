@@ -160,7 +160,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
               const LearnOptions& options, const Progress& progress) {
   options.check();
   RememberedLogs logs(healthy);
-  ModelDoubts doubts{implausible_units(logs.sources(), robot), {}};
+  ModelDoubts doubts{implausible_units(logs.sources(), robot), {}, {}};
   if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
@@ -171,7 +171,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                        part_of(progress, 0.0, kIdentified));
   HealthyRobot& found = trusted.watched.robot;
   doubts.add(doubts_about(found.identification));
-  doubts.add({{}, trusted.doubts});
+  doubts.add({{}, trusted.doubts, {}});
   if (!options.keep_doubtful) refuse_grave(doubts);
   Learned out;
   Model& model = out.model;
@@ -187,6 +187,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   doubts.add(doubts_about(model.validation));
   if (!options.keep_doubtful) refuse_grave(doubts);
   model.doubts = listed(doubts);
+  model.grave_doubts = against_healthy(doubts);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

@@ -29,6 +29,7 @@ void doubt_friction(const ParameterEstimate& parameter, ModelDoubts& doubts) {
 
 void ModelDoubts::add(const ModelDoubts& more) {
   grave.insert(grave.end(), more.grave.begin(), more.grave.end());
+  contradictions.insert(contradictions.end(), more.contradictions.begin(), more.contradictions.end());
   minor.insert(minor.end(), more.minor.begin(), more.minor.end());
 }
 
@@ -65,8 +66,14 @@ ModelDoubts doubts_about(const Validation& validation) {
   return doubts;
 }
 
-std::vector<std::string> listed(const ModelDoubts& doubts) {
+std::vector<std::string> against_healthy(const ModelDoubts& doubts) {
   std::vector<std::string> all = doubts.grave;
+  all.insert(all.end(), doubts.contradictions.begin(), doubts.contradictions.end());
+  return all;
+}
+
+std::vector<std::string> listed(const ModelDoubts& doubts) {
+  std::vector<std::string> all = against_healthy(doubts);
   all.insert(all.end(), doubts.minor.begin(), doubts.minor.end());
   return all;
 }

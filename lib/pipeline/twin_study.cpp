@@ -114,6 +114,7 @@ Validated validate(std::span<const MonitoredRun> faulty, std::span<const Monitor
     const MonitoredEpisode* episode = episode_of_fault(run);
     if (!episode) continue;
     const FaultFinding finding = decide_episode(*episode, model, cases);
+    if (finding.label.kind == FaultKind::none) continue;
     count(run, episode->evidence.alarm_s, finding, row, delays[run.label.kind]);
     if (finding.label.kind != FaultKind::unknown)
       out.judged.push_back(

@@ -8,6 +8,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/least_size.hpp"
 
 namespace faultline {
 namespace {
@@ -62,6 +63,13 @@ std::string issue_line(const Issue& issue) {
       issue.rows_dropped > 0 ? fmt::format(", {} rows left out", issue.rows_dropped) : "";
   return fmt::format("{} ({}, {} times{}{}): {}", to_string(issue.severity), issue.code, issue.count, where,
                      dropped, issue.message);
+}
+
+std::vector<std::string> small_change_lines(const Diagnosis& diagnosis) {
+  std::vector<std::string> lines;
+  for (const FaultFinding& change : diagnosis.small_changes)
+    lines.push_back(small_change_text(change, diagnosis.log.sample_period_s));
+  return lines;
 }
 
 }  // namespace faultline

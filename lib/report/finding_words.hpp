@@ -23,4 +23,8 @@ std::string size_words(const FaultFinding& fault);
 /// "warning (time_backward, 2 times in t, first in row 17, 2 rows left out): ...".
 std::string issue_line(const Issue& issue);
 
+/// Heading and lines of what was found and is too small to be reported as a fault.
+inline constexpr const char* kSmallChangesTitle = "Changes too small to be reported as faults";
+std::vector<std::string> small_change_lines(const Diagnosis& diagnosis);
+
 }  // namespace faultline

@@ -111,6 +111,24 @@ Json episode_json(const EpisodeFacts& episode) {
   return {{"evidence", number_or_null(episode.evidence)}, {"features", features}};
 }
 
+/// Null for a kind without a size.
+Json extent_json(const FaultExtent& extent) {
+  if (extent.unit.empty()) return nullptr;
+  return {{"value", number_or_null(extent.size)},
+          {"least", number_or_null(extent.least_size)},
+          {"unit", extent.unit}};
+}
+
+Json small_change_json(const FaultFinding& change) {
+  Json json;
+  put_label(json, change.label);
+  json["onset_s"] = number_or_null(change.onset_s);
+  json["end_s"] = number_or_null(change.end_s);
+  json["confidence"] = number_or_null(change.confidence);
+  json["size"] = extent_json(change.extent);
+  return json;
+}
+
 Json fault_json(const FaultFinding& fault) {
   Json json = {{"id", fault.id}};
   put_label(json, fault.label);
@@ -118,6 +136,7 @@ Json fault_json(const FaultFinding& fault) {
   json["alarm_s"] = number_or_null(fault.alarm_s);
   json["end_s"] = number_or_null(fault.end_s);
   json["confidence"] = number_or_null(fault.confidence);
+  json["size"] = extent_json(fault.extent);
   json["opinions"] = {{"mlp", opinion_json(fault.mlp)}, {"rbfn", opinion_json(fault.rbfn)}};
   json["decided_by"] = to_string(fault.decided_by);
   json["precedents"] = list_of<Json>(fault.precedents, precedent_json);
@@ -138,6 +157,7 @@ std::string render_json(const Diagnosis& diagnosis) {
                      {"verdict", to_string(diagnosis.verdict)},
                      {"verdict_reason", text_or_null(diagnosis.verdict_reason)},
                      {"faults", list_of<Json>(diagnosis.faults, fault_json)},
+                     {"small_changes", list_of<Json>(diagnosis.small_changes, small_change_json)},
                      {"condition", list_of<Json>(diagnosis.condition, condition_json)},
                      {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
                      {"cannot_see", list_of<Json>(diagnosis.cannot_see,

@@ -132,6 +132,7 @@ std::string render_markdown(const Diagnosis& d) {
       fmt::format("## {}\n\n**{}**\n\n", escaped_markdown(d.log.path), escaped_markdown(verdict_sentence(d)));
   text += fault_table(d);
   for (const FaultFinding& f : d.faults) text += finding(f);
+  text += list(kSmallChangesTitle, small_change_lines(d));
   const FactTable condition = condition_table(d);
   if (!condition.rows.empty()) text += "**" + condition.title + "**\n\n";
   text += table(condition.head, condition.rows) + residuals_table(d);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ranges>
 
@@ -18,6 +19,7 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kShownPrecedents = 3, kTextShownFeatures = 2;
+constexpr std::size_t kInHeadline = 3;  // faults; the timeline and the list show all
 
 std::string sentence(const std::string& text) {
   std::string s = printable(text);
@@ -160,6 +162,21 @@ std::string log_issues(const Diagnosis& d, int width) {
   return bullets("What was wrong with the log", lines, width);
 }
 
+/// The faults with the highest confidence first; among equals the earliest.
+std::vector<const FaultFinding*> by_confidence(const std::vector<FaultFinding>& faults) {
+  std::vector<const FaultFinding*> order;
+  for (const FaultFinding& fault : faults) order.push_back(&fault);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->confidence > b->confidence; });
+  return order;
+}
+
+std::string headline_of(const FaultFinding& fault, const LogFacts& log) {
+  const std::string size = size_words(fault).empty() ? "" : ", " + size_words(fault);
+  return fmt::format("{}, from {}{}", plain_words(fault.label), time_text(fault.onset_s, log.sample_period_s),
+                     size);
+}
+
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& d) {
@@ -167,12 +184,14 @@ std::string verdict_sentence(const Diagnosis& d) {
     return "No fault found." + (d.verdict_reason.empty() ? "" : " " + sentence(d.verdict_reason));
   if (d.verdict == Verdict::inconclusive) return "No verdict: " + sentence(d.verdict_reason);
   if (d.verdict == Verdict::not_run || d.faults.empty()) return "The log was not diagnosed.";
-  const FaultFinding& first = d.faults.front();
-  const std::string since = time_text(first.onset_s, d.log.sample_period_s);
-  const std::string size = size_words(first).empty() ? "" : "; " + size_words(first);
-  const std::string what = fmt::format("{}, from {}{}.", plain_words(first.label), since, size);
-  if (d.faults.size() == 1) return "1 fault: " + what;
-  return fmt::format("{} faults; the first: {}", d.faults.size(), what);
+  const std::vector<const FaultFinding*> order = by_confidence(d.faults);
+  if (order.size() == 1) return "1 fault: " + headline_of(*order.front(), d.log) + ".";
+  std::string text = fmt::format("{} faults, the most certain first", order.size());
+  for (std::size_t i = 0; i < std::min(order.size(), kInHeadline); ++i)
+    text += fmt::format("{} {} (confidence {})", i == 0 ? ":" : ";", headline_of(*order[i], d.log),
+                        percent_text(order[i]->confidence));
+  if (order.size() > kInHeadline) text += fmt::format("; and {} more", order.size() - kInHeadline);
+  return text + ".";
 }
 
 std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
@@ -182,7 +201,8 @@ std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
   const std::string timeline = judged ? render_timeline(d, options) : "";
   if (!timeline.empty()) text += timeline + "\n";
   for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
-  text += condition(d) + residuals_text(d) + log_issues(d, options.width);
+  text += bullets(kSmallChangesTitle, small_change_lines(d), options.width) + condition(d) +
+          residuals_text(d) + log_issues(d, options.width);
   text += bullets("What this log and model cannot show", d.cannot_see, options.width);
   if (text.ends_with("\n\n")) text.pop_back();
   return text;

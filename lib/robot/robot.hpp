@@ -8,6 +8,7 @@
 
 #include "lib/log/channels.hpp"
 #include "lib/robot/chain.hpp"
+#include "lib/robot/least_sizes.hpp"
 #include "lib/robot/normal_range.hpp"
 
 namespace faultline {
@@ -66,6 +67,7 @@ struct Robot {
   std::vector<double> gear_compliance;
   LogMeaning log;
   NormalRange normal;
+  LeastSizes least_sizes;
 
   int joints() const { return chain.joints(); }
 };

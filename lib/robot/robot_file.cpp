@@ -167,6 +167,7 @@ Robot robot_from_table(const TomlTable& table) {
   read_dh(robot, table, joints);
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   robot.normal = normal_range_from_table(table.table("normal"));
+  robot.least_sizes = least_sizes_from_table(table.table("least_size"));
   read_identified(robot, table);
   return robot;
 }

@@ -132,7 +132,8 @@ std::string robot_file_text(const Robot& robot) {
   for (int i = 0; i < robot.joints(); ++i) text += toml_joint(robot, i);
   for (int i = 0; i < robot.joints(); ++i) text += toml_link(robot, i);
   if (!robot.identified) text += extra_torque_text(robot.chain, "");
-  text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
+  text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal) +
+          least_sizes_text(robot.least_sizes);
   if (robot.identified) text += identified_text(robot);
   return text;
 }

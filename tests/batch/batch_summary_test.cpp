@@ -46,6 +46,30 @@ BatchFacts facts() {
   return made;
 }
 
+TEST(BatchSummary, TextNamesTheFirstUnusableLogsWithTheirReasonsAndCountsTheOthers) {
+  std::vector<BatchRow> all;
+  for (int i = 1; i <= 7; ++i) {
+    all.push_back(row("cut/" + std::to_string(i) + ".csv", "unusable", 0.0));
+    all.back().reason = "row 3 is cut";
+  }
+  const std::string text = to_text(summary_of(all, facts()));
+  EXPECT_NE(text.find("not diagnosed: cut/1.csv: row 3 is cut\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("not diagnosed: cut/5.csv: row 3 is cut\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("cut/6.csv"), std::string::npos) << text;
+  EXPECT_NE(text.find("and 2 more without a diagnosis; index.csv has the reason of each\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(BatchSummary, TextNamesTheModelThatCanCallNoLogHealthyAndWhy) {
+  BatchFacts doubtful = facts();
+  doubtful.models[0].grave_doubts = {"the logs contradict each other"};
+  const std::string text = to_text(summary_of(rows(), doubtful));
+  EXPECT_NE(text.find("no log can be called healthy by bench: the logs contradict each other\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(BatchSummary, CountsVerdictsFoldersAndKinds) {
   const BatchSummary summary = summary_of(rows(), facts());
   EXPECT_EQ(summary.all.logs, 5);
@@ -94,7 +118,8 @@ TEST(BatchSummary, TheTextNamesCountsAndKinds) {
   EXPECT_EQ(to_text(summary_of(rows(), facts())),
             "5 logs: 1 healthy, 2 faulty, 1 inconclusive, 1 unusable\n"
             "       2  locked, joint 2\n"
-            "       1  unknown\n");
+            "       1  unknown\n"
+            "  not diagnosed: b/4.csv: \n");
 }
 
 TEST(BatchFacts, ComeBackFromTheirFileAndOtherSettingsDiffer) {

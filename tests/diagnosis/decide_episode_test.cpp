@@ -123,9 +123,19 @@ TEST(DecideEpisode, AnUnknownDisturbanceThatExplainsTwiceAsMuchStaysUnknown) {
   EXPECT_EQ(decide_episode({episode, {}}, model, empty_base(model)).label, kLocked2);
 }
 
+TEST(DecideEpisode, NetworksThatAgreeOnWhatWouldHaveRaisedNoAlarmAreOverruled) {
+  const Model model = hand_made_rrp({kBias3, 0.9}, {kBias3, 0.9});
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kBias3, 0.9 * model.evidence.threshold);
+  const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kBias3, 3));
+  EXPECT_EQ(finding.label, kLocked2);
+  EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
+}
+
 TEST(DecideEpisode, TheLikelihoodDoesNotOverruleNetworksThatAgree) {
   const Model model = hand_made_rrp({kBias3, 0.9}, {kBias3, 0.9});
-  const EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  EpisodeEvidence episode = episode_of_fault(model, kLocked2);
+  explain(episode, model, kBias3, 2.0 * model.evidence.threshold);
   const FaultFinding finding = decide_episode({episode, {}}, model, base_of(model, episode, kBias3, 3));
   EXPECT_EQ(finding.label, kBias3);
   EXPECT_EQ(finding.decided_by, DecidedBy::agreement);

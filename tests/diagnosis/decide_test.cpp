@@ -74,6 +74,50 @@ Decision decided_with(bool locked_is_white, bool bias_is_white) {
   return decide({evidence, episode, votes_on(episode, base), left_over(true)});
 }
 
+/// Both networks say kLocked, whose likelihood is `locked_nats`; that of kBias is 30. The alarm is at 18.
+Decision decided_at_alarm(double locked_nats, double bias_nats = 30.0) {
+  const CaseBase base = example_base();
+  const Episode episode = episode_at(2, 0, {kLocked, 0.9}, {kLocked, 0.7});
+  DecisionBasis basis{{{kLocked, locked_nats, {}, left_over(true)}, {kBias, bias_nats, {}, left_over(true)}},
+                      episode,
+                      votes_on(episode, base),
+                      left_over(true)};
+  basis.threshold = 18.0;
+  return decide(basis);
+}
+
+TEST(Decide, ANameWhoseOwnLikelihoodWouldHaveRaisedNoAlarmGivesWayToOneThatDid) {
+  EXPECT_EQ(decided_at_alarm(18.5).label, kLocked);
+  const Decision decision = decided_at_alarm(17.5);
+  EXPECT_EQ(decision.label, kBias);
+  EXPECT_EQ(decision.reason, DecisionReason::lacks_evidence);
+  EXPECT_EQ(decided_at_alarm(17.5, 27.0).label.kind, FaultKind::none) << "none stands out";
+  EXPECT_EQ(decided_at_alarm(17.5, 17.9).label.kind, FaultKind::none);
+}
+
+/// Both networks say that joint 2 swings freely; being locked is nearly as likely.
+Decision decided_of_joint_2(bool is_held) {
+  const CaseBase base = example_base();
+  const FaultLabel free{FaultKind::free_swinging, 2}, lost{FaultKind::torque_loss, 2},
+      locked{FaultKind::locked, 2};
+  const Episode episode = episode_at(2, 0, {free, 0.9}, {free, 0.9});
+  DecisionBasis basis{{{free, 60.0, {}, left_over(true)},
+                       {lost, 59.0, {0.95, 0.0}, left_over(true)},
+                       {locked, 55.0, {}, left_over(true)}},
+                      episode,
+                      votes_on(episode, base),
+                      left_over(true)};
+  basis.is_held[1] = is_held;
+  return decide(basis);
+}
+
+TEST(Decide, AJointThatStandsStillUnderTorqueIsNotFree) {
+  EXPECT_EQ(decided_of_joint_2(false).label, (FaultLabel{FaultKind::free_swinging, 2}));
+  const Decision held = decided_of_joint_2(true);
+  EXPECT_EQ(held.label, (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_EQ(held.reason, DecisionReason::joint_is_held);
+}
+
 TEST(Decide, ANameThatLeavesNoiseStands) {
   EXPECT_EQ(decided_with(true, true).label, kLocked);
   EXPECT_EQ(decided_with(true, false).label, kLocked);

@@ -97,8 +97,8 @@ TEST(PushOnAllJoints, IsOnlyTheBusinessOfCollisions) {
 
 TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
   EXPECT_EQ(size_text({FaultKind::torque_loss, 2}, 0.436), "about 44 % of the torque is lost");
-  EXPECT_EQ(size_text({FaultKind::sensor_bias, 1}, 0.0321), "the position reads +0.0321 rad too much");
-  EXPECT_EQ(size_text({FaultKind::sensor_bias, 3}, -0.0021), "the position reads -0.0021 m too much");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 1}, 0.0321), "the position reads 0.0321 rad too much");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 3}, -0.0021), "the position reads 0.0021 m too little");
   EXPECT_EQ(size_text({FaultKind::sensor_drift, 2}, -0.05), "the position drifts by -0.05 rad/s");
   EXPECT_EQ(size_text({FaultKind::friction_increase, 1}, 2.0, 3.5),
             "friction rose by 3.5 N m plus 2 N m s/rad of speed");

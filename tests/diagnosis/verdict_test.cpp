@@ -53,6 +53,47 @@ TEST(Verdict, FaultsAreNumberedByOnsetWithUnknownTimesLast) {
   EXPECT_EQ(diagnosis.faults[2].id, 3);
 }
 
+TEST(Verdict, AModelWithAGraveDoubtCallsNoLogHealthyButItsFindingsCount) {
+  Diagnosis calm = of_log(1000, 1000);
+  calm.model.grave_doubts = {"the robot does not explain the logs"};
+  Diagnosis faulty = calm;
+  settle_verdict(calm, {}, kPeriod_s);
+  EXPECT_EQ(calm.verdict, Verdict::inconclusive);
+  EXPECT_NE(calm.verdict_reason.find("the robot does not explain the logs"), std::string::npos);
+  settle_verdict(faulty, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  EXPECT_EQ(faulty.verdict, Verdict::faulty);
+}
+
+FaultFinding sized(double times_least, double onset_s = 1.0) {
+  FaultFinding finding = fault(FaultKind::payload_change, 3, onset_s);
+  finding.extent = {0.05 * times_least, 0.05, "kg", times_least};
+  return finding;
+}
+
+TEST(Verdict, AChangeBelowTheLeastSizeIsListedAndIsNoFault) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  settle_verdict(diagnosis, {sized(0.03)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+  EXPECT_TRUE(diagnosis.faults.empty());
+  ASSERT_EQ(diagnosis.small_changes.size(), 1u);
+  EXPECT_NE(diagnosis.verdict_reason.find("1 change found, too small"), std::string::npos)
+      << diagnosis.verdict_reason;
+}
+
+TEST(Verdict, AChangeOfTheLeastSizeIsAFault) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  settle_verdict(diagnosis, {sized(1.0)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
+  EXPECT_TRUE(diagnosis.small_changes.empty());
+}
+
+TEST(Verdict, SmallChangesOfOneKindThatReachTheLeastSizeTogetherAreFaults) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  settle_verdict(diagnosis, {sized(0.6, 1.0), sized(0.6, 5.0)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
+  EXPECT_TRUE(diagnosis.small_changes.empty());
+}
+
 TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   settle_verdict(diagnosis, {}, kPeriod_s);

@@ -46,8 +46,8 @@ std::string said(FaultKind kind, double first, double second, bool turns) {
 
 TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
   EXPECT_EQ(said(FaultKind::torque_loss, 0.417, 0.0, true), "about 42 % of the torque is lost");
-  EXPECT_EQ(said(FaultKind::sensor_bias, 0.0123456, 0.0, true), "the position reads +0.01235 rad too much");
-  EXPECT_EQ(said(FaultKind::sensor_bias, -0.5, 0.0, false), "the position reads -0.5 m too much");
+  EXPECT_EQ(said(FaultKind::sensor_bias, 0.0123456, 0.0, true), "the position reads 0.01235 rad too much");
+  EXPECT_EQ(said(FaultKind::sensor_bias, -0.5, 0.0, false), "the position reads 0.5 m too little");
   EXPECT_EQ(said(FaultKind::sensor_drift, -0.012345, 0.0, false), "the position drifts by -0.0123 m/s");
   EXPECT_EQ(said(FaultKind::friction_increase, 1.5, 2.25, true),
             "friction rose by 2.25 N m plus 1.5 N m s/rad of speed");

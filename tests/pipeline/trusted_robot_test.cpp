@@ -113,8 +113,10 @@ TEST(LearnDoubts, AForcedModelIsMarkedAndEachDiagnosisSaysWhy) {
   ASSERT_FALSE(learned.model.doubts.empty());
   const Model read = model_from_json(model_to_json(learned.model), "model");
   EXPECT_EQ(read.doubts, learned.model.doubts);
+  EXPECT_EQ(read.grave_doubts, learned.model.grave_doubts);
   given.sources[0]->rewind();
   const Diagnosis diagnosis = diagnose(*given.sources[0], read, learned.cases);
+  EXPECT_NE(diagnosis.verdict, Verdict::healthy) << "of logs that contradict each other one is faulty";
   ASSERT_FALSE(diagnosis.model.notes.empty());
   EXPECT_NE(diagnosis.model.notes[0].find(read.doubts[0]), std::string::npos);
 }
@@ -128,6 +130,12 @@ TEST(ModelDoubts, AnUnexplainedRobotIsAGraveDoubtAndARoughOneAMinorOne) {
   EXPECT_EQ(listed(doubts_about(identification)).size(), 1u);
   identification.status = IdentificationStatus::poorly_excited;
   EXPECT_TRUE(listed(doubts_about(identification)).empty());
+}
+
+TEST(ModelDoubts, GraveOnesAndContradictingLogsStandAgainstHealthyMinorOnesDoNot) {
+  const ModelDoubts doubts{{"grave"}, {"contradicting"}, {"minor"}};
+  EXPECT_EQ(against_healthy(doubts), (std::vector<std::string>{"grave", "contradicting"}));
+  EXPECT_EQ(listed(doubts), (std::vector<std::string>{"grave", "contradicting", "minor"}));
 }
 
 TEST(ModelDoubts, AModelThatMissesFaultsOrAlarmsForNothingIsDoubted) {

@@ -11,8 +11,10 @@
 #include "lib/html/html_report.hpp"
 #include "lib/replay/run_curves.hpp"
 #include "lib/report/csv.hpp"
+#include "lib/report/finding_words.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
+#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 
@@ -25,6 +27,25 @@ Diagnosis empty_diagnosis() { return {}; }
 
 const std::vector<Diagnosis (*)()> kExamples = {healthy_diagnosis, faulty_diagnosis, hostile_diagnosis,
                                                 inconclusive_diagnosis, empty_diagnosis};
+
+TEST(SmallChanges, AChangeTooSmallToBeReportedAsAFaultIsInTextMarkdownHtmlAndJson) {
+  Diagnosis d = healthy_diagnosis();
+  FaultFinding gram;
+  gram.label = {FaultKind::payload_change, 3};
+  gram.onset_s = 4.2;
+  gram.confidence = 0.98;
+  gram.extent = {0.0014, 0.06, "kg", 0.0014 / 0.06};
+  d.small_changes = {gram};
+  for (const std::string& report : {render_text(d), render_markdown(d), render_html(d)}) {
+    EXPECT_NE(report.find(kSmallChangesTitle), std::string::npos);
+    EXPECT_NE(report.find("0.0014"), std::string::npos);
+    EXPECT_NE(report.find("0.06"), std::string::npos);
+  }
+  const Json json = Json::parse(render_json(d));
+  EXPECT_EQ(json.at("verdict"), "healthy");
+  EXPECT_EQ(json.at("small_changes").at(0).at("kind"), "payload_change");
+  EXPECT_EQ(json.at("small_changes").at(0).at("size").at("least"), 0.06);
+}
 
 TEST(JsonReport, ParsesAndHasEveryKeyOfTheContract) {
   for (const auto example : kExamples) {

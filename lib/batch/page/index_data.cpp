@@ -101,13 +101,14 @@ std::string numbers(const std::vector<double>& values) {
 std::string row_json(const BatchRow& row, IndexNames& names) {
   const auto model = names.models.find(row.model_sha256);
   return fmt::format(
-      "[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]", shown(row.log), quoted(row.verdict),
+      "[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]", shown(row.log), quoted(row.verdict),
       model == names.models.end() ? 0 : model->second, quoted(row.result),
       faults_json(row.faults, names.labels),
       row.verdict == "healthy" || !row.faults.empty() ? "\"\"" : shown(row.reason),
       number(row.start_s, kTimeDigits), number(row.end_s, kTimeDigits), number(row.sample_period_s),
       row.joints, row.warnings + row.severe, row.rows, numbers(row.residual_rms), numbers(row.residual_peak),
-      parameters_json(row.condition, names.parameters), parameters_json(row.parameters, names.parameters));
+      parameters_json(row.condition, names.parameters), parameters_json(row.parameters, names.parameters),
+      row.doubt.empty() ? "\"\"" : shown(row.doubt));
 }
 
 }  // namespace

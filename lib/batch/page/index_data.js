@@ -20,10 +20,10 @@ const faultlineIndex = (() => {
 
   function rowOf(given, i) {
     const [log, verdict, model, result, faults, reason, start, end, period, joints, issues, count, rms, peak,
-      condition, parameters] = given;
+      condition, parameters, doubt] = given;
     const folder = log.slice(0, Math.max(log.lastIndexOf('/'), 0));
     return {no: i + 1, log, folder, verdict, model, result, reason, start, end, period, joints, issues, count, rms,
-            peak, condition, parameters, residual: largest(rms),
+            peak, condition, parameters, doubt, residual: largest(rms),
             faults: faults.map(([label, joint, onset, alarm, stop, confidence]) =>
               ({kind: data.labels[label][0], words: data.labels[label][1], joint, onset, alarm, end: stop, confidence}))};
   }
@@ -35,7 +35,7 @@ const faultlineIndex = (() => {
   const when = (row, fault) => (row.start >= 1e5 && fault.onset !== null ?
     time(fault.onset - row.start, row.period) + ' after its start' : time(fault.onset, row.period));
   const faultText = (row, fault) =>
-    `${fault.words} at ${when(row, fault)}, ${Math.round(100 * fault.confidence)} %`;
+    `${fault.words} at ${when(row, fault)} (confidence ${Math.round(100 * fault.confidence)} %)`;
 
   return {data, rows, escaped, short, time, date, largest, link, faultText};
 })();

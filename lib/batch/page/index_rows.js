@@ -37,7 +37,8 @@ const faultlineRows = (() => {
     {id: 'no', title: 'no.', width: 3.6, number: true, usual: true, value: (r) => r.no, cell: (r) => r.no},
     {id: 'log', title: 'log', width: 0, usual: true, value: (r) => r.log, cell: name},
     {id: 'verdict', title: 'verdict', width: 7, usual: true, value: (r) => r.verdict,
-     cell: (r) => `<span class="${r.verdict}">${r.verdict}</span>`},
+     cell: (r) => `<span class="${r.verdict}">${r.verdict}</span>` +
+       (r.doubt ? `<br><span title="${escaped(r.doubt)}">doubtful model</span>` : '')},
     {id: 'faults', title: 'faults', width: 0, usual: true, cell: faults,
      value: (r) => (r.faults.length ? r.faults[0].words : r.reason || '\uffff')},
     {id: 'timeline', title: 'timeline', width: 11, usual: true, value: onset, cell: timeline},

@@ -15,17 +15,24 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kStillRows = 500;  // without script; more would cost those who have one
+constexpr std::size_t kLongestDoubt = 400;  // bytes of a sentence about the model
+constexpr std::size_t kStillRows = 500;     // without script; more would cost those who have one
 
 std::string fault_list(const BatchRow& row) {
   std::string list;
   for (const FaultEvent& fault : row.faults)
     list += (list.empty() ? "" : "<br>") +
-            escaped_markup(fmt::format("{} at {}, {}", plain_words(fault.label),
+            escaped_markup(fmt::format("{} at {} (confidence {})", plain_words(fault.label),
                                        time_text(fault.onset_s, row.sample_period_s),
                                        percent_text(fault.confidence)));
   if (list.empty() && row.verdict != "healthy") list = escaped_markup(printable(row.reason).substr(0, 400));
   return list;
+}
+
+std::string verdict_cell(const BatchRow& row) {
+  if (row.doubt.empty()) return row.verdict;
+  return fmt::format("{}<br><span title=\"{}\">doubtful model</span>", row.verdict,
+                     escaped_markup(printable(row.doubt).substr(0, kLongestDoubt)));
 }
 
 std::string log_cell(const BatchRow& row, bool pages) {
@@ -42,7 +49,7 @@ std::string table_row(const BatchRow& row, std::size_t number, bool pages) {
   const double duration = row.end_s - row.start_s, level = residual_level(row);
   const int issues = row.warnings + row.severe;
   return fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td><td>{}</td>",
-                     number, log_cell(row, pages), row.verdict, row.verdict, fault_list(row),
+                     number, log_cell(row, pages), row.verdict, verdict_cell(row), fault_list(row),
                      index_thumbnail(row)) +
          number_cell(level, value_text(level)) + number_cell(duration, value_text(duration)) +
          number_cell(issues, std::to_string(issues)) + "</tr>\n";

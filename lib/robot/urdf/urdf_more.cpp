@@ -142,7 +142,8 @@ std::string urdf_more_text(const Robot& robot) {
     text += each_joint(robot, "load", [&](int i) { return chain.friction[i].load; });
   text += extra_torque_text(chain, "");
   for (int i = 0; i < robot.joints(); ++i) text += more_link(robot, i);
-  return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal);
+  return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal) +
+         least_sizes_text(robot.least_sizes);
 }
 
 void read_urdf_more(Robot& robot, const std::string& text, const std::string& where) {

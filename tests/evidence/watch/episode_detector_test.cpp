@@ -10,6 +10,7 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/evidence/motion_model_json.hpp"
+#include "lib/evidence/standstill.hpp"
 #include "lib/fault/label_text.hpp"
 #include "tests/support/rrp_runs.hpp"
 
@@ -54,6 +55,29 @@ bool same(const EpisodeEvidence& a, const EpisodeEvidence& b) {
             a.hypotheses[h].size_std == b.hypotheses[h].size_std &&
             a.hypotheses[h].impulse == b.hypotheses[h].impulse;
   return equal;
+}
+
+/// Whether any episode shows that something holds joint 1 while the torque may or may not have acted.
+bool finds_it_held(const Log& log) {
+  for (const EpisodeEvidence& episode : detected(log))
+    if (is_held(episode.standstill[0], false)) return true;
+  return false;
+}
+
+TEST(EpisodeDetector, AJointThatRunsIntoAStopIsHeldAndOneThatSwingsFreelyIsNot) {
+  int held = 0, free = 0;
+  for (const std::uint64_t seed : {5, 6, 7, 8}) {
+    SimulationSpec spec = rrp_run(10.0);
+    const Log before = simulate(known_rrp(), spec, seed).log;
+    const auto [low, high] = std::minmax_element(before.q[0].begin(), before.q[0].end());
+    spec.stops.low = {-1e3, -1e3, -1e3};
+    spec.stops.high = {*low + 0.6 * (*high - *low), 1e3, 1e3};
+    held += finds_it_held(simulate(known_rrp(), spec, seed).log);
+    free +=
+        finds_it_held(simulate(known_rrp(), rrp_run_with(FaultKind::free_swinging, 1, kOnset_s), seed).log);
+  }
+  EXPECT_GE(held, 3);
+  EXPECT_EQ(free, 0);
 }
 
 TEST(EpisodeDetector, IsSilentOnHealthyRuns) {

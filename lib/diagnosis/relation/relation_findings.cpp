@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnosis/relation_findings.hpp"
+#include "lib/diagnosis/relation/relation_findings.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit
 constexpr double kWellBeyond = 1.5;          // times the limit
 constexpr double kSameTime_s = 0.1;          // the motion may show it so much sooner
 constexpr double kAftermath_s = 0.3;         // and so long after it has ended
-constexpr double kVague_s = 1.0;             // by which the motion may tell an onset too early
+constexpr double kVague_s = 1.0;             // by which the motion may tell onset and alarm too early or late
 constexpr double kLeftLaw_s = 1.0;           // a law that is left for longer after a fault follows from it
 constexpr double kConstant = 0.7;            // of the residual, which a constant explains: a sensor's offset
 constexpr double kStays_s = 1.0;             // for which a sensor that is off stays so at least
@@ -80,12 +80,17 @@ double end_of(const RelationEpisode& episode) {
   return episode.lasts ? std::numeric_limits<double>::infinity() : episode.end_s;
 }
 
-/// The onset of what creeps is told late and vaguely, its alarm is not.
-bool begins_within(const FaultFinding& finding, const RelationEpisode& episode) {
-  const auto within = [&](double time_s) {
-    return time_s >= episode.onset_s - kSameTime_s && time_s <= end_of(episode) + kAftermath_s;
-  };
-  return within(finding.onset_s) || (within(finding.alarm_s) && finding.onset_s > episode.onset_s - kVague_s);
+/// Whether the motion shows the same cause. The motion may date an onset too early, so that a finding that
+/// begins a while before the episode and overlaps it is of one cause with it where its alarm came with it.
+bool has_same_cause(const FaultFinding& finding, const RelationEpisode& episode) {
+  const bool begins_within =
+      finding.onset_s >= episode.onset_s - kSameTime_s && finding.onset_s <= end_of(episode) + kAftermath_s;
+  const bool begins_before =
+      finding.onset_s > episode.onset_s - kVague_s && finding.onset_s < episode.onset_s;
+  const bool overlaps = !(finding.end_s < episode.onset_s - kSameTime_s);
+  const bool alarms_with_it =
+      finding.alarm_s >= episode.onset_s - kAftermath_s && finding.alarm_s <= end_of(episode) + kVague_s;
+  return begins_within || (begins_before && overlaps && alarms_with_it);
 }
 
 /// A law that is left while another fault lasts, or for long after one: the controller's answer to it.
@@ -132,6 +137,7 @@ bool seconds(const RelationEpisode& episode, const FaultLabel& motion) {
 void take_over(FaultFinding& finding, const FaultFinding& motion, const RelationEpisode& episode) {
   if (seconds(episode, motion.label) && motion.decided_by != DecidedBy::criterion) {
     finding.label = motion.label;
+    finding.extent = motion.extent;
     finding.next_check = motion.next_check;
   }
   if (finding.trace.time.empty()) {
@@ -166,6 +172,7 @@ FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& cha
   FaultFinding finding;
   const bool lost = is_lost_torque(episode);
   finding.label = {lost ? FaultKind::torque_loss : FaultKind::unknown, episode.joint + 1};
+  if (lost) finding.extent.size = episode.share;
   finding.onset_s = episode.onset_s;
   finding.alarm_s = episode.alarm_s;
   finding.end_s = episode.end_s;
@@ -187,7 +194,7 @@ std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
     if (follows_from(episode, others) || answers(episode, episodes)) continue;
     FaultFinding finding = finding_of(episode, chain);
     const auto within = std::stable_partition(
-        motion.begin(), motion.end(), [&](const FaultFinding& m) { return !begins_within(m, episode); });
+        motion.begin(), motion.end(), [&](const FaultFinding& m) { return !has_same_cause(m, episode); });
     for (auto m = within; m != motion.end(); ++m) take_over(finding, *m, episode);
     if (within == motion.end() && is_lasting_offset(episode))
       finding.could_also_be.push_back(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnosis/tracking_findings.hpp"
+#include "lib/diagnosis/relation/tracking_findings.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
-#include "lib/diagnosis/relation_findings.hpp"
+#include "lib/diagnosis/relation/relation_findings.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/robot/axis_units.hpp"
 
@@ -15,6 +15,7 @@ namespace faultline {
 namespace {
 
 constexpr double kStill = 0.2;               // of the motion that should be there, or less
+constexpr double kAsked = 0.5;               // of the motion that was expected, or more
 constexpr double kExplains = 0.5;            // of the residual, by a velocity that is missing
 constexpr double kFindingsSameTime_s = 0.1;  // position and velocity show one thing so far apart
 
@@ -30,11 +31,26 @@ const char* unit_of(const Tracked& tracked, const Chain<double>& chain) {
   return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
+/// Whether what was expected of the joint when it began is what its reference asked for, and no constant that
+/// was learned while it moved.
+bool reference_moves(const RelationEpisode& episode) {
+  if (episode.target == Quantity::dq)
+    return episode.first_reference_rms > kAsked * episode.first_predicted_rms;
+  return episode.first_reference_span > kAsked * episode.first_predicted_span;
+}
+
 /// Hardly anything moved that should have when it began; later the joint may catch up.
 bool stands_still(const RelationEpisode& episode) {
+  if (!reference_moves(episode)) return false;
   if (episode.target == Quantity::dq)
     return episode.first_share_explains > kExplains && std::abs(episode.first_share - 1.0) < kStill;
   return episode.first_span < kStill * episode.first_predicted_span;
+}
+
+/// A joint at rest whose reference is at rest does what it is asked for, whatever was learned of motion.
+bool rests_as_asked(const RelationEpisode& episode) {
+  return episode.target == Quantity::dq && !reference_moves(episode) &&
+         episode.first_rms < kStill * episode.first_predicted_rms;
 }
 
 EvidenceItem difference(const RelationEpisode& episode, const Chain<double>& chain) {
@@ -111,6 +127,7 @@ std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& 
                                             const Chain<double>& chain) {
   std::vector<FaultFinding> found;
   for (const RelationEpisode& episode : episodes) {
+    if (rests_as_asked(episode)) continue;
     const auto same =
         std::find_if(found.begin(), found.end(), [&](const auto& f) { return is_same(f, episode); });
     if (same == found.end())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnosis/tracking_findings.hpp"
+#include "lib/diagnosis/relation/tracking_findings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ RelationEpisode episode(Quantity target, int joint, double onset_s, double end_s
   out.joint = joint - 1;
   out.onset_s = onset_s, out.alarm_s = onset_s + 0.1, out.end_s = end_s;
   out.mean = 0.2;
-  out.first_span = 0.5, out.first_predicted_span = 0.6;
+  out.first_span = 0.5, out.first_predicted_span = 0.6, out.first_reference_span = 0.6;
+  out.first_rms = 0.5, out.first_predicted_rms = 0.6, out.first_reference_rms = 0.6;
   out.times_limit = 3.0;
   return out;
 }
@@ -53,6 +54,23 @@ TEST(TrackingFindings, AJointThatStandsStillIsLockedWhicheverSignalSaysSo) {
   RelationEpisode frozen = episode(Quantity::q, 2, 4.0, 6.0);
   frozen.first_span = 0.01;
   EXPECT_EQ(tracking_findings({frozen}, chain())[0].label.kind, FaultKind::locked);
+}
+
+TEST(TrackingFindings, AJointStandsStillOnlyWhileItsReferenceMoves) {
+  RelationEpisode frozen = episode(Quantity::q, 1, 4.0, 6.0);
+  frozen.first_span = 0.01, frozen.first_reference_span = 0.0;
+  EXPECT_EQ(tracking_findings({frozen}, chain()).at(0).label.kind, FaultKind::unknown);
+  RelationEpisode stopped = episode(Quantity::dq, 1, 4.0, 6.0);
+  stopped.first_share = 0.95, stopped.first_share_explains = 0.9, stopped.first_rms = 0.3;
+  stopped.first_reference_rms = 0.0;
+  EXPECT_EQ(tracking_findings({stopped}, chain()).at(0).label.kind, FaultKind::unknown);
+}
+
+TEST(TrackingFindings, AJointAtRestWhoseReferenceIsAtRestIsNone) {
+  RelationEpisode rest = episode(Quantity::dq, 1, 4.0, 6.0);
+  rest.first_share = 1.0, rest.first_share_explains = 1.0, rest.first_rms = 0.001;
+  rest.first_reference_rms = 0.0;
+  EXPECT_TRUE(tracking_findings({rest}, chain()).empty());
 }
 
 TEST(TrackingFindings, UnitsAreThoseOfTheJoint) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnosis/relation_findings.hpp"
+#include "lib/diagnosis/relation/relation_findings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +42,22 @@ TEST(RelationFindings, WhatTheMotionShowsOfTheSameThingIsEvidenceOfOneFinding) {
   EXPECT_EQ(faults[1].decided_by, DecidedBy::actuator);
   ASSERT_FALSE(faults[1].could_also_be.empty());
   EXPECT_EQ(faults[1].could_also_be[0].label, (FaultLabel{FaultKind::collision, 2}));
+}
+
+/// A finding that lasts to the end of the log, dated before an episode of the drive from 3 to 3.2 s.
+std::size_t findings_with(double onset_s, double alarm_s) {
+  FaultFinding early = by_motion(FaultKind::friction_increase, 2, onset_s);
+  early.alarm_s = alarm_s;
+  early.end_s = 20.0;
+  return with_relations({early}, {episode(RelationKind::actuator, 1, 3.0, 3.2)}, chain()).size();
+}
+
+TEST(RelationFindings, AnOnsetDatedTooEarlyMakesNoSecondFindingWhereTheAlarmCameWithTheEpisode) {
+  EXPECT_EQ(findings_with(2.69, 2.85), 1u);
+  EXPECT_EQ(findings_with(2.69, 3.1), 1u);
+  EXPECT_EQ(findings_with(2.69, 3.9), 1u);
+  EXPECT_EQ(findings_with(2.3, 2.5), 2u) << "it alarmed before the drive strayed: another cause";
+  EXPECT_EQ(findings_with(1.5, 3.1), 2u);
 }
 
 TEST(RelationFindings, ALossOfTorqueThatTheDriveSecondsKeepsItsName) {
