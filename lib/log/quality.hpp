@@ -33,9 +33,9 @@ struct ChannelSummary {
 
 struct QualityOptions {
   TimeAxisOptions time{};
-  /// A position that spans more, or lies beyond 5 times this, is hardly rad: joints of arms turn by two
-  /// turns.
-  double position_span = 13.0;
+  /// A position that spans more, or lies beyond 5 times this, is hardly rad; a joint that a fault lets go may
+  /// turn a few times.
+  double position_span = 20.0;
   double slide_span = 10.0;       ///< the same, hardly m
   double fastest = 50.0;          ///< a velocity beyond it is hardly in rad/s or m/s
   double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds

@@ -13,6 +13,8 @@ namespace faultline {
 namespace {
 
 constexpr std::int64_t kLookedAt = 50'000;  // rows of a log: a minute and more at 500 Hz, read in a moment
+constexpr double kHealthySpan =
+    13.0;  // rad: joints of arms turn by two turns; where none runs away, none by more
 
 /// Of a log of another number of joints none: that is said by itself.
 Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
@@ -34,6 +36,7 @@ Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
 std::vector<std::string> implausible_units(std::span<LogSource* const> logs, const Robot& robot) {
   QualityOptions options;
   options.slides = sliding_joints(robot.chain);
+  options.position_span = kHealthySpan;
   std::vector<std::string> sentences;
   for (LogSource* log : logs) {
     const Issues issues = issues_of_beginning(*log, options);
