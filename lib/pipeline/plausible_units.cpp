@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <filesystem>
 
 #include "lib/core/error.hpp"
 #include "lib/log/quality.hpp"
@@ -42,7 +43,8 @@ std::vector<std::string> implausible_units(std::span<LogSource* const> logs, con
     const Issues issues = issues_of_beginning(*log, options);
     for (const Issue& issue : issues.all())
       if (issue.code == "unit_implausible" && issue.severity == Severity::severe)
-        sentences.push_back(log->identity().path + ": " + issue.channel + " " + issue.message);
+        sentences.push_back(std::filesystem::path(log->identity().path).filename().string() + ": " +
+                            issue.channel + " " + issue.message);
   }
   return sentences;
 }
