@@ -48,11 +48,14 @@ std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
                         residual(target, predicted)};
 }
 
-/// A torque beyond all that healthy logs reached is no more than wished for: the drive may give it or stay at
-/// the most that it ever gave.
+/// A torque beyond all that healthy logs reached is no more than wished for: the drive may stay at the most
+/// that it ever gave, and what lies beyond that too is not judged.
 double RelationResidual::residual(double target, double predicted) const {
   if (relation_.kind == RelationKind::tracking) return target - predicted;
   const double reachable = std::clamp(predicted, relation_.low, relation_.high);
+  const bool above = target >= relation_.high && predicted >= relation_.high;
+  const bool below = target <= relation_.low && predicted <= relation_.low;
+  if (above || below) return 0.0;
   return target - std::clamp(target, std::min(predicted, reachable), std::max(predicted, reachable));
 }
 

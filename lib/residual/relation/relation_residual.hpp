@@ -28,7 +28,8 @@ class RelationResidual {
   /// nullopt where the row cannot be judged: something is missing, or moves as nothing that was learned,
   /// and for a while after that.
   /// Where a torque is predicted beyond what healthy logs reached, one between their most and the prediction
-  /// is as good as predicted: a drive in its limit. `log` has the signals (has_signals()).
+  /// is as good as predicted: a drive in its limit; where both are beyond, the residual is 0. `log` has the
+  /// signals (has_signals()).
   std::optional<RelationSample> take(const Log& log, int row);
   /// For how long rows were beyond all that was learned, s.
   double beyond_s() const { return beyond_s_; }

@@ -189,7 +189,7 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
     now_->nats = 0.5 * z * z;
   }
   if (sample.time - now_->alarm_s > kQuiet_s && is_quiet_again()) {
-    now_->end_s = std::max(sample.time - kQuiet_s, now_->onset_s);
+    now_->end_s = std::max(std::min(sample.time - kQuiet_s, now_->end_s), now_->onset_s);
     close(false);
   } else if (std::abs(means_.mean(window_)) >= kStillStrays * allowed(window_)) {
     now_->end_s = sample.time;
