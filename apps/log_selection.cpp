@@ -21,7 +21,10 @@ void add_log_selection(CLI::App& command, LogSelection& parts) {
   command.add_option("--then", parts.then, "A file in which the log goes on; may be given several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--run", parts.run, "Which run of a file in which the clock restarts, from 1")
+  command
+      .add_option(
+          "--run", parts.run,
+          "Read one run only of a log in which the clock restarts, from 1; else all, one after the other")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
 }

@@ -17,7 +17,7 @@ struct LogSelection {
   std::vector<std::string> then{};  ///< files in which it goes on
   std::vector<std::string> join{};  ///< files with more columns of it
   JoinBy by = JoinBy::automatic;    ///< how their rows are found
-  int run = 1;                      ///< where the clock restarts, from 1
+  int run = kEveryRun;              ///< where the clock restarts, from 1
   bool hashed = true;               ///< identity() has the SHA-256; text is read in half the time without
 };
 

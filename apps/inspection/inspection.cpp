@@ -101,6 +101,7 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
   inspection.log = source.identity();
   QualityOptions options;
   if (robot && robot->joints() == inspection.joints) options.slides = sliding_joints(robot->chain);
+  options.runs = source.identity().runs;
   inspection.quality = quality_of(state, options);
   inspection.issues = source.issues();
   inspection.issues.merge(inspection.quality.issues);

@@ -62,7 +62,7 @@ Inspection inspect_log(const std::string& path, const std::optional<Robot>& robo
 /// The same of columns that are open already; what they mean says the robot, `run` counts where the clock
 /// restarts.
 Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optional<Robot>& robot,
-                           const Progress& progress, int run = 1);
+                           const Progress& progress, int run = kEveryRun);
 
 std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);

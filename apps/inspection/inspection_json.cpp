@@ -7,6 +7,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/utf8.hpp"
+#include "lib/log/runs/log_run_json.hpp"
 
 namespace faultline {
 namespace {
@@ -110,6 +111,7 @@ Json inspection_json(const Inspection& inspection) {
             {"start_s", number_or_null(time.start_s)},
             {"end_s", number_or_null(time.end_s)},
             {"sample_period_s", number_or_null(time.period_s)}};
+  if (inspection.log.runs.size() > 1) json["runs"] = list_of<Json>(inspection.log.runs, log_run_json);
   json["channels"] = list_of<Json>(inspection.channels, [&](const InspectedChannel& channel) {
     return channel_json(channel, inspection.checkup);
   });

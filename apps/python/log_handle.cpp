@@ -124,7 +124,7 @@ LogSelection selection(std::vector<std::string> then, std::vector<std::string> j
     parts.by = JoinBy::time;
   else if (by != "auto")
     throw Error(ErrorCode::usage, "join_by", "\"" + by + "\" is no way to join; expected auto, row or time");
-  if (run < 1) throw Error(ErrorCode::usage, "run", "counts from 1");
+  if (run < 0) throw Error(ErrorCode::usage, "run", "counts from 1; 0 reads every run");
   return parts;
 }
 

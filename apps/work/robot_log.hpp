@@ -17,6 +17,7 @@ std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& 
                                           const LogSelection& parts = {});
 
 /// The same of a log that is open as columns; `run` of it, where its clock restarts.
-std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const Robot& robot, int run = 1);
+std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const Robot& robot,
+                                        int run = kEveryRun);
 
 }  // namespace faultline

@@ -41,7 +41,8 @@ std::string result_from(const Json& report) {
 }
 
 std::string fault_words(const FaultEvent& fault) {
-  const std::string words = label_text(fault.label);
+  const std::string words =
+      label_text(fault.label) + (fault.run > 0 ? fmt::format(" run {}", fault.run) : "");
   return std::isfinite(fault.onset_s) ? words + fmt::format(" @{}", fault.onset_s) : words;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/number_text.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/axis_units.hpp"
 
@@ -14,6 +15,13 @@ namespace faultline {
 namespace {
 
 constexpr double kEnough = 0.75;  // of the simulated faults of a kind
+constexpr std::size_t kListedStretches = 10;
+
+std::string what_is_missing(const UnjudgedStretch& stretch) {
+  if (stretch.joint == 0) return "rows are missing";
+  if (!stretch.lacks_position) return "its torque is missing";
+  return stretch.lacks_torque ? "its position and its torque are missing" : "its position is missing";
+}
 
 }  // namespace
 
@@ -30,6 +38,28 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
     spots.push_back(
         "The log has no velocities: small and short faults are seen later or not at all, and a stuck encoder may be called a "
         "locked joint.");
+  return spots;
+}
+
+std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) {
+  const double period_s = log.sample_period_s;
+  return fmt::format("{} could {}be judged from {} to {}{}: {}",
+                     stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
+                     stretch.joint == 0 ? "" : "not ", time_text(stretch.start_s, period_s),
+                     time_text(stretch.end_s, period_s),
+                     stretch.end_s == log.end_s ? ", the end of the log" : "", what_is_missing(stretch));
+}
+
+std::vector<std::string> unjudged_spots(const LogFacts& log) {
+  std::vector<std::string> spots;
+  const std::size_t listed = std::min(log.unjudged.size(), kListedStretches);
+  for (std::size_t i = 0; i < listed; ++i) {
+    std::string words = unjudged_words(log.unjudged[i], log);
+    words[0] = words[0] == 'j' ? 'J' : 'N';
+    spots.push_back(words + ".");
+  }
+  if (log.unjudged.size() > listed)
+    spots.push_back(fmt::format("{} more such stretches could not be judged.", log.unjudged.size() - listed));
   return spots;
 }
 

@@ -4,12 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "lib/diagnosis/diagnosis.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
 
 /// What a log cannot show, a sentence each, by what its torque means and whether it has velocities.
 std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
+
+/// The stretches in which a joint could not be judged for longer than a moment, a sentence each, and one for
+/// those beyond the first few.
+std::vector<std::string> unjudged_spots(const LogFacts& log);
+/// "joint 2 could not be judged from 1.200 s to 9.990 s, the end of the log: its torque is missing".
+std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log);
 
 /// Second residuals of the model that a log lacks the signals for, a sentence each; `judged_s` by relation.
 std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,

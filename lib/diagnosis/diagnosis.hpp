@@ -13,6 +13,7 @@
 #include "lib/diagnosis/decided_by.hpp"
 #include "lib/evidence/evidence_trace.hpp"
 #include "lib/fault/opinion.hpp"
+#include "lib/log/log_run.hpp"
 #include "lib/residual/residual_summary.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
@@ -90,7 +91,9 @@ struct FaultFinding {
   double alarm_s =
       std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
   double end_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that shows it
-  double confidence = 0.0;                                  ///< 0 to 1
+  int run = 0;                  ///< of a log with several, from 1: the one it began in; 0 where there is one
+  double clock_offset_s = 0.0;  ///< of that run: its own clock shows so much less
+  double confidence = 0.0;      ///< 0 to 1
   Opinion mlp;
   Opinion rbfn;
   DecidedBy decided_by = DecidedBy::evidence;
@@ -105,6 +108,16 @@ struct FaultFinding {
 /// Code of the severe issue of a log that is not what the model takes it for.
 inline constexpr const char* kMisreadLog = "misread_log";
 
+/// A stretch of a log in which a joint could not be judged for longer than a moment (judged_moment_s()), at
+/// its end judged_moment_at_end_s().
+struct UnjudgedStretch {
+  int joint = 0;         ///< from 1; 0: all, rows are missing
+  double start_s = 0.0;  ///< last row before it that was judged, or the first row
+  double end_s = 0.0;    ///< first row after it that was judged, or the last row
+  bool lacks_position = false, lacks_torque = false;
+  bool is_last = false;  ///< it lasts to the end of its run
+};
+
 struct LogFacts {
   std::string path;  ///< as given, without leading folders that name a machine
   std::string sha256;
@@ -117,7 +130,11 @@ struct LogFacts {
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
   bool has_velocity = false;
-  bool is_tracked = false;  ///< without torque: held against references only
+  bool is_tracked = false;                ///< without torque: held against references only
+  std::vector<LogRun> runs;               ///< of its clock; one where it never restarts, or none for no file
+  std::vector<UnjudgedStretch> unjudged;  ///< by start
+  std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
+  bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
   Issues issues;
 };
 

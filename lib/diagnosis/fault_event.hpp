@@ -3,8 +3,10 @@
 
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
+#include "lib/core/number_text.hpp"
 #include "lib/diagnosis/diagnosis.hpp"
 
 namespace faultline {
@@ -15,8 +17,20 @@ struct FaultEvent {
   double onset_s = std::numeric_limits<double>::quiet_NaN();
   double alarm_s = std::numeric_limits<double>::quiet_NaN();
   double end_s = std::numeric_limits<double>::quiet_NaN();
-  double confidence = 0.0;  ///< 0 to 1
+  double confidence = 0.0;      ///< 0 to 1
+  int run = 0;                  ///< as FaultFinding::run
+  double clock_offset_s = 0.0;  ///< as FaultFinding::clock_offset_s
 };
+
+/// "12.345 s", of a log with several runs "12.345 s (run 2, 1.234 s on its clock)". `Fault` is a FaultEvent
+/// or a FaultFinding.
+template <typename Fault>
+std::string onset_words(const Fault& fault, double sample_period_s) {
+  const std::string onset = time_text(fault.onset_s, sample_period_s);
+  if (fault.run == 0) return onset;
+  return onset + " (run " + std::to_string(fault.run) + ", " +
+         time_text(fault.onset_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
+}
 
 FaultEvent event_of(const FaultFinding& finding);
 /// In the order of the findings.

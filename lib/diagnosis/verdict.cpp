@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/blind_spots.hpp"
 #include "lib/diagnosis/least_size.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
+#include "lib/log/runs/judged_moment.hpp"
 
 namespace faultline {
 namespace {
@@ -64,10 +66,43 @@ std::string why_too_doubtful(const ModelFacts& model) {
       model.grave_doubts.front());
 }
 
+/// Which joint could not be judged for longer than a moment; empty if none. Of several the longest stretch.
+std::string why_not_judged(const LogFacts& log) {
+  const auto longest = std::max_element(
+      log.unjudged.begin(), log.unjudged.end(),
+      [](const auto& a, const auto& b) { return a.end_s - a.start_s < b.end_s - b.start_s; });
+  if (longest == log.unjudged.end()) return "";
+  const std::size_t others = log.unjudged.size() - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format(" (and {} other stretch{})", others, others == 1 ? "" : "es");
+  return fmt::format(
+      "no fault was found where the log could be judged, but {}{}; a fault may hide where a joint is not judged "
+      "for longer than {:.2g} s, or at the end",
+      unjudged_words(*longest, log), more, judged_moment_s(log.sample_period_s));
+}
+
+/// What a healthy verdict speaks of: the whole log only where all of it was judged.
+std::string judged_part(const LogFacts& log) {
+  const auto read =
+      std::count_if(log.runs.begin(), log.runs.end(), [](const LogRun& run) { return run.is_read; });
+  if (read < std::ssize(log.runs)) {
+    const auto run =
+        std::find_if(log.runs.begin(), log.runs.end(), [](const LogRun& r) { return r.is_read; });
+    return fmt::format("run {} of {}; the other runs were not read", run->run, log.runs.size());
+  }
+  if (log.is_whole) return "the whole log";
+  const std::string rows = log.rows_unjudged > 0
+                               ? fmt::format("{} of {} rows", log.rows_unjudged, log.rows_read)
+                               : "a few moments";
+  return fmt::format("the log, but for {} that could not be judged, never more than {:.2g} s at a time", rows,
+                     judged_moment_s(log.sample_period_s));
+}
+
 /// Why a log in which no fault was found is not called healthy; empty when it can be.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
   if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
+  if (const std::string unjudged = why_not_judged(diagnosis.log); !unjudged.empty()) return unjudged;
   if (power < kLeastPower)
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
@@ -122,8 +157,9 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
     return;
   }
   diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
-  const char* healthy = diagnosis.log.is_tracked ? "every joint that is judged follows its reference"
-                                                 : "the identified robot explains the whole log";
+  const std::string healthy = diagnosis.log.is_tracked
+                                  ? "every joint that is judged follows its reference"
+                                  : "the identified robot explains " + judged_part(diagnosis.log);
   diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
   if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
     diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;

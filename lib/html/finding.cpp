@@ -5,6 +5,7 @@
 
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/diagnosis/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/html/elements.hpp"
 #include "lib/html/figure.hpp"
@@ -18,8 +19,8 @@ constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
 
 std::string times(const FaultFinding& f, double period_s) {
   return html_table({"onset", "alarm", "end", "confidence", "decided by"},
-                    {{time_text(f.onset_s, period_s), time_text(f.alarm_s, period_s),
-                      time_text(f.end_s, period_s), percent_text(f.confidence), decided_words(f)}},
+                    {{onset_words(f, period_s), time_text(f.alarm_s, period_s), time_text(f.end_s, period_s),
+                      percent_text(f.confidence), decided_words(f)}},
                     fmt::format("Fault {}", f.id));
 }
 
@@ -127,7 +128,7 @@ std::string html_fault_table(const Diagnosis& d) {
     text += fmt::format("<tr><td data-label=\"fault\"><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
     const HtmlRow cells = {"",
                            plain_words(f.label),
-                           time_text(f.onset_s, period),
+                           onset_words(f, period),
                            time_text(f.alarm_s, period),
                            time_text(f.end_s, period),
                            percent_text(f.confidence)};

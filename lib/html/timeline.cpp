@@ -9,6 +9,7 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/html/finding.hpp"
 #include "lib/plot/plot_axis.hpp"
@@ -57,7 +58,7 @@ class Picture {
   std::string described(const FaultFinding& f) const {
     const double period = d_.log.sample_period_s;
     return escaped_markup(fmt::format("Fault {}: {}; onset {}, alarm {}, end {}, confidence {}", f.id,
-                                      plain_words(f.label), time_text(f.onset_s, period),
+                                      plain_words(f.label), onset_words(f, period),
                                       time_text(f.alarm_s, period), time_text(f.end_s, period),
                                       percent_text(f.confidence)));
   }

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "lib/core/issue.hpp"
 #include "lib/log/log.hpp"
+#include "lib/log/log_run.hpp"
 
 namespace faultline {
 
@@ -17,6 +19,8 @@ struct LogIdentity {
   std::string format;          ///< such as "csv"
   std::string sha256;          ///< of the file's bytes; empty for a log that is no file
   std::int64_t rows_read = 0;  ///< = rows handed out + issues().rows_dropped()
+  std::vector<LogRun>
+      runs{};  ///< of the log's clock; one where it never restarts, empty for a log that is no file
 };
 
 /// The door through which every stage sees a log: a sequence of segments of bounded size. Rows that come out

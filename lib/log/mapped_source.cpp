@@ -12,13 +12,15 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
+#include "lib/log/rows/implausible.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
     : reader_(std::move(reader)), options_(options) {
   options_.segment_rows = std::max(options_.segment_rows, 1);
-  clean_state_.wanted_run = options_.run;
+  order_ = RowOrder(options_.run);
+  identity_ = reader_->identity();
   matching_ = match_columns(reader_->columns(), reader_->canonical() ? ColumnMap{} : options_.columns,
                             reader_->identity().path);
   if (!options_.keep_extra) matching_.extra.clear();
@@ -35,9 +37,9 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
 
 void MappedSource::rewind() {
   reader_->rewind();
-  clean_state_ = {.wanted_run = options_.run};
+  order_ = RowOrder(options_.run);
+  identity_ = reader_->identity();
   sparse_rows_ = {};
-  waiting_ = {};
   rows_kept_ = 0;
   at_end_ = false;
   cleaning_issues_ = {};
@@ -52,18 +54,17 @@ const Issues& MappedSource::issues() const {
 
 bool MappedSource::next(Log& segment) {
   gathered_ = false;
-  while (!at_end_) {
-    if (!fill(segment)) break;
-    const int rows = segment.rows();
-    waiting_ = clean(segment, segment_first_row_, at_end_, clean_state_, cleaning_issues_);
-    waiting_file_row_ = segment_first_row_ + rows - 1;
+  for (;;) {
+    while (!order_.give(segment, options_.segment_rows))
+      if (!fill()) {
+        refuse_no_rows();
+        return false;
+      }
     if (reader_->sparse()) sparse_rows_.gather(segment, cleaning_issues_);
     segment.first_row = rows_kept_;
     rows_kept_ += segment.rows();
     if (segment.rows() > 0) return true;
   }
-  refuse_no_rows();
-  return false;
 }
 
 void MappedSource::refuse_no_rows() const {
@@ -71,38 +72,31 @@ void MappedSource::refuse_no_rows() const {
   const LogIdentity& log = reader_->identity();
   if (log.rows_read == 0)
     throw Error(ErrorCode::input, log.path, "has a header but no data row; a log has at least one");
-  if (clean_state_.run < options_.run)
-    throw Error(
-        ErrorCode::input, log.path,
-        fmt::format("has no run {}: its clock restarts {} times", options_.run, clean_state_.run - 1));
+  const auto runs = static_cast<int>(identity_.runs.size());
+  if (runs > 0 && runs < options_.run)
+    throw Error(ErrorCode::input, log.path,
+                fmt::format("has no run {}: its clock restarts {} times", options_.run, runs - 1));
   throw Error(
       ErrorCode::input, log.path,
       fmt::format("none of its {} rows has a usable time (seconds as a number, increasing); first: {}",
                   log.rows_read, issues().empty() ? "" : issues().all().front().message));
 }
 
-/// The next block, with the waiting row in front; after the last block that row alone.
-bool MappedSource::fill(Log& segment) {
-  const bool more = reader_->next(block_, options_.segment_rows);
-  at_end_ = !more;
-  if (!more) {
-    if (waiting_.rows() == 0) return false;
-    std::swap(segment, waiting_);
-    segment_first_row_ = waiting_file_row_;
-    return true;
+/// Puts the next block among the rows to be ordered; false when there is none.
+bool MappedSource::fill() {
+  if (at_end_) return false;
+  at_end_ = !reader_->next(block_, options_.segment_rows);
+  if (at_end_) {
+    order_.finish(cleaning_issues_);
+  } else {
+    if (!epoch_found_) find_epoch();
+    take_block(rows_);
+    blank_implausible(rows_, block_.first_row, cleaning_issues_);
+    order_.take(rows_, block_.first_row, cleaning_issues_);
   }
-  if (!epoch_found_) find_epoch();
-  take_block(segment);
-  segment_first_row_ = block_.first_row;
-  if (waiting_.rows() > 0) put_waiting_row_first(segment);
+  identity_ = reader_->identity();
+  identity_.runs = order_.runs();
   return true;
-}
-
-void MappedSource::put_waiting_row_first(Log& segment) {
-  for_each_column(segment, waiting_, [](std::vector<double>& values, const std::vector<double>& first) {
-    values.insert(values.begin(), first.begin(), first.end());
-  });
-  segment_first_row_ -= 1;
 }
 
 std::vector<double>& MappedSource::channel_of(Log& log, Channel channel) const {

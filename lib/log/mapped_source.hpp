@@ -6,14 +6,14 @@
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/raw_reader.hpp"
-#include "lib/log/rows/clean.hpp"
+#include "lib/log/rows/row_order.hpp"
 #include "lib/log/rows/sparse.hpp"
 
 namespace faultline {
 
 struct MappedSourceOptions {
-  ColumnMap columns{};      ///< [log.columns] of the robot file
-  int run = 1;              ///< of a file in which the clock restarts, from 1
+  ColumnMap columns{};  ///< [log.columns] of the robot file
+  int run = kEveryRun;  ///< of a file in which the clock restarts, from 1; all of them: one after the other
   int segment_rows = 4096;  ///< at most so many rows a segment; changes no byte of any result
   bool keep_extra = true;   ///< hand out columns without a canonical meaning too
 };
@@ -27,16 +27,15 @@ class MappedSource : public LogSource {
   /// At the end throws Error(input) when not a single row was usable.
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return reader_->identity(); }
+  const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override;
   double share_read() const override { return reader_->share_read(); }
   const Matching& matching() const { return matching_; }
 
  private:
-  bool fill(Log& segment);
+  bool fill();
   void take_block(Log& segment);
   void find_epoch();
-  void put_waiting_row_first(Log& segment);
   void take(const ChannelSource& source, std::vector<double>& values);
   std::vector<double>& channel_of(Log& log, Channel channel) const;
   void gather_issues() const;
@@ -47,11 +46,10 @@ class MappedSource : public LogSource {
   Matching matching_;
   std::vector<int> uses_;  ///< of each raw column
   RawBlock block_;
-  CleanState clean_state_;
+  RowOrder order_;
+  LogIdentity identity_;
   SparseRows sparse_rows_;
-  Log waiting_;                         ///< a row whose time could not be judged yet, or none
-  std::int64_t segment_first_row_ = 0;  ///< data row of the segment's first row, from 0
-  std::int64_t waiting_file_row_ = 0;   ///< data row of the waiting one, from 0
+  Log rows_;  ///< of a block
   std::int64_t rows_kept_ = 0;
   bool at_end_ = false;
   bool epoch_found_ = false;  ///< or looked for

@@ -57,7 +57,7 @@ void assess(const Log& segment, QualityState& state) {
 
 LogQuality quality_of(const QualityState& state, const QualityOptions& options) {
   LogQuality quality;
-  quality.time = state.time.result();
+  quality.time = without_run_breaks(state.time.result(), options.runs);
   quality.channels = state.channels;
   judge_time(quality.time, options, quality.issues);
   for (const ChannelSummary& channel : state.channels)

@@ -7,6 +7,7 @@
 
 #include "lib/core/issue.hpp"
 #include "lib/log/log.hpp"
+#include "lib/log/log_run.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/velocity_check.hpp"
 
@@ -40,6 +41,7 @@ struct QualityOptions {
   double fastest = 50.0;          ///< a velocity beyond it is hardly in rad/s or m/s
   double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
   std::vector<bool> slides{};     ///< of each joint, whether it slides (its unit is m); empty when not known
+  std::vector<LogRun> runs{};     ///< of the log's clock: what lies between two of them is no gap
   double saturated_share = 0.01;  ///< of a torque's values at its largest or smallest one, at least 20
 };
 

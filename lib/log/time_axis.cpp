@@ -3,10 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
+namespace {
+
+constexpr double kRounding = 1e-6;  // of the length of a gap
+
+}  // namespace
 
 double median_step(const std::vector<double>& time) {
   if (time.size() < 2) return std::nan("");
@@ -48,6 +54,30 @@ void TimeAxisPass::judge_step(double before, double now) {
   axis_.uneven_steps += std::abs(off) > options_.jitter_share * axis_.period_s;
   axis_.largest_jitter_s = std::max(axis_.largest_jitter_s, std::abs(off));
   squares_ += off * off;
+}
+
+TimeAxis without_run_breaks(TimeAxis axis, const std::vector<LogRun>& runs) {
+  const auto is_break = [&](const TimeGap& gap) {
+    return std::any_of(runs.begin(), runs.end(), [&](const LogRun& run) {
+      return run.run > 1 && run.is_read && run.start_s > gap.start_s &&
+             run.start_s < gap.start_s + (1.0 + kRounding) * gap.length_s;
+    });
+  };
+  std::vector<TimeGap> kept;
+  axis.longest_gap_s = axis.gaps > std::ssize(axis.listed_gaps) ? axis.longest_gap_s : 0.0;
+  for (const TimeGap& gap : axis.listed_gaps) {
+    if (is_break(gap)) {
+      --axis.gaps;
+      axis.in_gaps_s -= gap.length_s;
+      continue;
+    }
+    axis.longest_gap_s = std::max(axis.longest_gap_s, gap.length_s);
+    kept.push_back(gap);
+  }
+  axis.listed_gaps = std::move(kept);
+  axis.first_gap_row = axis.listed_gaps.empty() ? 0 : axis.listed_gaps.front().row;
+  axis.first_gap_s = axis.listed_gaps.empty() ? 0.0 : axis.listed_gaps.front().start_s;
+  return axis;
 }
 
 TimeAxis TimeAxisPass::result() const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "lib/log/log_run.hpp"
+
 namespace faultline {
 
 /// Steps of time from which the sample period is taken (their median).
@@ -59,6 +61,9 @@ class TimeAxisPass {
   std::int64_t judged_ = 0;   ///< rows before the step to be judged next
   double squares_ = 0.0;
 };
+
+/// Without the gaps between runs among those that are listed: nothing is missing there.
+TimeAxis without_run_breaks(TimeAxis axis, const std::vector<LogRun>& runs);
 
 /// Median of the steps between increasing times, NaN for less than two.
 double median_step(const std::vector<double>& time);

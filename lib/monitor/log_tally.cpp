@@ -45,6 +45,13 @@ std::string shown_path(const std::string& path) {
   return given.is_absolute() ? given.filename().string() : given.generic_string();
 }
 
+/// What a note counts was no row of the joint log.
+std::int64_t rows_lost(const Issues& issues) {
+  std::int64_t rows = 0;
+  for (const Issue& issue : issues.all()) rows += issue.severity == Severity::note ? 0 : issue.rows_dropped;
+  return rows;
+}
+
 void note_rejected(Issues& issues, int count) {
   if (count > 0)
     issues.add({"short_disturbance", "", Severity::note,
@@ -65,6 +72,7 @@ void check_joints(const Log& segment, const LogSource& log, const Model& model) 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
   check_channels(segment, log, model);
   assess(segment, quality);
+  stretches.take(segment, log.identity().runs);
   if (rows == 0 && segment.rows() > 0) start_s = segment.time.front();
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();
@@ -81,6 +89,7 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
 LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms) {
   QualityOptions options;
   options.slides = sliding_joints(model.robot.chain);
+  options.runs = log.identity().runs;
   const LogQuality quality = quality_of(tally.quality, options);
   LogFacts facts;
   facts.path = shown_path(log.identity().path);
@@ -95,6 +104,10 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.joints = model.robot.joints();
   facts.has_velocity = tally.has_velocity;
   facts.issues = log.issues();
+  facts.runs = log.identity().runs;
+  facts.unjudged = tally.stretches.longer_than_a_moment(quality.time.period_s);
+  facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
+  facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;
   facts.issues.merge(quality.issues);
   note_rejected(facts.issues, rejected_alarms);
   return facts;

@@ -8,6 +8,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/model/model.hpp"
+#include "lib/monitor/judged_stretches.hpp"
 
 namespace faultline {
 
@@ -21,6 +22,7 @@ struct LogTally {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
   bool has_velocity = false;
+  JudgedStretches stretches;
   QualityState quality;  ///< gaps, missing values, implausible units and the like
 
   /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither

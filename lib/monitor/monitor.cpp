@@ -6,6 +6,8 @@
 
 #include "lib/evidence/survey/survey_log.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
+#include "lib/log/transformed/empty_rows_source.hpp"
+#include "lib/log/transformed/tapped_source.hpp"
 #include "lib/monitor/evidence_monitor.hpp"
 #include "lib/monitor/log_tally.hpp"
 #include "lib/monitor/relation_monitor.hpp"
@@ -48,20 +50,22 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
                      double enough_from_s) {
   if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
-  LogDay day = by_samples ? LogDay{} : survey_log(log, model.motion);
+  EmptyRowsSource surveyed(log);
+  LogDay day = by_samples ? LogDay{} : survey_log(surveyed, model.motion);
   day.noise.repeats_say_nothing = model.has_velocity && !day.noise.has_velocity;
   EvidenceMonitor evidence(model, by_samples ? model.motion : day.model, day.noise);
   SampleMonitor samples(model.samples, options);
   const std::vector<SignalRelation> none;
   RelationMonitor relations(by_samples ? none : model.relations, false);
-  WatchedSource watched(log, relations);
+  LogTally tally;
+  TappedSource counted(log, [&](const Log& segment) { tally.take(segment, log, model); });
+  EmptyRowsSource filled(counted);
+  TappedSource watched(filled, [&](const Log& segment) { relations.take(segment); });
   DelayedTorqueSource in_time(watched, day.torque_delay_s);
   LogSource& acting = day.torque_delay_s.empty() ? static_cast<LogSource&>(watched) : in_time;
-  LogTally tally;
   ResidualState state;
   ResidualSummary whole;
   for (Log segment; acting.next(segment);) {
-    tally.take(segment, log, model);
     Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.add(residuals);
     if (by_samples)
@@ -75,6 +79,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   relations.finish();
   LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
   facts.issues.merge(day.notes);
+  facts.is_whole = facts.is_whole && filled.rows_put_in() == 0;
   return {std::move(facts),       whole.joints(),           evidence.episodes(),
           samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
           evidence.slow_faults(), relations.episodes(),     relations.judged_s(),

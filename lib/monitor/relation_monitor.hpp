@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "lib/log/log_source.hpp"
+#include "lib/log/log.hpp"
 #include "lib/residual/relation/relation_watch.hpp"
 
 namespace faultline {
@@ -30,28 +30,6 @@ class RelationMonitor {
  private:
   std::deque<RelationWatch> watches_;
   std::vector<char> is_watched_;
-};
-
-/// A log whose segments pass a monitor on their way.
-class WatchedSource : public LogSource {
- public:
-  /// Both outlive this; `source` is read by nobody else.
-  WatchedSource(LogSource& source, RelationMonitor& monitor) : source_(source), monitor_(monitor) {}
-
-  bool next(Log& segment) override {
-    if (!source_.next(segment)) return false;
-    monitor_.take(segment);
-    return true;
-  }
-  /// The monitor goes on: a log is rewound before it is watched.
-  void rewind() override { source_.rewind(); }
-  const LogIdentity& identity() const override { return source_.identity(); }
-  const Issues& issues() const override { return source_.issues(); }
-  double share_read() const override { return source_.share_read(); }
-
- private:
-  LogSource& source_;
-  RelationMonitor& monitor_;
 };
 
 }  // namespace faultline

@@ -53,9 +53,13 @@ std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, 
 }
 
 std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
-  if (run.log.is_tracked) return tracking_spots(model, run.relations_judged_s);
-  std::vector<std::string> spots = blind_spots(model.robot.log.torque, run.log.has_velocity);
-  for (auto& more : {relation_spots(model.relations, run.relations_judged_s),
+  std::vector<std::string> spots = unjudged_spots(run.log);
+  if (run.log.is_tracked) {
+    for (std::string& spot : tracking_spots(model, run.relations_judged_s)) spots.push_back(std::move(spot));
+    return spots;
+  }
+  for (auto& more : {blind_spots(model.robot.log.torque, run.log.has_velocity),
+                     relation_spots(model.relations, run.relations_judged_s),
                      drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
                      weak_spots(model.validation), rough_spots(run.roughness),
                      reach_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
@@ -98,6 +102,17 @@ LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, I
   return judged;
 }
 
+/// Where the log has several runs: the one that each fault began in.
+void name_runs(Diagnosis& diagnosis) {
+  if (diagnosis.log.runs.size() < 2) return;
+  for (FaultFinding& fault : diagnosis.faults)
+    for (const LogRun& run : diagnosis.log.runs)
+      if (run.is_read && (fault.run == 0 || run.start_s <= fault.onset_s)) {
+        fault.run = run.run;
+        fault.clock_offset_s = run.clock_offset_s;
+      }
+}
+
 /// A joint that was not judged may be anything.
 void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
@@ -128,6 +143,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
+  name_runs(diagnosis);
   if (run.log.is_tracked)
     doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
   return diagnosis;

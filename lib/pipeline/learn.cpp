@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
+#include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/monitor/monitor.hpp"
 #include "lib/pipeline/learn_samples.hpp"
@@ -39,6 +41,20 @@ constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kCalibrated = 0.4
 constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthySeeds = 2'000'000,
                         kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
                         kSeedBlock = 10'000'000;
+
+/// The logs with an empty row for each that was lost, as diagnose() reads them.
+class FilledLogs {
+ public:
+  explicit FilledLogs(std::span<LogSource* const> logs) {
+    for (LogSource* log : logs) sources_.push_back(&filled_.emplace_back(*log));
+  }
+
+  std::span<LogSource* const> sources() const { return sources_; }
+
+ private:
+  std::deque<EmptyRowsSource> filled_;
+  std::vector<LogSource*> sources_;
+};
 
 std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
                                     std::span<const LabelledLog> labelled) {
@@ -159,7 +175,8 @@ void LearnOptions::check() const {
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options, const Progress& progress) {
   options.check();
-  RememberedLogs logs(healthy);
+  FilledLogs filled(healthy);
+  RememberedLogs logs(filled.sources());
   ModelDoubts doubts{implausible_units(logs.sources(), robot), {}, {}};
   if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))

@@ -6,6 +6,7 @@
 #include "lib/core/issue_json.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
+#include "lib/log/runs/log_run_json.hpp"
 
 namespace faultline {
 namespace {
@@ -18,17 +19,29 @@ void put_label(Json& json, const FaultLabel& label) {
   json["joint"] = count_or_null(label.joint);
 }
 
+Json stretch_json(const UnjudgedStretch& stretch) {
+  return {{"joint", count_or_null(stretch.joint)},
+          {"start_s", number_or_null(stretch.start_s)},
+          {"end_s", number_or_null(stretch.end_s)},
+          {"lacks_position", stretch.lacks_position},
+          {"lacks_torque", stretch.lacks_torque}};
+}
+
+/// Runs only where there are several, stretches only where there are any.
 Json log_json(const LogFacts& log) {
-  return {{"path", log.path},
-          {"sha256", log.sha256},
-          {"format", log.format},
-          {"rows", log.rows_read},
-          {"rows_used", log.rows_used},
-          {"joints", log.joints},
-          {"start_s", number_or_null(log.start_s)},
-          {"end_s", number_or_null(log.end_s)},
-          {"sample_period_s", number_or_null(log.sample_period_s)},
-          {"issues", list_of<Json>(log.issues.all(), issue_json)}};
+  Json json = {{"path", log.path},
+               {"sha256", log.sha256},
+               {"format", log.format},
+               {"rows", log.rows_read},
+               {"rows_used", log.rows_used},
+               {"joints", log.joints},
+               {"start_s", number_or_null(log.start_s)},
+               {"end_s", number_or_null(log.end_s)},
+               {"sample_period_s", number_or_null(log.sample_period_s)},
+               {"issues", list_of<Json>(log.issues.all(), issue_json)}};
+  if (log.runs.size() > 1) json["runs"] = list_of<Json>(log.runs, log_run_json);
+  if (!log.unjudged.empty()) json["not_judged"] = list_of<Json>(log.unjudged, stretch_json);
+  return json;
 }
 
 Json model_json(const ModelFacts& model) {
@@ -135,6 +148,10 @@ Json fault_json(const FaultFinding& fault) {
   json["onset_s"] = number_or_null(fault.onset_s);
   json["alarm_s"] = number_or_null(fault.alarm_s);
   json["end_s"] = number_or_null(fault.end_s);
+  if (fault.run > 0) {
+    json["run"] = fault.run;
+    json["clock_offset_s"] = number_or_null(fault.clock_offset_s);
+  }
   json["confidence"] = number_or_null(fault.confidence);
   json["size"] = extent_json(fault.extent);
   json["opinions"] = {{"mlp", opinion_json(fault.mlp)}, {"rbfn", opinion_json(fault.rbfn)}};

@@ -9,19 +9,27 @@
 
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/diagnosis/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {
 
+std::string run_of(const FaultFinding& fault) {
+  if (fault.run == 0) return "";
+  return fmt::format(" (run {}, {} on its clock)", fault.run,
+                     seconds_text(fault.onset_s - fault.clock_offset_s));
+}
+
 std::string seconds(double time_s) { return std::isfinite(time_s) ? seconds_text(time_s) : "unknown time"; }
 
 std::string failure(const FaultFinding& fault) {
   return fmt::format(
-      "      <failure type=\"{}\" message=\"{}\">onset {}, alarm {}, end {}, confidence {:.2f}. "
+      "      <failure type=\"{}\" message=\"{}\">onset {}{}, alarm {}, end {}, confidence {:.2f}. "
       "{}</failure>\n",
       to_string(fault.label.kind), escaped_markup(plain_words(fault.label)), seconds(fault.onset_s),
-      seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence, escaped_markup(fault.next_check));
+      run_of(fault), seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence,
+      escaped_markup(fault.next_check));
 }
 
 struct TestCase {

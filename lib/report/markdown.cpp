@@ -7,6 +7,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
@@ -46,7 +47,7 @@ std::string fault_table(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
   const double period = d.log.sample_period_s;
   for (const FaultFinding& f : d.faults)
-    rows.push_back({std::to_string(f.id), plain_words(f.label), time_text(f.onset_s, period),
+    rows.push_back({std::to_string(f.id), plain_words(f.label), onset_words(f, period),
                     time_text(f.alarm_s, period), time_text(f.end_s, period), percent_text(f.confidence),
                     decided_words(f)});
   return table({"fault", "what", "onset", "alarm", "end", "confidence", "decided by"}, rows);

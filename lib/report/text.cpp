@@ -10,6 +10,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
+#include "lib/diagnosis/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
@@ -70,7 +71,7 @@ class FaultBlock {
 
   std::string times() const {
     const double period = log_.sample_period_s;
-    return fmt::format("  onset {}   alarm {}   end {}\n", time_text(fault_.onset_s, period),
+    return fmt::format("  onset {}   alarm {}   end {}\n", onset_words(fault_, period),
                        time_text(fault_.alarm_s, period), time_text(fault_.end_s, period));
   }
 
@@ -173,7 +174,7 @@ std::vector<const FaultFinding*> by_confidence(const std::vector<FaultFinding>& 
 
 std::string headline_of(const FaultFinding& fault, const LogFacts& log) {
   const std::string size = size_words(fault).empty() ? "" : ", " + size_words(fault);
-  return fmt::format("{}, from {}{}", plain_words(fault.label), time_text(fault.onset_s, log.sample_period_s),
+  return fmt::format("{}, from {}{}", plain_words(fault.label), onset_words(fault, log.sample_period_s),
                      size);
 }
 

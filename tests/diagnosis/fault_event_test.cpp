@@ -23,6 +23,14 @@ TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
   EXPECT_EQ(read.confidence, event.confidence);
 }
 
+TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
+  const FaultEvent event{{FaultKind::locked, 2}, 12.5, 12.6, 14.0, 0.75, 2, 10.25};
+  const FaultEvent read = fault_event_from_json(Json::parse(to_json(event).dump()));
+  EXPECT_EQ(read.run, 2);
+  EXPECT_EQ(read.clock_offset_s, 10.25);
+  EXPECT_EQ(onset_words(read, 0.01), "12.500 s (run 2, 2.250 s on its clock)");
+}
+
 TEST(FaultEvent, OfNoJointHasNullForIt) {
   const Json json = to_json(FaultEvent{{FaultKind::unknown, 0}, 1.0, 1.5, INFINITY, 0.5});
   EXPECT_EQ(json.dump(),

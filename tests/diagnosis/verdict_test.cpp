@@ -238,5 +238,34 @@ TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
+TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
+  Diagnosis diagnosis = of_log(1000, 700);
+  diagnosis.log.end_s = 10.0;
+  diagnosis.log.unjudged = {{2, 7.0, 10.0, false, true}, {1, 3.0, 4.0, true, false}};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_EQ(
+      diagnosis.verdict_reason,
+      "no fault was found where the log could be judged, but joint 2 could not be judged from 7.000 s to "
+      "10.000 s, the end of the log: its torque is missing (and 1 other stretch); a fault may hide where a "
+      "joint is not judged for longer than 0.5 s, or at the end");
+}
+
+TEST(Verdict, SpeaksOfTheWholeLogOnlyWhereAllOfItWasJudged) {
+  Diagnosis whole = of_log(1000, 1000), lost = of_log(1000, 1000), one_run = of_log(1000, 1000);
+  settle_verdict(whole, {}, kPeriod_s);
+  EXPECT_EQ(whole.verdict_reason, "the identified robot explains the whole log");
+  lost.log.is_whole = false;
+  lost.log.rows_unjudged = 3;
+  lost.log.rows_read = 1000;
+  settle_verdict(lost, {}, kPeriod_s);
+  EXPECT_EQ(lost.verdict, Verdict::healthy);
+  EXPECT_EQ(lost.verdict_reason.find("whole log"), std::string::npos);
+  EXPECT_NE(lost.verdict_reason.find("3 of 1000 rows"), std::string::npos);
+  one_run.log.runs = {{.run = 1, .is_read = false}, {.run = 2}, {.run = 3, .is_read = false}};
+  settle_verdict(one_run, {}, kPeriod_s);
+  EXPECT_NE(one_run.verdict_reason.find("run 2 of 3"), std::string::npos) << one_run.verdict_reason;
+}
+
 }  // namespace
 }  // namespace faultline

@@ -22,7 +22,7 @@ class Log:
 
     Columns of contiguous float64 are read where they are and must not change while they are read; others are
     copied. `then` are files in which the log goes on, `join` files with more columns of it (`join_by` auto,
-    row or time), `run` counts the runs of a log in which the clock restarts. `units` says in what columns in
+    row or time), `run` reads one run only of a log in which the clock restarts (from 1; 0: all). `units` says in what columns in
     memory are, such as {"q1": "deg"}; `name` is what reports call them.
     """
 
@@ -35,7 +35,7 @@ class Log:
         then: Iterable[PathLike] = (),
         join: Iterable[PathLike] = (),
         join_by: str = "auto",
-        run: int = 1,
+        run: int = 0,
     ) -> None:
         if isinstance(source, (str, os.PathLike)):
             if name is not None or units is not None:
@@ -114,7 +114,7 @@ def open_log(
     then: Iterable[PathLike] = (),
     join: Iterable[PathLike] = (),
     join_by: str = "auto",
-    run: int = 1,
+    run: int = 0,
 ) -> Log:
     """A log file of any known format; see Log."""
     log = Log(path, then=then, join=join, join_by=join_by, run=run)

@@ -21,10 +21,10 @@ constexpr std::size_t kStillRows = 500;     // without script; more would cost t
 std::string fault_list(const BatchRow& row) {
   std::string list;
   for (const FaultEvent& fault : row.faults)
-    list += (list.empty() ? "" : "<br>") +
-            escaped_markup(fmt::format("{} at {} (confidence {})", plain_words(fault.label),
-                                       time_text(fault.onset_s, row.sample_period_s),
-                                       percent_text(fault.confidence)));
+    list +=
+        (list.empty() ? "" : "<br>") +
+        escaped_markup(fmt::format("{} at {} (confidence {})", plain_words(fault.label),
+                                   onset_words(fault, row.sample_period_s), percent_text(fault.confidence)));
   if (list.empty() && row.verdict != "healthy") list = escaped_markup(printable(row.reason).substr(0, 400));
   return list;
 }

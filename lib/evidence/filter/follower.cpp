@@ -17,11 +17,12 @@ constexpr double kLogTwoPi = 1.8378770664093453;  // log(2 pi)
 constexpr double kRangeMargin = 0.03;             // of the range: stops stand outside what healthy logs visit
 constexpr double kStandstill = 0.1;               // of the usual velocity: slower is not moving outward
 constexpr double kGapPeriods = 5.5;               // a gap of more than five periods starts the filter anew
-constexpr double kLeastGap_s = 1e-9;              // of logs whose time stands still
-constexpr double kSurelyBraked = 5.0;             // standard deviations of dq
-constexpr double kSurelyFaster = 2.0;             // times the usual velocity: what a joint seldom reaches
-constexpr double kFarBeyond = 20.0;     // times the usual speed or the largest torque: a filter gone astray
-constexpr double kDriveLevel_s = 0.02;  // slower than feedback of noise, faster than motions
+constexpr int kMostHeldRows = 4;       // likewise of rows without torque: it is held over them, and no longer
+constexpr double kLeastGap_s = 1e-9;   // of logs whose time stands still
+constexpr double kSurelyBraked = 5.0;  // standard deviations of dq
+constexpr double kSurelyFaster = 2.0;  // times the usual velocity: what a joint seldom reaches
+constexpr double kFarBeyond = 20.0;    // times the usual speed or the largest torque: a filter gone astray
+constexpr double kDriveLevel_s = 0.02;      // slower than feedback of noise, faster than motions
 constexpr double kPeriodForgetting = 0.02;  // share of a new sample in the usual period: some 50 samples
 
 double velocity_read(const Log& segment, int row, int joint) {
@@ -120,6 +121,7 @@ Follower::Follower(const Follower& before, const MotionModel& model, const Known
       clock_(before.clock_),
       clock_rows_(before.clock_rows_),
       wobble_(before.wobble_),
+      rows_without_torque_(before.rows_without_torque_),
       last_torque_missing_(before.last_torque_missing_),
       speed_unknown_(before.speed_unknown_),
       last_q_(before.last_q_),
@@ -250,7 +252,10 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
   read_row(segment, row, out);
   const double dt = started_ ? step_to_stamp(out) : 0.0;
   const bool gap = started_ && usual_dt_ > 0.0 && dt > std::max(kGapPeriods * usual_dt_, kLeastGap_s);
-  if (!started_ || gap) {
+  const bool no_torque =
+      rows_without_torque_ > kMostHeldRows;  // before this row: nothing is judged without it
+  rows_without_torque_ = out.lacks_torque(n) ? rows_without_torque_ + 1 : 0;
+  if (!started_ || gap || no_torque) {
     start(out);
     clock_ = out.time;
     clock_rows_ = 1.0;

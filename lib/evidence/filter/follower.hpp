@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -35,6 +36,10 @@ struct FollowedSample {
   std::array<double, 2 * kMaxJoints> whitened;  ///< innovations over their standard deviation: q then dq
   double total_log_likelihood = 0.0;
   GaussianState posterior;
+
+  bool lacks_torque(int joints) const {
+    return std::any_of(torque_missing.begin(), torque_missing.begin() + joints, [](bool it) { return it; });
+  }
 
   FollowedSample() {}  // NOLINT: leaves the large arrays unset until a row fills them
 };
@@ -135,9 +140,10 @@ class Follower {
   bool started_ = false;
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
-  double clock_ = 0.0;       ///< s: when the last row was taken, as far as its stamp can be believed
-  double clock_rows_ = 1.0;  ///< that told where it stands
-  double wobble_ = 0.04;     ///< variance of the stamps against it, of late, in squared periods
+  double clock_ = 0.0;           ///< s: when the last row was taken, as far as its stamp can be believed
+  double clock_rows_ = 1.0;      ///< that told where it stands
+  double wobble_ = 0.04;         ///< variance of the stamps against it, of late, in squared periods
+  int rows_without_torque_ = 0;  ///< of a joint at least, up to the last row
   JointFlags last_torque_missing_{};
   JointFlags
       speed_unknown_{};  ///< nothing was ever seen of it: the first row after a start without velocities

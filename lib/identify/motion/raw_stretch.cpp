@@ -43,6 +43,13 @@ class StretchCutter {
     return finite;
   }
 
+  /// False of a row that was put in for a lost one.
+  bool holds_values(const Log& s, int k) const {
+    bool any = false;
+    for (int j = 0; j < joints_; ++j) any = any || !std::isnan(s.q[j][k]) || !std::isnan(s.tau[j][k]);
+    return any;
+  }
+
   /// Whether row k says the same as the row taken last.
   bool repeats(const Log& s, int k) const {
     if (repeated_ == RepeatedRows::none || time_.empty()) return false;
@@ -53,7 +60,7 @@ class StretchCutter {
   }
 
   void add_row(const Log& s, int k) {
-    ++rows_;
+    rows_ += holds_values(s, k);
     has_dq_ = !s.dq.empty();
     if (!usable(s, k)) return;
     const bool repeated = repeats(s, k);

@@ -27,7 +27,7 @@ struct RawStretch {
 };
 
 struct StretchSummary {
-  std::int64_t rows = 0;
+  std::int64_t rows = 0;  ///< that hold a position or torque
   double period_s = 0.0;  ///< usual sample period
 };
 

@@ -7,16 +7,23 @@
 
 #include "lib/log/log_channels.hpp"
 #include "lib/log/rows/keep_rows.hpp"
+#include "lib/log/runs/judged_moment.hpp"
 
 namespace faultline {
 namespace {
 
-void hold(std::vector<double>& values, double& held) {
-  for (double& value : values) {
-    if (std::isnan(value))
-      value = held;
-    else
-      held = value;
+constexpr int kHeldRows = 10;  // at least
+
+/// A joint's signal that is silent for longer than a moment has ended: its last value is no measurement any
+/// more.
+void hold(std::vector<double>& values, const std::vector<double>& time, bool is_measured,
+          SparseRows::Held& held) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isnan(values[i])) {
+      held = {values[i], time[i], 0};
+    } else if (!is_measured || ++held.rows <= kHeldRows || time[i] - held.since_s <= judged_moment_s(0.0)) {
+      values[i] = held.value;
+    }
   }
 }
 
@@ -35,17 +42,18 @@ void SparseRows::gather(Log& segment, Issues& issues) {
   const auto lost = static_cast<std::int64_t>(segment.rows()) - std::ssize(rows);
   std::vector<std::vector<double>*> channels;
   for_each_joint_channel(segment, [&](std::vector<double>& values, Channel) { channels.push_back(&values); });
+  const std::size_t joint_channels = channels.size();
   for (ExtraChannel& extra : segment.extra) channels.push_back(&extra.values);
-  held_.resize(channels.size(), std::numeric_limits<double>::quiet_NaN());
+  held_.resize(channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    hold(*channels[c], held_[c]);
+    hold(*channels[c], segment.time, c < joint_channels, held_[c]);
     keep_rows(*channels[c], rows);
   }
   keep_rows(segment.time, rows);
   if (lost > 0)
     issues.add(
         {"row_of_other_signals", "", Severity::note,
-         "rows without a position were left out; what they hold of other signals stays until the next value",
+         "rows without a position were left out; what they hold of other signals stays until the next value, or for a moment",
          0, std::numeric_limits<double>::quiet_NaN(), lost, lost});
 }
 

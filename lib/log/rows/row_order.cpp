@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/rows/row_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lib/core/statistics.hpp"
+#include "lib/log/log_channels.hpp"
+#include "lib/log/rows/implausible.hpp"
+#include "lib/log/runs/judged_moment.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLeap = 20.0;        // times the usual step: a stamp so far off may be damaged, or a restart
+constexpr double kHole = 1.2;         // times the usual step: a row is missing between two that far apart
+constexpr double kCovered = 0.5;      // of the rows that a stretch of time holds: it has its rows already
+constexpr int kFewRows = 8;           // of a run: too few to say what step is usual
+constexpr int kStepsAround = 16;      // of which the usual step is the median
+constexpr double kRunGap_s = 0.3;     // at least, between two runs,
+constexpr double kRunGapSteps = 8.0;  // and so many steps: every stage takes that for a gap
+constexpr double kPerSecond = 1000.0;  // a shift is whole milliseconds, so that times stay readable
+constexpr double kDay_s = 86400.0;
+constexpr double kNearMidnight_s = 60.0;  // a time of day so near to it passes it
+
+/// Whether the clock goes on from `time` with the row after it, that has the time `next`.
+bool goes_on(double time, double next, double usual) {
+  return next > time && (usual <= 0.0 || next - time <= kLeap * usual);
+}
+
+std::string what_is_wrong(const std::string& code, double t, double newest) {
+  if (code == "time_missing") return "has no time";
+  if (code == "time_implausible") return fmt::format("time {} s cannot be", t);
+  if (code == "time_repeated") return fmt::format("repeats the time {} s", t);
+  if (code == "time_backward") return fmt::format("time {} s is before {} s of an earlier row", t, newest);
+  return fmt::format("time {} s is ahead of the row after it", t);
+}
+
+constexpr auto is_before = [](double time, const auto& row) { return time < row.time; };
+
+}  // namespace
+
+void RowOrder::take(const Log& rows, std::int64_t first_row, Issues& issues) {
+  forget_given();
+  append(store_, rows);
+  for (int i = 0; i < rows.rows(); ++i) numbers_.push_back(first_row + i + 1);
+  for (; judged_ + 1 < store_.rows(); ++judged_)
+    if (!is_simply_next(judged_)) judge(judged_, store_.time[judged_ + 1], issues);
+}
+
+void RowOrder::finish(Issues& issues) {
+  for (; judged_ < store_.rows(); ++judged_) judge(judged_, std::nan(""), issues);
+  end_run(issues);
+  tell_lost(issues);
+  finished_ = true;
+}
+
+/// The usual case: takes a row that follows the one before by no more than a usual step or some.
+bool RowOrder::is_simply_next(int at) {
+  const double own = store_.time[at] + kDay_s * midnights_, time = own + offset_, step = time - newest_;
+  const bool is_usual = step > 0.0 && step <= kLeap * last_step_ && own <= kImplausible;
+  if (!is_usual || !early_.empty() || !runs_.back().is_read) return false;
+  last_step_ = step;
+  newest_ = runs_.back().end_s = time;
+  own_spans_.back().end_s = own;
+  ++runs_.back().rows;
+  lost_ = {};
+  order_.push_back({time, own, at, numbers_[at]});
+  return true;
+}
+
+/// `next` is the time of the row after it, as it came.
+void RowOrder::judge(int at, double next, Issues& issues) {
+  const double t = store_.time[at];
+  const double own = t + kDay_s * midnights_;
+  Row row{own + offset_, own, at, numbers_[at]};
+  if (std::isnan(t)) return leave_out("time_missing", row, issues);
+  if (std::abs(t) > kImplausible) return leave_out("time_implausible", row, issues);
+  if (runs_.empty()) add_run({.run = 1, .first_row = row.number, .is_read = is_wanted(1)});
+  if (midnights_ > 0 && row.time - newest_ > 0.5 * kDay_s)  // late, of the day before
+    row.time -= kDay_s, row.own -= kDay_s;
+  if (row.time > newest_)
+    take_ahead(row, next + clock_shift(), issues);
+  else
+    take_behind(row, next + clock_shift(), issues);
+  if (!early_.empty()) give_up_early(row.number - kOrderWindowRows, issues);
+}
+
+void RowOrder::take_ahead(const Row& row, double next, Issues& issues) {
+  const double step = row.time - newest_;
+  const bool leaps = last_step_ > 0.0 && step > kLeap * last_step_ && step > kLeap * usual_step();
+  if (leaps && next > newest_ && next < row.time)
+    early_.push_back(row);
+  else
+    advance(row, issues);
+}
+
+/// Where a row belongs that comes after later ones.
+RowOrder::Behind RowOrder::behind(const Row& row) const {
+  Behind out;
+  const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(run_begin_);
+  const auto later = std::upper_bound(begin, order_.end(), row.time, is_before);
+  const double usual = usual_step(), behind_s = newest_ - row.time;
+  const auto rows_later = order_.end() - later;
+  const bool is_first = later == begin, few = order_.size() - run_begin_ < kFewRows;
+  out.later = later - order_.begin();
+  out.is_repeated = !is_first && (later - 1)->time == row.time;
+  out.is_same = out.is_repeated && is_same_row((later - 1)->at, row.at);
+  out.is_far = usual > 0.0 && behind_s > kLeap * usual;
+  const bool covered = is_first || static_cast<double>(rows_later) * usual >= kCovered * behind_s;
+  const bool is_hole = few || is_first || later->time - (later - 1)->time >= kHole * usual;
+  out.fits = !out.is_repeated && rows_later < kOrderWindowRows && is_hole && !(out.is_far && covered);
+  return out;
+}
+
+void RowOrder::take_behind(const Row& row, double next, Issues& issues) {
+  const Behind place_of_it = behind(row);
+  if (place_of_it.is_same) return leave_out("time_repeated", row, issues);
+  if (place_of_it.fits) {
+    issues.add(
+        {"time_out_of_order", "t", Severity::note,
+         fmt::format("row {}: time {} s comes after later ones; such rows were put in their places, up to "
+                     "{} rows back",
+                     row.number, store_.time[row.at], kOrderWindowRows),
+         row.number, store_.time[row.at], 1});
+    return place(row, place_of_it.later, issues);
+  }
+  if (!place_of_it.is_far || !goes_on(row.time, next, usual_step()))
+    return leave_out(row.time == newest_ ? "time_repeated" : "time_backward", row, issues);
+  if (passes_midnight(row))
+    pass_midnight(row, issues);
+  else
+    begin_run(row, issues);
+}
+
+bool RowOrder::passes_midnight(const Row& row) const {
+  const double before = newest_ - clock_shift(), now = store_.time[row.at];
+  return before < kDay_s && before >= kDay_s - kNearMidnight_s && now >= 0.0 && now < kNearMidnight_s;
+}
+
+void RowOrder::pass_midnight(Row row, Issues& issues) {
+  issues.add(
+      {"clock_midnight", "t", Severity::note,
+       fmt::format("row {}: the time of day passes midnight; {} s are added to the times from there on",
+                   row.number, kDay_s),
+       row.number, store_.time[row.at], 1});
+  ++midnights_;
+  row.time += kDay_s;
+  row.own += kDay_s;
+  advance(row, issues);
+}
+
+void RowOrder::begin_run(Row row, Issues& issues) {
+  const double gap_s = std::max(kRunGap_s, kRunGapSteps * usual_step());
+  end_run(issues);
+  const int run = static_cast<int>(runs_.size()) + 1;
+  const double shift = std::ceil(kPerSecond * (newest_ - row.time + gap_s)) / kPerSecond;
+  const double own = store_.time[row.at], days = std::round((row.own - own) / kDay_s);
+  const double offset = offset_ + kDay_s * days + shift;
+  const std::string reading =
+      wanted_run_ == kEveryRun
+          ? fmt::format(
+                "it is read on, with {} s added to its times, after a gap. To read one run alone: --run N",
+                offset)
+          : fmt::format("run {} is read. To read all of them, leave out --run", wanted_run_);
+  issues.add({"clock_restart", "t", Severity::warning,
+              fmt::format("row {}: the clock goes back from {} to {} s and on from there: run {} begins; {}",
+                          row.number, newest_ - clock_shift(), own, run, reading),
+              row.number, own, 1});
+  offset_ = offset;
+  midnights_ = 0;
+  row = {own + offset_, own, row.at, row.number};
+  add_run({.run = run,
+           .first_row = row.number,
+           .start_s = row.time,
+           .clock_offset_s = offset_,
+           .is_read = is_wanted(run)});
+  run_begin_ = order_.size();
+  last_step_ = 0.0;
+  advance(row, issues);
+}
+
+void RowOrder::add_run(const LogRun& run) {
+  runs_.push_back(run);
+  own_spans_.emplace_back();
+}
+
+/// What leapt ahead and was never reached is damaged.
+void RowOrder::end_run(Issues& issues) { give_up_early(std::numeric_limits<std::int64_t>::max(), issues); }
+
+void RowOrder::advance(const Row& row, Issues& issues) {
+  if (order_.size() > run_begin_) last_step_ = row.time - newest_;
+  newest_ = row.time;
+  place(row, std::ssize(order_), issues);
+  if (!early_.empty()) place_early(issues);
+}
+
+void RowOrder::place(const Row& row, std::ptrdiff_t where, Issues& issues) {
+  LogRun& run = runs_.back();
+  OwnSpan& own = own_spans_.back();
+  if (run.rows == 0) {
+    run.start_s = run.end_s = row.time;
+    own = {row.own, row.own};
+  }
+  run.start_s = std::min(run.start_s, row.time);
+  run.end_s = std::max(run.end_s, row.time);
+  own = {std::min(own.start_s, row.own), std::max(own.end_s, row.own)};
+  ++run.rows;
+  lost_ = {};
+  order_.insert(order_.begin() + where, row);
+  if (run.is_read) return;
+  issues.add({"other_run", "t", Severity::warning,
+              fmt::format("row {}: belongs to run {}; the row was left out", row.number, run.run), row.number,
+              store_.time[row.at], 1, 1});
+}
+
+/// Rows that leapt ahead and have been reached were only early.
+void RowOrder::place_early(Issues& issues) {
+  const auto is_reached = [&](const Row& row) { return row.time <= newest_; };
+  for (const Row& row : early_) {
+    if (!is_reached(row)) continue;
+    const auto later = std::upper_bound(order_.begin() + static_cast<std::ptrdiff_t>(run_begin_),
+                                        order_.end(), row.time, is_before);
+    if (later != order_.begin() && (later - 1)->time == row.time)
+      leave_out("time_repeated", row, issues);
+    else
+      place(row, later - order_.begin(), issues);
+  }
+  std::erase_if(early_, is_reached);
+}
+
+void RowOrder::give_up_early(std::int64_t before, Issues& issues) {
+  const auto is_old = [&](const Row& row) { return row.number < before; };
+  for (const Row& row : early_)
+    if (is_old(row)) leave_out("time_leap", row, issues);
+  std::erase_if(early_, is_old);
+}
+
+void RowOrder::leave_out(const std::string& code, const Row& row, Issues& issues) {
+  issues.add({code, "t", Severity::warning,
+              fmt::format("row {}: {}; the row was left out", row.number,
+                          what_is_wrong(code, store_.time[row.at], newest_ - clock_shift())),
+              row.number, store_.time[row.at], 1, 1});
+  if (code == "time_repeated") return;
+  if (lost_.rows++ == 0) lost_.first = row.number;
+  if (lost_.rows > most_lost_.rows) most_lost_ = lost_;
+}
+
+bool RowOrder::is_same_row(int a, int b) const {
+  bool same = true;
+  for_each_joint_channel(store_, [&](const std::vector<double>& values, Channel) {
+    same = same && (values[a] == values[b] || (std::isnan(values[a]) && std::isnan(values[b])));
+  });
+  return same;
+}
+
+/// Median of the latest steps of the present run; 0 before there is one.
+double RowOrder::usual_step() const {
+  const std::size_t rows = order_.size() - run_begin_;
+  const std::size_t steps = std::min<std::size_t>(rows > 0 ? rows - 1 : 0, kStepsAround);
+  if (steps == 0) return 0.0;
+  std::vector<double> latest;
+  for (std::size_t k = order_.size() - steps; k < order_.size(); ++k)
+    latest.push_back(order_[k].time - order_[k - 1].time);
+  return upper_median_of(latest);
+}
+
+void RowOrder::tell_lost(Issues& issues) const {
+  const double lost_s = static_cast<double>(most_lost_.rows) * usual_step();
+  if (lost_s <= judged_moment_s(usual_step())) return;
+  issues.add(
+      {"rows_not_judged", "t", Severity::severe,
+       fmt::format("{} rows in succession from row {} on ({:.3g} s of them) have no usable time and were "
+                   "left out; what happened there is not judged",
+                   most_lost_.rows, most_lost_.first, lost_s),
+       most_lost_.first, std::nan(""), most_lost_.rows});
+}
+
+}  // namespace faultline

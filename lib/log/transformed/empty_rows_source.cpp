@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/transformed/empty_rows_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/log/log_channels.hpp"
+#include "lib/log/time_axis.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kHeadRows = 64;         // whose median step is the period at first
+constexpr double kForgetting = 0.02;  // share of a new step in period and jitter: some 50 steps
+constexpr double kLostRow = 1.6;      // periods: in a longer step rows are missing
+constexpr double kOffGrid = 0.25;     // periods: a step that is no whole number of periods is no lost row
+constexpr double kRegular = 0.1;  // mean deviation of a step, in periods, that a regular clock keeps below
+
+/// Before row k of `log`, missing[k] rows without values, evenly between it and the row before; `before_s` is
+/// the time of the row before the first.
+Log with_empty_rows(const Log& log, const std::vector<int>& missing, double before_s) {
+  Log out;
+  for_each_column(out, log, [&](std::vector<double>& values, const std::vector<double>& recorded) {
+    for (std::size_t k = 0; k < recorded.size(); ++k) {
+      values.insert(values.end(), missing[k], std::numeric_limits<double>::quiet_NaN());
+      values.push_back(recorded[k]);
+    }
+  });
+  for (std::size_t k = 0, at = 0; k < log.time.size(); ++k, ++at) {
+    const double last_s = k > 0 ? log.time[k - 1] : before_s;
+    const double step = (log.time[k] - last_s) / (missing[k] + 1);
+    for (int m = 1; m <= missing[k]; ++m) out.time[at++] = last_s + m * step;
+  }
+  return out;
+}
+
+}  // namespace
+
+void EmptyRowsSource::rewind() {
+  source_.rewind();
+  head_ = {};
+  started_ = false;
+  period_s_ = jitter_ = last_s_ = 0.0;
+  rows_ = given_ = 0;
+}
+
+/// The first rows, whatever the segments of the source; false without any.
+bool EmptyRowsSource::read_head() {
+  started_ = true;
+  for (Log segment; head_.rows() < kHeadRows && source_.next(segment);) append(head_, segment);
+  const auto rows = std::min(head_.rows(), kHeadRows);
+  period_s_ = median_step({head_.time.begin(), head_.time.begin() + rows});
+  double deviations = 0.0;
+  int steps = 0;
+  for (int k = 1; k < rows; ++k) {
+    const double periods = (head_.time[k] - head_.time[k - 1]) / period_s_;
+    if (periods > kLostRow) continue;
+    deviations += std::abs(periods - 1.0);
+    ++steps;
+  }
+  jitter_ = steps > 0 ? deviations / steps : 1.0;
+  return head_.rows() > 0;
+}
+
+void EmptyRowsSource::follow_clock(double step) {
+  const double periods = step / period_s_;
+  if (periods > kLostRow) return;
+  jitter_ += kForgetting * (std::abs(periods - 1.0) - jitter_);
+  period_s_ += kForgetting * (step - period_s_);
+}
+
+/// How many rows are missing between the last one and this one.
+int EmptyRowsSource::missing_before(double time) {
+  const double step = time - last_s_;
+  const double periods = step / period_s_, whole = std::round(periods);
+  const bool is_lost = rows_ > 0 && jitter_ < kRegular && periods > kLostRow &&
+                       std::abs(periods - whole) < kOffGrid && whole <= kMostEmptyRows + 1;
+  if (rows_ > 0) follow_clock(step);
+  return is_lost ? static_cast<int>(whole) - 1 : 0;
+}
+
+bool EmptyRowsSource::next(Log& segment) {
+  Log read;
+  if (!started_) {
+    if (!read_head()) return false;
+    std::swap(read, head_);
+  } else if (!source_.next(read)) {
+    return false;
+  }
+  const double before_s = last_s_;
+  std::vector<int> missing(read.time.size());
+  for (std::size_t k = 0; k < read.time.size(); ++k) {
+    missing[k] = missing_before(read.time[k]);
+    last_s_ = read.time[k];
+    ++rows_;
+  }
+  const bool is_complete = std::all_of(missing.begin(), missing.end(), [](int rows) { return rows == 0; });
+  segment = is_complete ? std::move(read) : with_empty_rows(read, missing, before_s);
+  segment.first_row = given_;
+  given_ += segment.rows();
+  return true;
+}
+
+}  // namespace faultline

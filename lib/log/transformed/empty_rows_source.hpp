@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "lib/log/log_source.hpp"
+
+namespace faultline {
+
+/// A log with an empty row (all values missing) for each row that is missing between two others on a regular
+/// clock, so that every stage treats a row that was lost and one that was recorded without values alike.
+/// Gaps of more than kMostEmptyRows rows, and those on a clock that jitters, stay gaps. The rows that are put
+/// in are no rows of the log: identity() and issues() count none of them.
+class EmptyRowsSource : public LogSource {
+ public:
+  /// `source` stands at its first row and is read by nobody else; it outlives this.
+  explicit EmptyRowsSource(LogSource& source) : source_(source) {}
+
+  bool next(Log& segment) override;
+  void rewind() override;
+  const LogIdentity& identity() const override { return source_.identity(); }
+  const Issues& issues() const override { return source_.issues(); }
+  double share_read() const override { return source_.share_read(); }
+  /// So far.
+  std::int64_t rows_put_in() const { return given_ - rows_; }
+
+ private:
+  bool read_head();
+  int missing_before(double time);
+  void follow_clock(double step);
+
+  LogSource& source_;
+  Log head_;              ///< first rows, which say what the period is; handed out first
+  bool started_ = false;  ///< whether they were read
+  double period_s_ = 0.0, jitter_ = 0.0, last_s_ = 0.0;  ///< jitter: mean deviation of a step, in periods
+  std::int64_t rows_ = 0, given_ = 0;
+};
+
+/// After more rows without a measurement the filters start anew (lib/evidence/filter).
+inline constexpr int kMostEmptyRows = 4;
+
+}  // namespace faultline
