@@ -146,7 +146,7 @@ void CsvReader::rewind() {
   bytes_->rewind();
   lines_.clear();
   issues_.start();
-  rows_.forget_absent_fields();
+  rows_.start();
   identity_.rows_read = 0;
   start();
 }

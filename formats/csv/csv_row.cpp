@@ -9,6 +9,7 @@
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_header.hpp"
 #include "formats/csv/csv_provenance.hpp"
+#include "formats/csv/later_header.hpp"
 #include "formats/missing.hpp"
 #include "lib/core/text.hpp"
 
@@ -20,32 +21,54 @@ constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characte
 }  // namespace
 
 CsvRowReader::CsvRowReader(const CsvDialect& dialect, CsvIssues& issues)
-    : dialect_(dialect), issues_(issues), wide_(dialect.separator, dialect.decimal) {
-  want(std::vector<bool>(dialect_.columns.size(), true));
+    : dialect_(dialect),
+      issues_(issues),
+      wanted_(dialect.columns.size(), true),
+      wide_(dialect.separator, dialect.decimal) {
+  start();
+}
+
+void CsvRowReader::start() {
+  absent_fields_ = 0;
+  is_other_table_ = false;
+  place_columns(dialect_.value_fields);
 }
 
 void CsvRowReader::want(const std::vector<bool>& columns) {
+  wanted_ = columns;
+  place_columns(value_fields_);
+}
+
+/// From here on, the columns stand in these fields.
+void CsvRowReader::place_columns(const std::vector<int>& fields) {
+  value_fields_ = fields;
   column_of_field_.assign(dialect_.fields, -1);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (columns[i]) column_of_field_[dialect_.value_fields[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < wanted_.size(); ++i)
+    if (wanted_[i]) column_of_field_[value_fields_[i]] = static_cast<int>(i);
 }
 
 void CsvRowReader::begin_block(RawBlock& block, int max_rows) {
   block.columns.resize(dialect_.columns.size());
+  for (std::size_t i = 0; i < wanted_.size(); ++i)
+    if (wanted_[i]) block.columns[i].resize(max_rows);
+  block_ = &block;
+  find_places();
+}
+
+void CsvRowReader::find_places() {
   field_values_.assign(dialect_.fields, nullptr);
-  for (int field = 0; field < dialect_.fields; ++field) {
-    const int column = column_of_field_[field];
-    if (column < 0) continue;
-    block.columns[column].resize(max_rows);
-    field_values_[field] = block.columns[column].data();
-  }
+  for (int field = 0; field < dialect_.fields; ++field)
+    if (const int column = column_of_field_[field]; column >= 0)
+      field_values_[field] = block_->columns[column].data();
 }
 
 int CsvRowReader::read_many(const char*& p, const char* end, int row, int max_rows) {
-  return wide_.can_read() ? wide_.read(p, end, field_values_, row, max_rows) : 0;
+  if (is_other_table_ || !wide_.can_read()) return 0;
+  return wide_.read(p, end, field_values_, row, max_rows);
 }
 
 const char* CsvRowReader::read_plain(const char* p, const char* end, int row) {
+  if (is_other_table_) return nullptr;
   const char separator = dialect_.separator;
   const bool blanks = separator == ' ';
   const fast_float::parse_options options(fast_float::chars_format::general, dialect_.decimal);
@@ -92,16 +115,39 @@ CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int ro
     return CsvRow::skip;
   }
   split_fields(line, dialect_.separator, fields_);
-  if (repeats_header(dialect_, fields_)) {
+  if (take_header(at)) return CsvRow::skip;
+  if (is_other_table_) {
     issues_.add_row(
-        at, "header_repeated",
-        [] { return "repeats the header; the line was left out, as where files were joined"; }, false);
-    return CsvRow::skip;
+        at, "other_table",
+        [] { return "belongs to another table, below a header with other columns; its rows were left out"; },
+        true, Severity::severe);
+    return CsvRow::drop;
   }
   CsvRow verdict = usual ? judge_end(line, at, *usual) : CsvRow::keep;
   if (verdict == CsvRow::keep) verdict = judge_length(line, at);
   if (verdict == CsvRow::keep) read_cells(at, row);
   return verdict;
+}
+
+/// Whether the fields are a header once more, and what follows from it for the rows below.
+bool CsvRowReader::take_header(const CsvPlace& at) {
+  const std::optional<LaterHeader> header = find_later_header(dialect_, fields_);
+  if (!header && !repeats_header(dialect_, fields_)) return false;
+  is_other_table_ = header && !header->has_all;
+  if (is_other_table_) return true;  // the rows below say so
+  const bool is_same = !header || header->fields == value_fields_;
+  issues_.add_row(
+      at, is_same ? "header_repeated" : "header_changed",
+      [is_same] {
+        return is_same ? "repeats the header; the line was left out, as where files were joined"
+                       : "stands below a header with the columns in another order; from here on they were "
+                         "read in that order";
+      },
+      false);
+  if (is_same) return true;
+  place_columns(header->fields);
+  find_places();
+  return true;
 }
 
 std::string CsvRowReader::field_count(std::string_view line) const {

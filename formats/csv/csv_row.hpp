@@ -37,10 +37,14 @@ class CsvRowReader {
   CsvRow read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row);
   /// Fields that rows lacked at their ends so far.
   std::int64_t absent_fields() const { return absent_fields_; }
-  void forget_absent_fields() { absent_fields_ = 0; }
+  /// Begins again at the first row.
+  void start();
 
  private:
   CsvRow read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual);
+  void place_columns(const std::vector<int>& fields);
+  void find_places();
+  bool take_header(const CsvPlace& at);
   CsvRow judge_length(std::string_view line, const CsvPlace& at);
   CsvRow judge_end(std::string_view line, const CsvPlace& at, const LastCells& usual);
   std::string field_count(std::string_view line) const;
@@ -48,6 +52,10 @@ class CsvRowReader {
 
   const CsvDialect& dialect_;
   CsvIssues& issues_;
+  std::vector<bool> wanted_;           ///< of each column
+  std::vector<int> value_fields_;      ///< field of each column, by the latest header
+  bool is_other_table_ = false;        ///< the latest header has other columns than the first one
+  RawBlock* block_ = nullptr;          ///< that is being filled
   std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted
   std::vector<double*> field_values_;  ///< of the block that is being filled; null for a field not wanted
   std::vector<std::string_view> fields_;

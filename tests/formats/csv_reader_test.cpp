@@ -152,6 +152,29 @@ TEST(CsvReader, HeaderRepeatedWhereFilesWereJoinedIsLeftOut) {
   EXPECT_NE(issues.find("header_repeated"), nullptr);
 }
 
+TEST(CsvReader, ALaterHeaderWithTheColumnsInAnotherOrderIsFollowed) {
+  const auto [log, identity, issues] =
+      read_csv("t,q1,q2\n0,1,2\n1,3,4\nq2,t,q1\n6,2,5\n8,3,7\nt,q1,q2\n4,9,10\n");
+  EXPECT_EQ(log.time, (std::vector<double>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(log.q, (JointSignals{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
+  const Issue* issue = issues.find("header_changed");
+  ASSERT_NE(issue, nullptr);
+  EXPECT_EQ(issue->first_row, 3);
+  EXPECT_EQ(issue->count, 2);
+}
+
+TEST(CsvReader, RowsBelowALaterHeaderWithOtherColumnsAreLeftOut) {
+  const auto [log, identity, issues] =
+      read_csv("t,q1,q2\n0,1,2\n1,3,4\nt,q1,temperature\n2,5,20\n3,7,21\nt,q1,q2\n4,9,10\n");
+  EXPECT_EQ(log.q, (JointSignals{{1, 3, 9}, {2, 4, 10}}));
+  const Issue* issue = issues.find("other_table");
+  ASSERT_NE(issue, nullptr);
+  EXPECT_EQ(issue->severity, Severity::severe);
+  EXPECT_EQ(issue->first_row, 3);
+  EXPECT_EQ(issue->rows_dropped, 2);
+  EXPECT_EQ(identity.rows_read, log.rows() + issues.rows_dropped());
+}
+
 TEST(CsvReader, TwoColumnsOfOneNameAreRefused) {
   const std::string why = why_refused("t,q1,q2,q1\n0,1,2,3\n");
   for (const char* word : {"log.csv", "\"q1\"", "2.", "4."})
