@@ -121,7 +121,7 @@ Json inspection_json(const Inspection& inspection) {
   json["share_used"] = number_or_null(inspection.share_used());
   json["completeness"] = number_or_null(inspection.completeness());
   json["time"] = time_json(inspection);
-  const RepeatedRowCount& repeated = inspection.checkup.repeated;
+  const RepeatedRowCount& repeated = inspection.checkup.repeated.all;
   json["repeated_rows"] = {{"rows", repeated.rows}, {"held", repeated.held}, {"longest", repeated.longest}};
   json["by_joint"] = list_of<Json>(inspection.checkup.joints, joint_json);
   json["analyses"] = list_of<Json>(inspection.analyses, analysis_json);

@@ -78,6 +78,8 @@ VelocityAgreement VelocityCheck::result() const {
   if (!q_moves && !dq_moves) return agreement;
   agreement.correlation = xx_ > 0.0 && yy_ > 0.0 ? xy_ / std::sqrt(xx_ * yy_) : 0.0;
   agreement.factor = xx_ > 0.0 ? xy_ / xx_ : 0.0;
+  if (xx_ > 0.0)
+    agreement.factor_std = std::sqrt(std::max(yy_ - agreement.factor * xy_, 0.0) / xx_ / (windows - 1.0));
   const double size = std::abs(agreement.factor);
   if (std::abs(agreement.correlation) < kLowestCorrelation)
     agreement.verdict = VelocityVerdict::contradicts;

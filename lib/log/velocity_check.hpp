@@ -17,6 +17,7 @@ enum class VelocityVerdict {
 struct VelocityAgreement {
   VelocityVerdict verdict = VelocityVerdict::not_judged;
   double factor = 0.0;
+  double factor_std = 0.0;  ///< standard deviation of the factor
   double correlation = 0.0;
 };
 

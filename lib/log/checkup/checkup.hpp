@@ -33,7 +33,7 @@ struct CheckupResult {
   std::vector<ChannelCheckup> channels;
   std::vector<JointCheckup> joints;
   std::vector<PeriodChange> clock_changes;
-  RepeatedRowCount repeated;
+  RepeatedRowCounts repeated;
 
   /// Null when the log has no such channel.
   const ChannelCheckup* find(Channel channel) const;
@@ -67,8 +67,8 @@ class Checkup {
   std::vector<std::vector<double>> places_;  ///< of each joint in the segment, by its velocity
 };
 
-/// clock_change, rows_repeated, stuck_channel, torque_against_acceleration, torque_delayed, velocity_late,
-/// unit_implausible.
+/// clock_change, rows_repeated, positions_repeated, velocity_off, stuck_channel, torque_against_acceleration,
+/// torque_delayed, velocity_late, unit_implausible.
 Issues checkup_issues(const CheckupResult& checkup, const LogQuality& quality);
 
 /// Largest share, 0 to 1, of a channel's values at its least or largest value.

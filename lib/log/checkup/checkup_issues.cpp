@@ -11,11 +11,14 @@ namespace {
 
 constexpr std::int64_t kFewestStuckRows = 20;
 constexpr double kRepeatedShare = 0.3;
+constexpr double kMixedShare = 0.05;    // of the rows: more are those of coarse encoders
 constexpr double kMovedSteps = 5.0;     // of the channel, that a joint moved while it stood
 constexpr double kMovedAtLeast = 0.01;  // rad or m
 constexpr double kMovedShare = 0.05;    // of the position's span
 constexpr double kAgainst = -0.6;       // correlation of a torque that is told with the wrong sign
 constexpr double kLateRows = 1.5;
+constexpr double kOffVelocity = 0.1;  // of a velocity's size against the position's change
+constexpr double kLittleNoise = 0.1;  // of that change: more makes it larger than any velocity
 constexpr double kShortestPeriod_s = 1e-5;
 
 double step_of(const CheckupResult& checkup, Channel channel) {
@@ -82,16 +85,36 @@ void judge_clock(const CheckupResult& checkup, const LogQuality& quality, Issues
 }
 
 void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Issues& issues) {
-  const RepeatedRowCount& repeated = checkup.repeated;
-  const double share =
-      static_cast<double>(repeated.held) / static_cast<double>(std::max<std::int64_t>(quality.time.rows, 1));
-  if (share < kRepeatedShare || repeated.held < kFewestStuckRows) return;
+  const auto rows = static_cast<double>(std::max<std::int64_t>(quality.time.rows, 1));
+  const auto is_often = [rows](const RepeatedRowCount& repeated) {
+    return static_cast<double>(repeated.held) / rows >= kRepeatedShare && repeated.held >= kFewestStuckRows;
+  };
+  const auto& [all, positions, mixed] = checkup.repeated;
+  if (is_often(all))
+    issues.add(
+        {"rows_repeated", "", Severity::warning,
+         fmt::format("{:.1f} % of the rows repeat the row before, at another time: what was read changes "
+                     "less often than it was logged, so the true rate is lower",
+                     100.0 * static_cast<double>(all.held) / rows),
+         all.first_row, std::nan(""), all.held});
+  else if (is_often(positions) && static_cast<double>(mixed) < kMixedShare * rows &&
+           checkup.joints.size() > 1)
+    issues.add(
+        {"positions_repeated", "", Severity::warning,
+         fmt::format("{:.1f} % of the rows repeat all positions of the row before while other columns go "
+                     "on: positions are read less often than they are logged; log at their rate",
+                     100.0 * static_cast<double>(positions.held) / rows),
+         positions.first_row, std::nan(""), positions.held});
+}
+
+/// A velocity far from the differences of the position from row to row, though both agree over longer times.
+void judge_velocity_size(const VelocityRelated& velocity, const std::string& channel, Issues& issues) {
+  if (!(std::abs(velocity.rms_ratio - 1.0) > kOffVelocity && velocity.noise_share < kLittleNoise)) return;
   issues.add(
-      {"rows_repeated", "", Severity::warning,
-       fmt::format("{:.1f} % of the rows repeat the row before, at another time: what was read changes less "
-                   "often than it was logged, so the true rate is lower",
-                   100.0 * share),
-       repeated.first_row, std::nan(""), repeated.held});
+      {"velocity_off", channel, Severity::note,
+       fmt::format("is {:.2f} times as large (rms) as the position's change from row to row: one of them is "
+                   "filtered, coarse, scaled or read less often",
+                   velocity.rms_ratio)});
 }
 
 void judge_joints(const CheckupResult& checkup, Issues& issues) {
@@ -104,6 +127,7 @@ void judge_joints(const CheckupResult& checkup, Issues& issues) {
            fmt::format("falls where the joint accelerates (correlation {:.2f}): the sign of torque or "
                        "position is wrong; say so in the robot file: [log.columns] tau{} = {{sign = -1}}",
                        torque.correlation, joint)});
+    judge_velocity_size(velocity, to_string({Quantity::dq, joint}), issues);
     if (velocity.delay_rows > kLateRows)
       issues.add({"velocity_late", to_string({Quantity::dq, joint}), Severity::note,
                   fmt::format("comes {:.1f} rows after the position's change, as a filtered one does",

@@ -17,17 +17,30 @@ struct RepeatedRowCount {
   std::int64_t first_row = 0;  ///< of a short stretch, from 1; 0 for none
 };
 
+/// Of all joint channels together, and of the positions alone.
+struct RepeatedRowCounts {
+  RepeatedRowCount all, positions;
+  /// Rows in which some positions change and others do not, as those of coarse encoders do.
+  std::int64_t mixed = 0;
+};
+
 class RepeatedRowCheck {
  public:
   void add(const Log& segment);
-  RepeatedRowCount result() const;
+  RepeatedRowCounts result() const;
 
  private:
-  void end();
+  /// Rows with the same values one after the other.
+  struct Runs {
+    void take(bool repeats);
+    void end();
 
+    std::int64_t row = 0, run = 0;
+    RepeatedRowCount found{};
+  };
   std::vector<double> last_, now_;
-  std::int64_t row_ = 0, run_ = 0;
-  RepeatedRowCount found_;
+  Runs all_, positions_;
+  std::int64_t mixed_ = 0;
 };
 
 }  // namespace faultline

@@ -78,7 +78,10 @@ VelocityRelated VelocityRelation::result() const {
   const double slope_rms = std::sqrt(slope_squares_ / static_cast<double>(count_));
   const bool moves = slope_rms > kLeastRms && roughness_ < kRoughest * slope_squares_;
   if (related.rms < kLeastRms && !moves) return related;
-  if (slope_squares_ > 0.0) related.rms_ratio = std::sqrt(velocity_squares_ / slope_squares_);
+  if (slope_squares_ > 0.0) {
+    related.rms_ratio = std::sqrt(velocity_squares_ / slope_squares_);
+    related.noise_share = roughness_ / slope_squares_;
+  }
   if (related.rms < kLeastRms) return related;
   const double least = std::min(off_centred_, *std::min_element(off_.begin(), off_.end()));
   related.is_difference = (roughness_ > 0.0 && least < kSameNoise * roughness_) || is_of_steps();

@@ -9,9 +9,10 @@ namespace faultline {
 
 /// How a recorded velocity goes with the differences of the recorded position.
 struct VelocityRelated {
-  double rms = std::numeric_limits<double>::quiet_NaN();         ///< of the velocity; NaN: not judged
-  double rms_ratio = std::numeric_limits<double>::quiet_NaN();   ///< velocity to differences
-  double delay_rows = std::numeric_limits<double>::quiet_NaN();  ///< rows that the velocity comes late
+  double rms = std::numeric_limits<double>::quiet_NaN();          ///< of the velocity; NaN: not judged
+  double rms_ratio = std::numeric_limits<double>::quiet_NaN();    ///< velocity to differences
+  double noise_share = std::numeric_limits<double>::quiet_NaN();  ///< of the differences' mean square, about
+  double delay_rows = std::numeric_limits<double>::quiet_NaN();   ///< rows that the velocity comes late
   bool is_difference = false;  ///< it holds the position's noise: it was computed from the position
 };
 

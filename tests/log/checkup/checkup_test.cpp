@@ -186,14 +186,44 @@ TEST(Checkup, RowsOfASlowerSourceAreFoundAndThoseOfARobotAtRestAreNot) {
   for (int i = 0; i < log.rows(); ++i)
     for (auto* signals : {&log.q, &log.dq, &log.tau}) (*signals)[0][i] = (*signals)[0][i / 4 * 4];
   const CheckedLog found = checked(log);
-  EXPECT_EQ(found.checkup.repeated.held, 3000);
+  EXPECT_EQ(found.checkup.repeated.all.held, 3000);
   EXPECT_NE(found.issues.find("rows_repeated"), nullptr);
   log = healthy_log();
   for (int i = 1000; i < 3000; ++i) log.q[0][i] = log.q[0][1000], log.dq[0][i] = 0.0, log.tau[0][i] = 0.0;
   const CheckedLog rest = checked(log);
-  EXPECT_EQ(rest.checkup.repeated.longest, 1999);
-  EXPECT_EQ(rest.checkup.repeated.held, 0);
+  EXPECT_EQ(rest.checkup.repeated.all.longest, 1999);
+  EXPECT_EQ(rest.checkup.repeated.all.held, 0);
   EXPECT_EQ(rest.issues.find("rows_repeated"), nullptr);
+}
+
+TEST(Checkup, PositionsThatAreReadLessOftenThanTorquesAreFoundAndCoarseEncodersAreNot) {
+  Log two = healthy_log();
+  for (JointSignals* signals : {&two.q, &two.dq, &two.tau}) {
+    signals->push_back((*signals)[0]);
+    for (double& value : signals->back()) value *= 0.37;
+  }
+  Log log = two;
+  for (auto& q : log.q)
+    for (int i = 0; i < log.rows(); ++i) q[i] = q[i / 4 * 4];
+  const CheckedLog found = checked(log);
+  EXPECT_EQ(found.issues.find("rows_repeated"), nullptr);
+  const Issue* issue = found.issues.find("positions_repeated");
+  ASSERT_NE(issue, nullptr);
+  EXPECT_EQ(issue->first_row, 2);
+  EXPECT_NE(issue->message.find("75.0 %"), std::string::npos);
+  for (auto& q : two.q)
+    for (double& value : q) value = 0.003 * std::round(value / 0.003);
+  EXPECT_EQ(checked(two).issues.find("positions_repeated"), nullptr);
+}
+
+TEST(Checkup, AVelocityFarFromThePositionsChangeIsMentioned) {
+  Log log = healthy_log();
+  EXPECT_EQ(checked(log).issues.find("velocity_off", "dq1"), nullptr);
+  for (double& dq : log.dq[0]) dq *= 0.78;
+  const CheckedLog found = checked(log);
+  const Issue* issue = found.issues.find("velocity_off", "dq1");
+  ASSERT_NE(issue, nullptr);
+  EXPECT_NE(issue->message.find("times as large"), std::string::npos);
 }
 
 TEST(Checkup, StampsFarTooCloseAreSuspicious) {
