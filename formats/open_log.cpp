@@ -8,6 +8,7 @@
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/mapped_source.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 
 namespace faultline {
 namespace {
@@ -54,9 +55,9 @@ std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelectio
 }
 
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
-  return std::make_unique<MappedSource>(
+  return mended(std::make_unique<MappedSource>(
       open_parts(path, options.parts, options.recording),
-      MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra});
+      MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra}));
 }
 
 }  // namespace faultline

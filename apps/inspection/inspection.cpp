@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/inspection/row_clock.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/mapped_source.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 #include "lib/robot/axis_units.hpp"
 
 namespace faultline {
@@ -81,12 +83,14 @@ void judge_robot(Inspection& inspection, const std::optional<Robot>& robot) {
                    inspection.joints, robot->joints())});
 }
 
-Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>& columns,
+Inspection inspect_joint_log(MappedSource& mapped, const std::vector<RawColumn>& columns,
                              const std::optional<Robot>& robot, const Progress& progress) {
   Inspection inspection;
   QualityState state;
   Checkup checkup;
   OverviewPass overview;
+  const bool is_its_robot = robot && robot->joints() == mapped.matching().joints;
+  MendedSource source(mapped, is_its_robot ? sliding_joints(robot->chain) : std::vector<bool>{});
   Log segment;
   while (source.next(segment)) {
     assess(segment, state);
@@ -97,10 +101,10 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
     if (progress) progress("reading " + source.identity().path, source.share_read());
   }
   inspection.joint_log = true;
-  inspection.joints = source.matching().joints;
+  inspection.joints = mapped.matching().joints;
   inspection.log = source.identity();
   QualityOptions options;
-  if (robot && robot->joints() == inspection.joints) options.slides = sliding_joints(robot->chain);
+  if (is_its_robot) options.slides = sliding_joints(robot->chain);
   options.runs = source.identity().runs;
   inspection.quality = quality_of(state, options);
   inspection.issues = source.issues();
@@ -112,7 +116,7 @@ Inspection inspect_joint_log(MappedSource& source, const std::vector<RawColumn>&
   judge_robot(inspection, robot);
   for (const ChannelSummary& channel : inspection.quality.channels) {
     const auto canonical = channel.canonical ? canonical_channel(channel.name) : std::nullopt;
-    inspection.channels.push_back({channel, column_of(channel, source.matching(), columns),
+    inspection.channels.push_back({channel, column_of(channel, mapped.matching(), columns),
                                    canonical ? unit_of(*canonical, robot) : channel.unit});
   }
   inspection.analyses = possible_analyses(inspection);
@@ -132,23 +136,35 @@ void as_extra(RawBlock& block, const std::vector<RawColumn>& columns, Log& log) 
   }
 }
 
-Inspection inspect_table(RawReader& reader, const std::string& why_not) {
+/// What a table without a clock tells of it, in words to be added to what is wrong.
+std::string words_of(const RowClock& clock) {
+  const auto estimate = clock.estimate();
+  if (!estimate) return "";
+  return fmt::format(
+      ". By q and dq a row is {:.4g} +- {:.1g} s after the one before: t = {{name = \"@row\", scale = {:.4g}}}",
+      estimate->period_s, estimate->std_s, estimate->period_s);
+}
+
+Inspection inspect_table(RawReader& reader, const ColumnMap& map) {
   Inspection inspection;
+  const std::string& path = reader.identity().path;
+  RowClock clock(reader.columns(), map, path);
   QualityState state;
   RawBlock block;
   Log log;
   while (reader.next(block, 4096)) {
     inspection.rows_used += block.rows;
+    clock.add(block);
     as_extra(block, reader.columns(), log);
     assess(log, state);
   }
-  inspection.why_not = why_not;
+  inspection.why_not = why_no_match(reader.columns(), map, path) + words_of(clock);
   inspection.log = reader.identity();
   for (Issue issue : reader.issues().all()) {
     if (issue.code == "not_a_number") issue.severity = Severity::note;  // a table may have columns of text
     inspection.issues.add(issue);
   }
-  inspection.issues.add({"no_joint_log", "", Severity::severe, why_not});
+  inspection.issues.add({"no_joint_log", "", Severity::severe, inspection.why_not});
   for (const ChannelSummary& channel : state.channels)
     inspection.channels.push_back({channel, channel.name, channel.unit});
   inspection.analyses = possible_analyses(inspection);
@@ -208,8 +224,8 @@ Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optiona
   if (robot && !reader->canonical()) options.columns = robot->log.columns;
   options.run = run;
   const auto columns = reader->columns();
-  const std::string why_not = why_no_match(columns, options.columns, reader->identity().path);
-  if (!why_not.empty()) return inspect_table(*reader, why_not);
+  if (!why_no_match(columns, options.columns, reader->identity().path).empty())
+    return inspect_table(*reader, options.columns);
   MappedSource source(std::move(reader), options);
   return inspect_joint_log(source, columns, robot, progress);
 }

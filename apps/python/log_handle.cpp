@@ -15,6 +15,8 @@
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/mapped_source.hpp"
+#include "lib/log/recorder/mended_source.hpp"
+#include "lib/robot/axis_units.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -79,10 +81,11 @@ WholeLog whole(const LogHandle& handle, const std::optional<Robot>& robot, bool 
   if (robot) options.columns = robot->log.columns;
   options.run = handle.parts().run;
   options.keep_extra = keep_extra;
-  const auto source =
-      interruptible(std::make_unique<MappedSource>(
-                        handle.open_columns(robot ? robot->log.recording : RecordingChoice{}), options),
-                    watch, true);
+  const auto source = interruptible(
+      mended(std::make_unique<MappedSource>(
+                 handle.open_columns(robot ? robot->log.recording : RecordingChoice{}), options),
+             robot ? sliding_joints(robot->chain) : std::vector<bool>{}),
+      watch, true);
   WholeLog out;
   out.log = read_all(*source);
   out.identity = source->identity();

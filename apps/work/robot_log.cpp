@@ -5,8 +5,10 @@
 
 #include "formats/open_log.hpp"
 #include "lib/log/mapped_source.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 
@@ -16,7 +18,8 @@ std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const
   options.run = run;
   options.keep_extra = false;
   std::unique_ptr<LogSource> log =
-      coupled(std::make_unique<MappedSource>(std::move(reader), options), robot.log.coupling);
+      coupled(mended(std::make_unique<MappedSource>(std::move(reader), options), sliding_joints(robot.chain)),
+              robot.log.coupling);
   if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;
   return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s, robot.torque_gain);
 }

@@ -9,6 +9,8 @@
 #include "lib/diagnosis/blind_spots.hpp"
 #include "lib/diagnosis/least_size.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 #include "lib/log/runs/judged_moment.hpp"
 
 namespace faultline {
@@ -120,7 +122,8 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
 
 /// Why the log cannot be judged with this model; empty when it can.
 std::string why_inconclusive(const LogFacts& log, double model_period_s) {
-  if (const Issue* misread = log.issues.find(kMisreadLog)) return misread->message;
+  for (const char* code : {kMisreadLog, kChangedColumns})
+    if (const Issue* misread = log.issues.find(code)) return misread->message;
   const double ratio = log.sample_period_s / model_period_s;
   if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
     return fmt::format(
@@ -150,6 +153,12 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   diagnosis.small_changes = take_small_changes(faults);
   diagnosis.faults = merge_continued(std::move(faults));
   number_by_onset(diagnosis.faults);
+  if (const Issue* scaled = diagnosis.log.issues.find(kScaledMotion); scaled && !diagnosis.faults.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.verdict_reason = "what the log shows may be its own: " + scaled->message;
+    diagnosis.faults.clear();
+    return;
+  }
   const std::size_t count = diagnosis.faults.size();
   if (const std::string doubt = count == 0 ? why_not_healthy(diagnosis, power) : ""; !doubt.empty()) {
     diagnosis.verdict = Verdict::inconclusive;

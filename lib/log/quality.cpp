@@ -66,6 +66,7 @@ LogQuality quality_of(const QualityState& state, const QualityOptions& options) 
     quality.velocity.push_back(state.velocity[j].result());
   }
   judge_velocities(quality.velocity, quality.time, options, quality.issues);
+  judge_motion_scale(quality.velocity, quality.issues);
   return quality;
 }
 

@@ -13,6 +13,9 @@
 
 namespace faultline {
 
+/// Code of the issue that one factor lies between positions, velocities and time of most joints.
+inline constexpr const char* kScaledMotion = "motion_scaled";
+
 /// One channel over the whole log.
 struct ChannelSummary {
   std::string name{};  ///< canonical, or the column's own for an extra channel
@@ -51,7 +54,7 @@ struct LogQuality {
   std::vector<ChannelSummary> channels;     ///< t left out; canonical ones first
   std::vector<VelocityAgreement> velocity;  ///< of each joint; empty without velocities
   Issues issues;  ///< time_gap, time_jitter, missing_values, constant_channel, saturated_channel,
-                  ///< velocity_contradicts_position, sample_period_contradicts_motion,
+                  ///< velocity_contradicts_position, sample_period_contradicts_motion, motion_scaled,
                   ///< unit_implausible
 };
 

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "lib/core/make_issue.hpp"
 #include "lib/core/version.hpp"
@@ -16,7 +19,9 @@
 #include "lib/diagnosis/relation/relation_findings.hpp"
 #include "lib/diagnosis/relation/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
+#include "lib/evidence/reading/question_change.hpp"
 #include "lib/evidence/reading/question_reading.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/monitor/model_rate.hpp"
 #include "lib/monitor/monitor.hpp"
@@ -113,6 +118,25 @@ void name_runs(Diagnosis& diagnosis) {
       }
 }
 
+/// What looks like a fault may be a change of the log's columns. `has_log_rows`: the rows of `judged` are
+/// those of the log, not at another rate.
+void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
+                     const std::vector<FaultFinding>& faults, Issues& issues) {
+  if (faults.empty() || issues.find(kMisreadLog)) return;
+  double onset_s = std::numeric_limits<double>::infinity();
+  for (const FaultFinding& fault : faults)
+    if (fault.onset_s < onset_s) onset_s = fault.onset_s;
+  const std::optional<ReadingChange> change = question_change(judged, model.motion, onset_s);
+  if (!change) return;
+  const std::int64_t row = has_log_rows ? change->row : 0;
+  issues.add(
+      {kChangedColumns, "", Severity::severe,
+       fmt::format("{}from about {:.4g} s on the log looks as if {}, and before it does not; cut the log "
+                   "there, or mend the columns",
+                   row > 0 ? fmt::format("row {}: ", row) : "", change->at_s, change->what),
+       row, change->at_s, 1});
+}
+
 /// A joint that was not judged may be anything.
 void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
@@ -128,7 +152,11 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   Issues doubts;
   std::unique_ptr<LogSource> kept;
   const LogRate rate = log_rate(log, model);
-  const MonitoredLog run = monitor(settle_log(log, rate, model, doubts, kept), model, options);
+  LogSource& judged = settle_log(log, rate, model, doubts, kept);
+  const MonitoredLog run = monitor(judged, model, options);
+  std::vector<FaultFinding> faults = found_in(run, model, cases);
+  if (can_question(model) && !run.log.is_tracked)
+    question_faults(judged, &judged == &log, model, faults, doubts);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);
@@ -141,7 +169,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.condition = condition_of(run.slow, model.motion.chain);
   diagnosis.roughness = run.roughness;
   diagnosis.cannot_see = unseen_by(run, model);
-  settle_verdict(diagnosis, found_in(run, model, cases), model.sample_period_s, power_of(model.validation));
+  settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   name_runs(diagnosis);
   if (run.log.is_tracked)

@@ -5,6 +5,8 @@
 
 #include "lib/core/make_issue.hpp"
 #include "lib/diagnosis/merge_faults.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 
 namespace faultline {
 namespace {
@@ -137,6 +139,29 @@ TEST(Verdict, ALogThatIsMisreadHasNoFaultAndSaysWhy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(diagnosis.verdict_reason, "it looks as if q2 is in degrees");
   EXPECT_TRUE(diagnosis.faults.empty());
+}
+
+TEST(Verdict, ALogWhoseColumnsChangeHasNoFaultAndNamesTheRow) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.log.issues.add(
+      make_issue(kChangedColumns, Severity::severe, "row 301: joints 1 and 2 are swapped"));
+  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_EQ(diagnosis.verdict_reason, "row 301: joints 1 and 2 are swapped");
+  EXPECT_TRUE(diagnosis.faults.empty());
+}
+
+TEST(Verdict, AScaledClockForbidsANamedFaultAndNoHealthyVerdict) {
+  for (const bool with_fault : {false, true}) {
+    Diagnosis diagnosis = of_log(1000, 1000);
+    diagnosis.log.issues.add(make_issue(kScaledMotion, Severity::warning, "the clock is scaled"));
+    std::vector<FaultFinding> faults;
+    if (with_fault) faults.push_back(fault(FaultKind::sensor_drift, 1, 1.0));
+    settle_verdict(diagnosis, faults, kPeriod_s);
+    EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::inconclusive : Verdict::healthy);
+    EXPECT_TRUE(diagnosis.faults.empty());
+    EXPECT_EQ(diagnosis.verdict_reason.find("the clock is scaled") != std::string::npos, with_fault);
+  }
 }
 
 TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {

@@ -156,6 +156,23 @@ TEST(Quality, AJointThatTurnsOnAndOnIsNotSurelyInDegrees) {
   EXPECT_EQ(quality_in(turning(12.5, true)).issues.find("unit_implausible", "q1"), nullptr) << "two turns";
 }
 
+TEST(Quality, AClockOrPositionsScaledByAPercentAreFoundWithTheFactor) {
+  EXPECT_EQ(quality_in(log_of_two()).issues.find(kScaledMotion), nullptr);
+  Log log = log_of_two();
+  for (double& t : log.time) t *= 1.01;
+  expect_issue(quality_in(log), kScaledMotion, "", "t = {scale = 0.990");
+  log = log_of_two();
+  for (auto& q : log.q)
+    for (double& value : q) value *= 1.01;
+  expect_issue(quality_in(log), kScaledMotion, "", "change 1.01");
+}
+
+TEST(Quality, APositionOfOneJointThatDriftsIsNoScaledClock) {
+  Log log = log_of_two();
+  for (double& value : log.q[1]) value *= 1.01;
+  EXPECT_EQ(quality_in(log).issues.find(kScaledMotion), nullptr);
+}
+
 TEST(Quality, TimeInMillisecondsIsNoVelocityInMillimetres) {
   Log log = log_of_two();
   for (double& t : log.time) t *= 1000.0;

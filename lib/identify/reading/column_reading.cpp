@@ -121,6 +121,16 @@ void add_common_units(const Chain<double>& chain, std::vector<ColumnReading>& ou
                    }});
 }
 
+/// A joint that counts the other way: what a wrong sign of one column makes of a log is another thing.
+void add_reversed_joints(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+  for (int j = 0; j < chain.joints(); ++j)
+    out.push_back({fmt::format("joint {0} counts the other way (q{0}, dq{0} and tau{0})", j + 1),
+                   fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), [j](Log& log) {
+                     scale_motion(log, j, -1.0);
+                     scale(log.tau[j], -1.0);
+                   }});
+}
+
 void add_swapped_joints(const Chain<double>& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k)
@@ -170,6 +180,7 @@ std::vector<ColumnReading> common_readings(const Chain<double>& chain) {
   std::vector<ColumnReading> readings;
   add_common_units(chain, readings);
   add_swapped_joints(chain, readings);
+  add_reversed_joints(chain, readings);
   return with_cures_into("[log.columns]", std::move(readings));
 }
 

@@ -12,5 +12,7 @@ void judge_channel(const ChannelSummary& channel, const TimeAxis& time, const Qu
                    Issues& issues);
 void judge_velocities(const std::vector<VelocityAgreement>& agreements, const TimeAxis& time,
                       const QualityOptions& options, Issues& issues);
+/// Whether the positions of most joints change by one factor too fast or too slowly for their velocities.
+void judge_motion_scale(const std::vector<VelocityAgreement>& agreements, Issues& issues);
 
 }  // namespace faultline

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/log/log_source.hpp"
+#include "lib/log/recorder/position_jumps.hpp"
+#include "lib/log/recorder/row_memory.hpp"
+#include "lib/log/recorder/stopped_recorder.hpp"
+#include "lib/log/recorder/wrapped_angle.hpp"
+
+namespace faultline {
+
+/// Code of the issue that columns of a log mean something else from a row on.
+inline constexpr const char* kChangedColumns = "columns_changed";
+
+/// A log without what its recorder did to it, where the log itself shows that beyond doubt:
+/// - an angle that was kept within one turn goes on (angle_unwrapped);
+/// - rows in which the recorder stood still or wrote zeros are left out (recorder_stopped, rows_blank);
+/// - where all joints jump at once, further than their velocities allow, rows are missing or stand there
+///   again: the repeated ones, or the first few after the jump, are left out, so that the log has a gap there
+///   and nothing is concluded across it (rows_cut_out, block_repeated);
+/// - where two joints go on as each other, columns_changed says from which row on.
+/// A jump, a standstill or zeros of a single joint are no such thing: its sensor may be faulty.
+class MendedSource : public LogSource {
+ public:
+  /// `slides`: of each joint, whether it slides and has no turns; empty when not known. `source` outlives
+  /// this.
+  explicit MendedSource(LogSource& source, std::vector<bool> slides = {});
+  explicit MendedSource(std::unique_ptr<LogSource> source, std::vector<bool> slides = {});
+
+  bool next(Log& segment) override;
+  void rewind() override;
+  const LogIdentity& identity() const override { return source_.identity(); }
+  const Issues& issues() const override;
+  double share_read() const override { return source_.share_read(); }
+
+ private:
+  void judge_rows();
+  void settle(int row);
+  void leave_out(int row, const char* code, const std::string& what);
+  bool is_behind_break();
+  void begin_break(int row, const std::vector<int>& jumped, std::int64_t earlier);
+  void end_break();
+  void unwrap(int row);
+  void take_usual_step(double t);
+  void hand_out(Log& segment);
+  std::int64_t number_of(int row) const { return rows_.first_row + row + 1; }
+
+  std::unique_ptr<LogSource> owned_;
+  LogSource& source_;
+  std::vector<bool> slides_;
+
+  Log rows_;               ///< not handed out yet; first_row as the source counts
+  int looked_at_ = 0;      ///< rows of these that the recorder's state is known of
+  int settled_ = 0;        ///< rows of these that are kept or left out for good
+  std::vector<int> kept_;  ///< of the settled ones
+  std::int64_t handed_out_ = 0;
+
+  StoppedRecorder recorder_;
+  PositionJumps jumps_;
+  RowMemory memory_;
+  std::vector<WrappedAngle> angles_, references_;
+  MeasuredRow row_;
+  double last_t_ = std::numeric_limits<double>::quiet_NaN();  ///< of the row before
+  double usual_step_ = 0.0;
+
+  /// Rows that are left out because something is wrong with the ones before.
+  struct Break {
+    std::int64_t row = 0;  ///< the first one, from 1; 0 for no break
+    double t = 0.0;
+    std::int64_t rows = 0;
+    std::int64_t again = -1;  ///< the row, from 0, that the next one repeats if this is a block that does
+    std::int64_t copies = 0;
+    std::string joints;
+  };
+  Break break_;
+  Issues mended_;
+  mutable Issues issues_;
+};
+
+/// The source, mended.
+std::unique_ptr<LogSource> mended(std::unique_ptr<LogSource> source, std::vector<bool> slides = {});
+
+}  // namespace faultline
