@@ -6,12 +6,12 @@
 namespace faultline {
 namespace {
 
-constexpr int kEnoughRows = 10;       // to know what is usual
-constexpr double kForgetting = 0.02;  // share of a new row in what is usual
-constexpr double kTimesUsual = 20.0;  // further off than usual: no noise and no rounding
-constexpr double kLeastJump = 1e-3;   // rad or m
-constexpr double kBetweenRows = 0.5;  // of the larger velocity: a joint may be faster between two rows
-constexpr double kSameStep = 5.5;     // usual steps: after a longer gap nothing is known
+constexpr int kEnoughRows = 10;            // to know what is usual
+constexpr double kUsualForgetting = 0.02;  // share of a new row in what is usual
+constexpr double kTimesUsual = 20.0;       // further off than usual: no noise and no rounding
+constexpr double kLeastJump = 1e-3;        // rad or m
+constexpr double kBetweenRows = 0.5;       // of the larger velocity: a joint may be faster between two rows
+constexpr double kSameStep = 5.5;          // usual steps: after a longer gap nothing is known
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void PositionJumps::learn(int j) {
   const double off = std::abs(now_.q(j) - last_.q(j) - way);
   if (!std::isfinite(off)) return;
   learned_[j] = std::min(learned_[j] + 1, kEnoughRows);
-  const double share = std::max(kForgetting, 1.0 / learned_[j]);
+  const double share = std::max(kUsualForgetting, 1.0 / learned_[j]);
   usual_[j] += learned_[j] < kEnoughRows ? (off - usual_[j]) / learned_[j] : share * (off - usual_[j]);
 }
 

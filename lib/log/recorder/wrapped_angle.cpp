@@ -9,13 +9,14 @@ namespace faultline {
 namespace {
 
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
-constexpr double kRounding = 1e-3;  // rad, that a border may be printed off
-constexpr double kNear = 0.25;      // of a turn, from the way that the velocity gives
-constexpr double kSmallStep = 0.1;  // of a turn: from longer ones the next does not follow
+constexpr double kBorderRounding = 1e-3;  // rad, that a border may be printed off
+constexpr double kNear = 0.25;            // of a turn, from the way that the velocity gives
+constexpr double kSmallStep = 0.1;        // of a turn: from longer ones the next does not follow
 
 /// Whether both angles lie in one turn that begins at `border`.
 bool within(double a, double b, double border) {
-  return std::min(a, b) >= border - kRounding && std::max(a, b) <= border + kWholeTurn + kRounding;
+  return std::min(a, b) >= border - kBorderRounding &&
+         std::max(a, b) <= border + kWholeTurn + kBorderRounding;
 }
 
 }  // namespace
