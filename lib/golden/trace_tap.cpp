@@ -43,7 +43,10 @@ TraceTap::TraceTap(LogSource& log, const ResidualGenerator& generator, int max_p
     : log_(log), generator_(generator), max_points_(max_points), trace_(empty_trace(generator.joints())) {}
 
 bool TraceTap::next(Log& segment) {
-  if (!log_.next(segment)) return false;
+  if (!log_.next(segment)) {
+    whole_ = trace_;
+    return false;
+  }
   take(segment);
   return true;
 }

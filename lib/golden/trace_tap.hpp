@@ -20,7 +20,8 @@ class TraceTap : public LogSource {
   const LogIdentity& identity() const override { return log_.identity(); }
   const Issues& issues() const override { return log_.issues(); }
   double share_read() const override { return log_.share_read(); }
-  const Trace& trace() const { return trace_; }
+  /// Of the latest pass that reached the end of the log; empty before the first one has.
+  const Trace& trace() const { return whole_; }
 
  private:
   void take(const Log& segment);
@@ -33,7 +34,8 @@ class TraceTap : public LogSource {
   TransitionState state_;
   std::int64_t seen_ = 0;  ///< transitions
   std::int64_t stride_ = 1;
-  Trace trace_;
+  Trace trace_;  ///< of the present pass
+  Trace whole_;
 };
 
 }  // namespace faultline

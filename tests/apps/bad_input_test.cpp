@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "lib/core/atomic_file.hpp"
@@ -130,7 +131,9 @@ TEST_F(BadInput, OneUnreadableLogDoesNotHideTheOthers) {
 
 TEST_F(BadInput, FullDiskLeavesNothingUnderTheFinalName) {
   std::string rows = "t,q1,dq1,tau1\n";
-  for (int i = 0; i < 5000; ++i) rows += std::to_string(i) + ",1,2,3\n";
+  for (int i = 0; i < 5000; ++i)
+    rows += std::to_string(0.01 * i) + "," + std::to_string(std::sin(0.01 * i)) + "," +
+            std::to_string(std::cos(0.01 * i)) + ",3\n";
   for (const char* out : {"out.csv", "out.flog", "out.h5", "out.mcap", "out.npz", "out.mat"}) {
     const std::string log = folder_.write("log.csv", rows);
     const ProgramRun run = run_program({"convert", log, folder_.file(out)}, {.file_size_limit = 4096});

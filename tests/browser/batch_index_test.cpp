@@ -142,7 +142,7 @@ TEST(BatchIndexInChromium, APhoneReadsItWithoutScrollingSideways) {
     EXPECT_EQ(index.page.evaluate(overlap), false) << width;
     EXPECT_LT(
         index.page.evaluate("document.querySelectorAll('#logs tbody tr')[3].getBoundingClientRect().height"),
-        150)
+        160)
         << width;
     EXPECT_LT(index.page.evaluate("document.documentElement.scrollHeight"), 14000) << width;
   }

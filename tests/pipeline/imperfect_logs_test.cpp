@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "formats/open_log.hpp"
 #include "lib/core/random.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/log/recorder/mended_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/pipeline/diagnose.hpp"
 #include "lib/report/json.hpp"
@@ -128,6 +130,21 @@ TEST_F(ImperfectLogs, ValuesThatEndWithTheFaultAreNoHealthyLog) {
     ASSERT_FALSE(found.cannot_see.empty());
     EXPECT_NE(found.cannot_see.front().find("Joint 1 could not be judged from"), std::string::npos);
   }
+}
+
+TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
+  for (const char* name : {"torque_loss_2.csv", "locked_1.csv"})
+    for (const bool writes_zeros : {false, true}) {
+      Log log = read(name);
+      const auto stop = std::lower_bound(log.time.begin(), log.time.end(), 5.0) - log.time.begin();
+      for_each_joint_channel(log, [&](std::vector<double>& values, Channel) {
+        std::fill(values.begin() + stop, values.end(), writes_zeros ? 0.0 : values[stop]);
+      });
+      MendedSource source(std::make_unique<MemorySource>(log));
+      const Diagnosis found = diagnose(source, files_.model, files_.cases);
+      EXPECT_EQ(found.verdict, Verdict::inconclusive) << name << ": " << found.verdict_reason;
+      EXPECT_NE(found.verdict_reason.find("the end of the log"), std::string::npos) << found.verdict_reason;
+    }
 }
 
 TEST_F(ImperfectLogs, AnEncoderThatIsSilentToTheEndIsNoHealthyLog) {

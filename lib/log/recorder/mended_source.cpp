@@ -76,23 +76,26 @@ void MendedSource::judge_rows() {
     if (state == RecorderState::undecided) continue;
     if (state == RecorderState::froze)
       while (settled_ <= looked_at_)
-        leave_out(settled_, "recorder_stopped",
+        empty_row(settled_, "recorder_stopped",
                   "all joints keep every digit of what they measured though their velocity says that they "
-                  "move: the recorder stood still; such rows were left out");
+                  "move: the recorder stood still; the values of such rows are taken as missing");
     while (settled_ < looked_at_) settle(settled_);
     if (settled_ > looked_at_) continue;
     if (state == RecorderState::blank)
-      leave_out(settled_, "rows_blank",
+      empty_row(settled_, "rows_blank",
                 "position, velocity and torque of all joints become exactly zero from one row to the next: "
-                "the recorder wrote nothing; such rows were left out");
+                "the recorder wrote nothing; the values of such rows are taken as missing");
     else
       settle(settled_);
   }
 }
 
-void MendedSource::leave_out(int row, const char* code, const std::string& what) {
+/// A row in which nothing was measured is kept without values, so that its time counts as not judged.
+void MendedSource::empty_row(int row, const char* code, const std::string& what) {
   mended_.add({code, "", Severity::warning, fmt::format("row {}: {}", number_of(row), what), number_of(row),
-               rows_.time[row], 1, 1});
+               rows_.time[row], 1});
+  for_each_joint_channel(rows_, [&](std::vector<double>& values, Channel) { values[row] = std::nan(""); });
+  kept_.push_back(row);
   ++settled_;
 }
 
@@ -157,7 +160,7 @@ void MendedSource::end_break() {
   const std::int64_t rows = break_.rows;
   if (break_.copies >= kSurelyAgain)
     mended_.add(
-        {"block_repeated", "", Severity::warning,
+        {"block_repeated", "", Severity::severe,
          place + fmt::format("{} rows repeat earlier ones in all digits, under later times; they were "
                              "left out",
                              break_.copies),

@@ -20,7 +20,7 @@ inline constexpr const char* kChangedColumns = "columns_changed";
 
 /// A log without what its recorder did to it, where the log itself shows that beyond doubt:
 /// - an angle that was kept within one turn goes on (angle_unwrapped);
-/// - rows in which the recorder stood still or wrote zeros are left out (recorder_stopped, rows_blank);
+/// - rows in which the recorder stood still or wrote zeros lose their values (recorder_stopped, rows_blank);
 /// - where all joints jump at once, further than their velocities allow, rows are missing or stand there
 ///   again: the repeated ones, or the first few after the jump, are left out, so that the log has a gap there
 ///   and nothing is concluded across it (rows_cut_out, block_repeated);
@@ -42,7 +42,7 @@ class MendedSource : public LogSource {
  private:
   void judge_rows();
   void settle(int row);
-  void leave_out(int row, const char* code, const std::string& what);
+  void empty_row(int row, const char* code, const std::string& what);
   bool is_behind_break();
   void begin_break(int row, const std::vector<int>& jumped, std::int64_t earlier);
   void end_break();

@@ -113,7 +113,9 @@ RowOrder::Behind RowOrder::behind(const Row& row) const {
   out.is_far = usual > 0.0 && behind_s > kLeap * usual;
   const bool covered = is_first || static_cast<double>(rows_later) * usual >= kCovered * behind_s;
   const bool is_hole = few || is_first || later->time - (later - 1)->time >= kHole * usual;
-  out.fits = !out.is_repeated && rows_later < kOrderWindowRows && is_hole && !(out.is_far && covered);
+  const bool is_in_run = runs_.size() < 2 || row.time > runs_[runs_.size() - 2].end_s;
+  out.fits =
+      !out.is_repeated && is_in_run && rows_later < kOrderWindowRows && is_hole && !(out.is_far && covered);
   return out;
 }
 

@@ -56,6 +56,25 @@ Mended mend(const Log& log, int segment_rows = 4096, std::vector<bool> slides = 
   return out;
 }
 
+/// Rows of which every position, velocity and torque is missing.
+int rows_without_values(Log& log) {
+  int count = 0;
+  for (int i = 0; i < log.rows(); ++i) {
+    bool has_value = false;
+    change_measured(log, [&](std::vector<double>& v) { has_value = has_value || !std::isnan(v[i]); });
+    count += !has_value;
+  }
+  return count;
+}
+
+/// A missing value is not equal to itself; this makes it comparable.
+JointSignals comparable(JointSignals signals) {
+  for (std::vector<double>& joint : signals)
+    for (double& value : joint)
+      if (std::isnan(value)) value = 1e9;
+  return signals;
+}
+
 double turned(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 TEST(MendedSource, AHealthyLogPassesAsItIs) {
@@ -102,16 +121,16 @@ TEST(MendedSource, AJointThatSlidesHasNoTurns) {
   EXPECT_EQ(mend(log, 4096, {true, false, false}).log.q, log.q);
 }
 
-TEST(MendedSource, RowsInWhichAllJointsKeepTheirDigitsInMotionAreLeftOut) {
+TEST(MendedSource, RowsInWhichAllJointsKeepTheirDigitsInMotionLoseTheirValues) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) { std::fill_n(v.begin() + 300, 60, v[299]); });
-  const Mended out = mend(log);
-  EXPECT_EQ(out.log.rows(), log.rows() - 60);
-  EXPECT_EQ(out.log.time[300], log.time[360]);
+  Mended out = mend(log);
+  EXPECT_EQ(out.log.time, log.time);
+  EXPECT_EQ(rows_without_values(out.log), 60);
   const Issue* issue = out.issues.find("recorder_stopped");
   ASSERT_NE(issue, nullptr);
   EXPECT_EQ(issue->first_row, 301);
-  EXPECT_EQ(issue->rows_dropped, 60);
+  EXPECT_EQ(issue->count, 60);
   EXPECT_EQ(out.rows_read, out.log.rows() + out.issues.rows_dropped());
 }
 
@@ -142,11 +161,12 @@ TEST(MendedSource, RowsThatAFasterLoggerRepeatsAreKept) {
   EXPECT_EQ(mend(log).log.rows(), log.rows());
 }
 
-TEST(MendedSource, RowsThatBecomeZeroAtOnceAreLeftOut) {
+TEST(MendedSource, RowsThatBecomeZeroAtOnceLoseTheirValues) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) { std::fill_n(v.begin() + 300, 40, 0.0); });
-  const Mended out = mend(log);
-  EXPECT_EQ(out.log.rows(), log.rows() - 40);
+  Mended out = mend(log);
+  EXPECT_EQ(out.log.time, log.time);
+  EXPECT_EQ(rows_without_values(out.log), 40);
   const Issue* issue = out.issues.find("rows_blank");
   ASSERT_NE(issue, nullptr);
   EXPECT_EQ(issue->first_row, 301);
@@ -227,7 +247,7 @@ TEST(MendedSource, WhereSegmentsEndChangesNothing) {
   for (const int rows : {1, 2, 7, 64, 301}) {
     const Mended cut = mend(log, rows);
     EXPECT_EQ(cut.log.time, whole.log.time) << rows;
-    EXPECT_EQ(cut.log.q, whole.log.q) << rows;
+    EXPECT_EQ(comparable(cut.log.q), comparable(whole.log.q)) << rows;
     ASSERT_EQ(cut.issues.all().size(), whole.issues.all().size()) << rows;
     for (std::size_t i = 0; i < cut.issues.all().size(); ++i)
       EXPECT_EQ(cut.issues.all()[i].message, whole.issues.all()[i].message) << rows;
@@ -241,8 +261,8 @@ TEST(MendedSource, AfterRewindTheLogIsTheSame) {
   const Log first = read_all(source);
   source.rewind();
   EXPECT_TRUE(source.issues().empty());
-  EXPECT_EQ(read_all(source).q, first.q);
-  EXPECT_EQ(source.issues().rows_dropped(), 40);
+  EXPECT_EQ(comparable(read_all(source).q), comparable(first.q));
+  EXPECT_EQ(source.issues().find("rows_blank")->count, 40);
 }
 
 }  // namespace
