@@ -16,6 +16,8 @@ constexpr double kForgetting = 0.02;  // share of a new step in period and jitte
 constexpr double kLostRow = 1.6;      // periods: in a longer step rows are missing
 constexpr double kOffGrid = 0.25;     // periods: a step that is no whole number of periods is no lost row
 constexpr double kRegular = 0.1;  // mean deviation of a step, in periods, that a regular clock keeps below
+constexpr double kFewOffGrid =
+    0.01;  // share of steps off the grid: with more, two periods may be a late stamp
 
 /// Before row k of `log`, missing[k] rows without values, evenly between it and the row before; `before_s` is
 /// the time of the row before the first.
@@ -42,7 +44,7 @@ void EmptyRowsSource::rewind() {
   head_ = {};
   started_ = false;
   period_s_ = jitter_ = last_s_ = 0.0;
-  rows_ = given_ = 0;
+  rows_ = given_ = off_grid_ = 0;
 }
 
 /// The first rows, whatever the segments of the source; false without any.
@@ -65,6 +67,7 @@ bool EmptyRowsSource::read_head() {
 
 void EmptyRowsSource::follow_clock(double step) {
   const double periods = step / period_s_;
+  off_grid_ += std::abs(periods - std::round(periods)) > kOffGrid;
   if (periods > kLostRow) return;
   jitter_ += kForgetting * (std::abs(periods - 1.0) - jitter_);
   period_s_ += kForgetting * (step - period_s_);
@@ -74,7 +77,9 @@ void EmptyRowsSource::follow_clock(double step) {
 int EmptyRowsSource::missing_before(double time) {
   const double step = time - last_s_;
   const double periods = step / period_s_, whole = std::round(periods);
-  const bool is_lost = rows_ > 0 && jitter_ < kRegular && periods > kLostRow &&
+  const bool is_regular =
+      jitter_ < kRegular && static_cast<double>(off_grid_) <= kFewOffGrid * static_cast<double>(rows_);
+  const bool is_lost = rows_ > 0 && is_regular && periods > kLostRow &&
                        std::abs(periods - whole) < kOffGrid && whole <= kMostEmptyRows + 1;
   if (rows_ > 0) follow_clock(step);
   return is_lost ? static_cast<int>(whole) - 1 : 0;

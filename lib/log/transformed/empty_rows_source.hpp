@@ -34,6 +34,7 @@ class EmptyRowsSource : public LogSource {
   bool started_ = false;  ///< whether they were read
   double period_s_ = 0.0, jitter_ = 0.0, last_s_ = 0.0;  ///< jitter: mean deviation of a step, in periods
   std::int64_t rows_ = 0, given_ = 0;
+  std::int64_t off_grid_ = 0;  ///< steps so far that are no whole number of periods
 };
 
 /// After more rows without a measurement the filters start anew (lib/evidence/filter).

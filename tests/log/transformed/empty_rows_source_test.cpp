@@ -53,6 +53,13 @@ TEST(EmptyRowsSource, ALongGapStaysAGap) {
   EXPECT_EQ(filled(log).rows(), log.rows());
 }
 
+TEST(EmptyRowsSource, WhereSomeStampsAreLateTwoPeriodsAreNoLostRow) {
+  Log log = with_lost_rows(1000, [](int k) { return k % 100 == 99; });
+  for (int k = 10; k < log.rows(); k += 40)
+    log.time[k] += 0.5 * 0.073;  // as whole milliseconds make of 500 Hz
+  EXPECT_EQ(filled(log).rows(), log.rows());
+}
+
 TEST(EmptyRowsSource, OnAClockThatJittersNoRowIsKnownToBeLost) {
   const Log log = with_lost_rows(
       200, [](int k) { return k == 100; }, 0.02);
