@@ -11,6 +11,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/chromium.hpp"
+#include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
@@ -102,7 +103,7 @@ class DocumentationSitePages : public testing::Test {
     folder_ = nullptr;
   }
   void SetUp() override {
-    if (!folder_) GTEST_SKIP() << "mkdocs is missing: bash apps/install.sh --tests";
+    SKIP_UNLESS_INSTALLED(folder_, "mkdocs is missing");
     ASSERT_TRUE(built_) << read_file(folder_->file("log.txt"));
   }
 
@@ -117,8 +118,7 @@ class DocumentationSitePages : public testing::Test {
   static inline bool built_ = false;
 };
 
-#define SKIP_WITHOUT_BROWSER() \
-  if (chromium_program().empty()) GTEST_SKIP() << "no Chromium: bash apps/install.sh --tests installs it"
+#define SKIP_WITHOUT_BROWSER() SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 
 TEST(DocumentationBlocks, AreCountedInListsToo) {
   EXPECT_EQ(blocks_written_in("# A\n    code\n\n1.  one\n\n        code\n\n    more\n2.  two\n\n- bullet\n"),
