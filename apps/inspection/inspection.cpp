@@ -136,7 +136,7 @@ void as_extra(RawBlock& block, const std::vector<RawColumn>& columns, Log& log) 
   }
 }
 
-/// What a table without a clock tells of it, in words to be added to what is wrong.
+/// What is known about a table without a clock, in words to be added to what is wrong.
 std::string words_of(const RowClock& clock) {
   const auto estimate = clock.estimate();
   if (!estimate) return "";

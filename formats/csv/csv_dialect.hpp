@@ -23,7 +23,7 @@ struct CsvDialect {
   bool names_in_rows = false;     ///< each value has its name in the column before it
   std::vector<int> value_fields;  ///< field of each column
   int fields = 0;                 ///< of a whole row
-  std::string time_note{};        ///< how the unit of the time was told, where the file does not say
+  std::string time_note{};        ///< how the unit of the time was recognised, where the file does not say
   LastCells last_cells{};         ///< how the last cells of the first rows are written
 };
 

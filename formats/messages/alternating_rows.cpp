@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// rad or m. Two publishers that are closer tell one place, as the codes of an encoder at rest may do in
+/// rad or m. Two publishers that are closer report one position, as the codes of an encoder at rest may do in
 /// turn.
 constexpr double kApart = 1e-2;
 constexpr double kNear = 0.25;  ///< of the distance to the last row

@@ -41,7 +41,7 @@ class JointStreams {
   const std::vector<JointStream>& streams() const { return streams_; }
 
   /// Reads a message; null when it is no JointState, or is damaged (then `damaged` is set). Both results are
-  /// valid until the next call. Lists of names beyond the most that are told apart lead to no stream.
+  /// valid until the next call. Beyond the largest number of lists of names, a new list leads to no stream.
   const JointPlacing* read(const Topic& topic, const Message& message, JointMessage& state, bool& damaged);
 
  private:

@@ -73,7 +73,7 @@ struct EpisodeFacts {
   std::vector<std::pair<std::string, double>> features;  ///< by CaseBase::feature_names(); NaN = not measured
 };
 
-/// How large a fault is, by the size that its kind is told by.
+/// How large a fault is, by the size that describes its kind.
 struct FaultExtent {
   double size = std::numeric_limits<double>::quiet_NaN();
   double least_size = std::numeric_limits<double>::quiet_NaN();  ///< from which on it is reported as a fault

@@ -13,7 +13,7 @@ constexpr double kStill = 0.05;            // of the usual velocity: slower is n
 constexpr double kMoving = 0.2;            // of the usual velocity: a joint so fast was moving at the onset
 constexpr double kShortestStand_s = 0.15;  // a joint that turns round stands for less
 constexpr int kFewestStanding = 4;         // samples
-constexpr double kLeastWay = 1e-3;         // of the healthy range: what readings tell of a way
+constexpr double kLeastWay = 1e-3;         // of the healthy range: the resolution of a travelled distance
 
 double position(const FollowedSample& sample, int joint) { return sample.posterior.mean[joint]; }
 double velocity(const FollowedSample& sample, int joints, int joint) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 constexpr double kContradicts = 5.0;   // standard errors
 constexpr int kMostRounds = 3;         // of fitting at the lengths that the fit before found
 constexpr double kOtherGuess = 0.05;   // of a length that is a guess
+constexpr double kSameRate = 0.02;     // relative, between the sample periods of two logs
 constexpr double kOtherLength = 1e-3;  // of a length: less changes no torque that could be told
 
 /// Whether the same base parameters mean other torques at other lengths.
@@ -102,6 +104,22 @@ Issue payload_issue(const Identification& loaded, double payload) {
                                 to_string(loaded.status), loaded.reason));
 }
 
+/// A model has one sample period. Logs at another period make its noise that of neither.
+void add_rates(Identification& id) {
+  const auto [shortest, longest] = std::minmax_element(
+      id.logs.begin(), id.logs.end(),
+      [](const IdentifiedLog& a, const IdentifiedLog& b) { return a.sample_period_s < b.sample_period_s; });
+  if (shortest == longest || longest->sample_period_s <= (1.0 + kSameRate) * shortest->sample_period_s)
+    return;
+  id.issues.add(make_issue(
+      "rates_differ", Severity::warning,
+      fmt::format(
+          "the logs have different sample periods, from {:.4g} s ({}) to {:.4g} s ({}): the noise that "
+          "is estimated from them belongs to neither rate. Use logs of one rate, the rate of the logs to "
+          "be diagnosed",
+          shortest->sample_period_s, shortest->path, longest->sample_period_s, longest->path)));
+}
+
 /// An identification, and the lengths to fit again at, if any.
 struct Round {
   Identification id;
@@ -159,6 +177,7 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
     sized.chain.length = *round.lengths;
     round = fit_groups(groups, logs.size(), sized, options, progress);
   }
+  add_rates(round.id);
   return std::move(round.id);
 }
 

@@ -18,10 +18,10 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// Rates at which joints are logged, Hz.
 constexpr double kSlowest = 2.0, kFastest = 2e4, kUsual = 200.0;
-/// Hz; seconds that are counted so slowly are believed where nothing else tells the unit.
+/// Hz; seconds that are counted so slowly are believed where nothing else indicates the unit.
 constexpr double kSlowestOfSeconds = 0.1;
 constexpr std::size_t kLeastRows = 10;
-/// From the unit that motion tells: a factor between two units is 1000.
+/// From the unit that the motion indicates: a factor between two units is 1000.
 constexpr double kSameUnit = 10.0;
 constexpr std::array kCounts{"", "ms", "us", "ns"};  ///< each a thousand times finer than the one before
 
@@ -36,19 +36,19 @@ bool counts_whole_numbers(const std::vector<double>& time) {
 /// s per count by which a joint's position moves as its velocity says; NaN when it does not move.
 double seconds_by(const std::vector<double>& time, const std::vector<double>& q,
                   const std::vector<double>& dq) {
-  double moved = 0.0, told = 0.0;
+  double moved = 0.0, integrated = 0.0;
   for (std::size_t i = 1; i < std::min({time.size(), q.size(), dq.size()}); ++i) {
     const double path = 0.5 * (dq[i] + dq[i - 1]) * (time[i] - time[i - 1]);
     if (std::isnan(path) || std::isnan(q[i] - q[i - 1])) continue;
     moved += path * (q[i] - q[i - 1]);
-    told += path * path;
+    integrated += path * path;
   }
-  return told > 0.0 && moved > 0.0 ? moved / told : kUnknown;
+  return integrated > 0.0 && moved > 0.0 ? moved / integrated : kUnknown;
 }
 
-/// The middle one of those that the joints tell; NaN when none does.
+/// The median of the estimates of the joints; NaN where no joint has one.
 double seconds_by_motion(const std::vector<double>& time, const std::vector<NamedValues>& columns) {
-  std::vector<double> told;
+  std::vector<double> estimates;
   for (const NamedValues& q : columns) {
     const NameReading position = read_name(q.name);
     if (position.quantity != Quantity::q) continue;
@@ -56,22 +56,23 @@ double seconds_by_motion(const std::vector<double>& time, const std::vector<Name
       const NameReading velocity = read_name(dq.name);
       if (velocity.quantity != Quantity::dq || velocity.number != position.number) continue;
       const double seconds = seconds_by(time, q.values, dq.values);
-      if (!std::isnan(seconds)) told.push_back(seconds);
+      if (!std::isnan(seconds)) estimates.push_back(seconds);
     }
   }
-  if (told.empty()) return kUnknown;
-  std::nth_element(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(told.size() / 2), told.end());
-  return told[told.size() / 2];
+  if (estimates.empty()) return kUnknown;
+  std::nth_element(estimates.begin(), estimates.begin() + static_cast<std::ptrdiff_t>(estimates.size() / 2),
+                   estimates.end());
+  return estimates[estimates.size() / 2];
 }
 
-bool is_told(const char* unit, double seconds) {
+bool is_known_unit(const char* unit, double seconds) {
   const double ratio = seconds / *si_factor(unit);
   return ratio < kSameUnit && ratio > 1.0 / kSameUnit;
 }
 
 CountedTime by_motion(double step, double seconds) {
   for (const char* unit : kCounts)
-    if (is_told(unit, seconds) && *unit != '\0')
+    if (is_known_unit(unit, seconds) && *unit != '\0')
       return {unit, fmt::format("the time has no unit; it was taken as {}, as the positions then move as the "
                                 "velocities say ({:.4g} Hz)",
                                 unit, rate_of(step, unit))};
@@ -106,8 +107,8 @@ CountedTime counted_time(const std::vector<double>& time, const std::vector<Name
   const double seconds = seconds_by_motion(time, columns);
   if (!std::isnan(seconds)) return by_motion(step, seconds);
   if (since_1970.empty() && rate_of(step, "") >= kSlowestOfSeconds) return {};
-  const CountedTime told = by_rate(step, static_cast<std::size_t>(epoch - kCounts.begin()) + 1);
-  return *told.unit == '\0' && !since_1970.empty() ? CountedTime{*epoch, ""} : told;
+  const CountedTime by_usual_rate = by_rate(step, static_cast<std::size_t>(epoch - kCounts.begin()) + 1);
+  return *by_usual_rate.unit == '\0' && !since_1970.empty() ? CountedTime{*epoch, ""} : by_usual_rate;
 }
 
 }  // namespace faultline

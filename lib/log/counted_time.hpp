@@ -15,7 +15,7 @@ struct NamedValues {
 /// The unit of a time of which none is known.
 struct CountedTime {
   const char* unit = "";  ///< "ms", "us", "ns", or empty for s
-  std::string why{};      ///< a sentence that says how it was told; empty where the unit is s
+  std::string why{};      ///< a sentence that says how it was recognised; empty where the unit is s
 };
 
 /// A time that counts whole numbers far apart counts no seconds: it counts from 1970 where the sample period

@@ -18,7 +18,7 @@ struct RawColumn {
   std::string unit;
   /// What the file says that it is, as a ROS JointState does; most files leave that to the name.
   std::optional<Channel> meaning{};
-  bool unit_assumed = false;  ///< the values tell `unit`, see counted_time(), and not the file
+  bool unit_assumed = false;  ///< the values showed `unit`, see counted_time(), not the file
 };
 
 /// Consecutive rows of a file, one vector a column, of `rows` values. A cell without a number is NaN.

@@ -173,6 +173,17 @@ TEST(IdentifyClosedForm, OnlyLogsWithPayloadAreRefused) {
   }
 }
 
+TEST(IdentifyClosedForm, LogsOfDifferentRatesAreNamed) {
+  MemorySource fast(simulate_closed_form({}, {.period_s = 0.004}), "fast.csv");
+  MemorySource slow(simulate_closed_form({}, {.seed = 2}), "slow.csv");
+  LogSource* logs[] = {&slow, &fast};
+  const Identification id = identify(logs, robot_to_identify());
+  const Issue* differ = id.issues.find("rates_differ");
+  ASSERT_NE(differ, nullptr);
+  EXPECT_NE(differ->message.find("0.004 s (fast.csv) to 0.005 s (slow.csv)"), std::string::npos)
+      << differ->message;
+}
+
 TEST(IdentifyClosedForm, TooShortALogIsRefused) {
   ClosedFormRun run;
   run.duration_s = 0.03;

@@ -23,11 +23,11 @@ constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit
 constexpr double kWellBeyond = 1.5;          // times the limit
 constexpr double kSameTime_s = 0.1;          // the motion may show it so much sooner
 constexpr double kAftermath_s = 0.3;         // and so long after it has ended
-constexpr double kVague_s = 1.0;             // by which the motion may tell onset and alarm too early or late
-constexpr double kLeftLaw_s = 1.0;           // a law that is left for longer after a fault follows from it
-constexpr double kConstant = 0.7;            // of the residual, which a constant explains: a sensor's offset
-constexpr double kStays_s = 1.0;             // for which a sensor that is off stays so at least
-constexpr double kJolt_s = 0.1;              // another drive may stray for so long meanwhile
+constexpr double kVague_s = 1.0;    // by which onset and alarm estimated from the motion may be early or late
+constexpr double kLeftLaw_s = 1.0;  // a law that is left for longer after a fault follows from it
+constexpr double kConstant = 0.7;   // of the residual, which a constant explains: a sensor's offset
+constexpr double kStays_s = 1.0;    // for which a sensor that is off stays so at least
+constexpr double kJolt_s = 0.1;     // another drive may stray for so long meanwhile
 
 bool is_lost_torque(const RelationEpisode& episode) {
   const bool as_a_share = episode.share_explains > kShareExplains &&

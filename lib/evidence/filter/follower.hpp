@@ -141,7 +141,7 @@ class Follower {
   double last_time_ = 0.0;
   double usual_dt_ = 0.0;
   double clock_ = 0.0;           ///< s: when the last row was taken, as far as its stamp can be believed
-  double clock_rows_ = 1.0;      ///< that told where it stands
+  double clock_rows_ = 1.0;      ///< that carried information about its position
   double wobble_ = 0.04;         ///< variance of the stamps against it, of late, in squared periods
   int rows_without_torque_ = 0;  ///< of a joint at least, up to the last row
   JointFlags last_torque_missing_{};

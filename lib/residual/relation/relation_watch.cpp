@@ -20,7 +20,7 @@ constexpr double kShareExplains = 0.5, kBetterThanOffset = 0.5;
 constexpr double kAtFirst_s = 0.3;
 constexpr double kQuiet = 1.5;     // times the root mean square before the episode: nothing strays any more
 constexpr double kQuiet_s = 0.08;  // for which nothing strays: current loops settle sooner
-constexpr int kFewestQuiet = 20;   // rows that tell it
+constexpr int kFewestQuiet = 20;   // rows that estimate it
 constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
 
 std::vector<double> lengths_of(const SignalRelation& relation) {

@@ -91,7 +91,7 @@ class RelationWatch {
   const SignalRelation& relation_;
   RelationResidual residual_;
   WindowedMeans means_, predicted_, by_speed_;
-  WindowedMeans quiet_, quiet_squares_;  ///< of the residual over the time that tells an end
+  WindowedMeans quiet_, quiet_squares_;  ///< of the residual over the time that decides about an end
   std::deque<RelationSample> recent_;    ///< in step, of twice the longest window
   std::vector<RelationEpisode> episodes_;
   std::optional<RelationEpisode> now_;
