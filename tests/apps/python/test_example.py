@@ -30,7 +30,8 @@ class Example(InFolder):
     def test_the_ten_lines_of_the_page_run(self):
         page = (ROOT / "docs/python.md").read_text()
         code = re.search(r"```python\n(.*?)```", page, re.S).group(1)
-        self.assertIn("faultline.learn", code)
+        self.assertIn('output="bench.json")', code)
+        code = code.replace('output="bench.json")', 'output="bench.json", runs_per_label=4)')  # saves half the time
         for name in BENCH.iterdir():
             (self.folder / name.name).write_bytes(name.read_bytes())
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=self.folder)

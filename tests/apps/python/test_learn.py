@@ -9,15 +9,19 @@ from support import BENCH, InFolder, columns, program, without_origin
 
 HEALTHY = sorted(BENCH.glob("healthy_*.csv"))
 ROBOT = BENCH / "robot.toml"
+LOCKED = BENCH / "locked_1.csv"
 RUNS = 4
 
 
 class Learning(InFolder):
     def test_a_model_learned_from_files_has_the_bytes_of_the_programs(self):
         mine, theirs = self.folder / "mine.json", self.folder / "theirs.json"
-        options = ("--robot", ROBOT, "--runs-per-label", RUNS)
-        json = program("learn", *HEALTHY, *options, "-o", theirs, "--json", "-")
-        learned = faultline.learn(HEALTHY, ROBOT, output=mine, runs_per_label=RUNS)
+        labels = self.folder / "labels.csv"
+        labels.write_text(f"file,fault,joint,onset_s\n{LOCKED},locked,1,8.4375\n")
+        options = ("--robot", ROBOT, "--labels", labels, "--runs-per-label", RUNS)
+        json = program("learn", *HEALTHY, LOCKED, *options, "-o", theirs, "--json", "-")
+        label = ("locked", numpy.int64(1), numpy.float32(8.4375))
+        learned = faultline.learn([*HEALTHY, LOCKED], ROBOT, output=mine, labels={LOCKED: label}, runs_per_label=RUNS)
         self.assertEqual(mine.read_bytes(), theirs.read_bytes())
         self.assertEqual(learned.to_json().encode(), json)
         self.assertEqual(learned.model.to_json().encode(), theirs.read_bytes())
@@ -32,8 +36,14 @@ class Learning(InFolder):
             found.add(diagnosis.verdict)
         self.assertEqual(found, {"healthy", "faulty"})
 
-        in_memory = faultline.learn([columns(log) for log in HEALTHY], ROBOT, runs_per_label=RUNS)
-        log = BENCH / "locked_1.csv"
+        self.assertEqual(
+            [(source.path, source.fault) for source in learned.sources],
+            [(log.name, "none") for log in HEALTHY] + [("locked_1.csv", "locked")],
+        )
+
+        frames = [columns(log) for log in (*HEALTHY, LOCKED)]
+        in_memory = faultline.learn(frames, ROBOT, labels={"frame 4": label}, runs_per_label=RUNS)
+        log = BENCH / "torque_loss_1.csv"
         of_file, of_frames = (without_origin(m.model.diagnose(log)) for m in (learned, in_memory))
         self.assertEqual(of_frames["faults"], of_file["faults"])
         self.expect_file_of(in_memory.model, self.folder / "memory.json")
@@ -78,15 +88,6 @@ class Labels(InFolder):
         frames = [columns(log) for log in HEALTHY]
         with self.assertRaisesRegex(faultline.UsageError, "which are: frame 1, frame 2"):
             faultline.learn(frames, ROBOT, labels={"run 1": ("locked", 1, 2.0)})
-
-    def test_a_log_is_labelled_by_its_path_too_with_numbers_of_numpy(self):
-        locked = BENCH / "locked_1.csv"
-        label = ("locked", numpy.int64(1), numpy.float32(8.4375))
-        learned = faultline.learn([HEALTHY[1], locked], ROBOT, labels={locked: label}, runs_per_label=RUNS)
-        self.assertEqual(
-            [(source.path, source.fault) for source in learned.sources],
-            [("healthy_2.csv", "none"), ("locked_1.csv", "locked")],
-        )
 
 
 class Identifying(InFolder):
