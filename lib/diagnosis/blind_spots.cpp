@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kEnough = 0.75;  // of the simulated faults of a kind
 constexpr std::size_t kListedStretches = 10;
+constexpr double kPercentOfTime = 100.0;
 
 std::string what_is_missing(const UnjudgedStretch& stretch) {
   if (stretch.joint == 0) return "rows are missing";
@@ -43,11 +44,17 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
 
 std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) {
   const double period_s = log.sample_period_s;
+  const std::string end = stretch.end_s == log.end_s ? ", the end of the log" : "";
+  if (stretch.share < 1.0)
+    return fmt::format("{} could {}be judged in {:.0f} % of the time from {} to {}{}: {} again and again",
+                       stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
+                       stretch.joint == 0 ? "" : "not ", kPercentOfTime * stretch.share,
+                       time_text(stretch.start_s, period_s), time_text(stretch.end_s, period_s), end,
+                       stretch.joint == 0 ? "rows are missing or empty" : what_is_missing(stretch));
   return fmt::format("{} could {}be judged from {} to {}{}: {}",
                      stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
                      stretch.joint == 0 ? "" : "not ", time_text(stretch.start_s, period_s),
-                     time_text(stretch.end_s, period_s),
-                     stretch.end_s == log.end_s ? ", the end of the log" : "", what_is_missing(stretch));
+                     time_text(stretch.end_s, period_s), end, what_is_missing(stretch));
 }
 
 std::vector<std::string> unjudged_spots(const LogFacts& log) {

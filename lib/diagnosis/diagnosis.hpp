@@ -109,13 +109,14 @@ struct FaultFinding {
 inline constexpr const char* kMisreadLog = "misread_log";
 
 /// A stretch of a log in which a joint could not be judged for longer than a moment (judged_moment_s()), at
-/// its end judged_moment_at_end_s().
+/// its end judged_moment_at_end_s(), or in which it was not judged in more than a quarter of ten moments.
 struct UnjudgedStretch {
   int joint = 0;         ///< from 1; 0: all, rows are missing
   double start_s = 0.0;  ///< last row before it that was judged, or the first row
   double end_s = 0.0;    ///< first row after it that was judged, or the last row
   bool lacks_position = false, lacks_torque = false;
   bool is_last = false;  ///< it lasts to the end of its run
+  double share = 1.0;    ///< of it that was not judged: less where it was judged now and then
 };
 
 struct LogFacts {

@@ -79,8 +79,9 @@ std::string why_not_judged(const LogFacts& log) {
       others == 0 ? "" : fmt::format(" (and {} other stretch{})", others, others == 1 ? "" : "es");
   return fmt::format(
       "no fault was found where the log could be judged, but {}{}; a fault may hide where a joint is not judged "
-      "for longer than {:.2g} s, or at the end",
-      unjudged_words(*longest, log), more, judged_moment_s(log.sample_period_s));
+      "for longer than {:.2g} s, in more than a quarter of {:.2g} s, or at the end",
+      unjudged_words(*longest, log), more, judged_moment_s(log.sample_period_s),
+      judged_window_s(log.sample_period_s));
 }
 
 /// What a healthy verdict speaks of: the whole log only where all of it was judged.
@@ -96,8 +97,9 @@ std::string judged_part(const LogFacts& log) {
   const std::string rows = log.rows_unjudged > 0
                                ? fmt::format("{} of {} rows", log.rows_unjudged, log.rows_read)
                                : "a few moments";
-  return fmt::format("the log, but for {} that could not be judged, never more than {:.2g} s at a time", rows,
-                     judged_moment_s(log.sample_period_s));
+  return fmt::format(
+      "the log, but for {} that could not be judged, never more than {:.2g} s at a time or a quarter of {:.2g} s",
+      rows, judged_moment_s(log.sample_period_s), judged_window_s(log.sample_period_s));
 }
 
 /// Why a log in which no fault was found is not called healthy; empty when it can be.

@@ -106,6 +106,9 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.issues = log.issues();
   facts.runs = log.identity().runs;
   facts.unjudged = tally.stretches.longer_than_a_moment(quality.time.period_s);
+  for (const UnjudgedStretch& thin : tally.thin.stretches()) facts.unjudged.push_back(thin);
+  std::stable_sort(facts.unjudged.begin(), facts.unjudged.end(),
+                   [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
   facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
   facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;
   facts.issues.merge(quality.issues);

@@ -9,6 +9,7 @@
 #include "lib/log/quality.hpp"
 #include "lib/model/model.hpp"
 #include "lib/monitor/judged_stretches.hpp"
+#include "lib/monitor/thin_stretches.hpp"
 
 namespace faultline {
 
@@ -23,6 +24,7 @@ struct LogTally {
   std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
   bool has_velocity = false;
   JudgedStretches stretches;
+  ThinStretches thin;    ///< of the log with its lost rows as empty ones
   QualityState quality;  ///< gaps, missing values, implausible units and the like
 
   /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither

@@ -35,6 +35,7 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   LogTally tally;
   for (Log segment; log.next(segment);) {
     tally.take(segment, log, model);
+    tally.thin.take(segment, log.identity().runs);
     relations.take(segment);
   }
   relations.finish();
@@ -60,7 +61,10 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   LogTally tally;
   TappedSource counted(log, [&](const Log& segment) { tally.take(segment, log, model); });
   EmptyRowsSource filled(counted);
-  TappedSource watched(filled, [&](const Log& segment) { relations.take(segment); });
+  TappedSource watched(filled, [&](const Log& segment) {
+    tally.thin.take(segment, log.identity().runs);
+    relations.take(segment);
+  });
   DelayedTorqueSource in_time(watched, day.torque_delay_s);
   LogSource& acting = day.torque_delay_s.empty() ? static_cast<LogSource&>(watched) : in_time;
   ResidualState state;

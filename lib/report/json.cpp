@@ -20,11 +20,13 @@ void put_label(Json& json, const FaultLabel& label) {
 }
 
 Json stretch_json(const UnjudgedStretch& stretch) {
-  return {{"joint", count_or_null(stretch.joint)},
-          {"start_s", number_or_null(stretch.start_s)},
-          {"end_s", number_or_null(stretch.end_s)},
-          {"lacks_position", stretch.lacks_position},
-          {"lacks_torque", stretch.lacks_torque}};
+  Json json = {{"joint", count_or_null(stretch.joint)},
+               {"start_s", number_or_null(stretch.start_s)},
+               {"end_s", number_or_null(stretch.end_s)},
+               {"lacks_position", stretch.lacks_position},
+               {"lacks_torque", stretch.lacks_torque}};
+  if (stretch.share < 1.0) json["share"] = stretch.share;
+  return json;
 }
 
 /// Runs only where there are several, stretches only where there are any.

@@ -273,7 +273,7 @@ TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
       diagnosis.verdict_reason,
       "no fault was found where the log could be judged, but joint 2 could not be judged from 7.000 s to "
       "10.000 s, the end of the log: its torque is missing (and 1 other stretch); a fault may hide where a "
-      "joint is not judged for longer than 0.5 s, or at the end");
+      "joint is not judged for longer than 0.5 s, in more than a quarter of 5 s, or at the end");
 }
 
 TEST(Verdict, SpeaksOfTheWholeLogOnlyWhereAllOfItWasJudged) {

@@ -183,6 +183,24 @@ TEST_F(ImperfectLogs, AMomentWithoutValuesLeavesTheLogHealthyButNotTheWholeLog) 
   EXPECT_NE(found.verdict_reason.find("3 of 165 rows"), std::string::npos) << found.verdict_reason;
 }
 
+TEST_F(ImperfectLogs, RowsThatCannotBeJudgedAndAreSpreadThinlyLeaveNoHealthyLog) {
+  for (const char* name : {"torque_loss_2.csv", "payload_change.csv"})
+    for (const bool torque_only : {false, true}) {
+      Log log = read(name);
+      for (int row = 0; row < log.rows(); row += 2) {
+        if (!torque_only) blank_row(log, row);
+        for (std::vector<double>& torque : log.tau) torque[row] = std::nan("");
+      }
+      const Diagnosis found = diagnosed(log);
+      EXPECT_NE(found.verdict, Verdict::healthy) << name << ": " << found.verdict_reason;
+      if (found.verdict == Verdict::faulty) continue;
+      EXPECT_NE(found.verdict_reason.find("be judged in "), std::string::npos) << found.verdict_reason;
+      ASSERT_FALSE(found.log.unjudged.empty());
+      EXPECT_NE(render_json(found).find("\"share\":"), std::string::npos);
+      EXPECT_NE(found.cannot_see.front().find("again and again"), std::string::npos);
+    }
+}
+
 TEST_F(ImperfectLogs, AFaultInTheSecondRunIsFoundWithItsTimeOnThatRunsClock) {
   const Log log = read("torque_loss_2.csv");
   const Diagnosis straight = diagnosed(log);

@@ -19,4 +19,13 @@ inline double judged_moment_at_end_s(double sample_period_s) {
   return kMomentRows * sample_period_s;
 }
 
+/// Ten moments, s. What lacks less than a moment at a time, again and again, hides a fault as well where it
+/// adds up within them to more than kLeastUnjudgedShare.
+inline double judged_window_s(double sample_period_s) {
+  constexpr double kMoments = 10.0;
+  return kMoments * judged_moment_s(sample_period_s);
+}
+
+inline constexpr double kLeastUnjudgedShare = 0.25;
+
 }  // namespace faultline
