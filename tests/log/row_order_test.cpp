@@ -185,6 +185,27 @@ TEST(RowOrder, ARowOfTheDayBeforeMayComeAfterMidnight) {
   EXPECT_EQ(log.time, clock_from(86350, 90));
 }
 
+TEST(RowOrder, ARunThatBeginsBeforeMidnightAgainFollowsOneThatPassedIt) {
+  const Values night = clock_from(86350, 50) + clock_from(0, 40);
+  for (const double evening : {86350.0, 86345.0, 86380.0, 80000.0}) {
+    const Values again = evening < 86000.0
+                             ? clock_from(evening, 90)
+                             : clock_from(evening, static_cast<int>(86400.0 - evening)) + clock_from(0, 40);
+    const auto [log, issues, runs] = ordered(night + again + again);
+    ASSERT_EQ(runs.size(), 3u) << evening;
+    EXPECT_EQ(log.rows(), static_cast<int>(night.size() + 2 * again.size())) << evening;
+    EXPECT_EQ(runs[2].first_row, static_cast<std::int64_t>(night.size() + again.size()) + 1);
+    const Values own = ordered(night + again + again, 2).log.time;
+    ASSERT_EQ(own.size(), again.size());
+    EXPECT_EQ(own.front(), evening);
+  }
+}
+
+TEST(RowOrder, RowsThatWereLostBeforeAShortLastRunAreSevereToo) {
+  const auto lost = ordered(clock_from(0, 100) + Values(30, std::nan("")) + clock_from(50, 2));
+  EXPECT_NE(lost.issues.find("rows_not_judged", "t"), nullptr);
+}
+
 TEST(RowOrder, ManyRowsWithoutAUsableTimeInSuccessionAreSevere) {
   const Values none(30, std::nan(""));
   const auto lost = ordered(clock_from(0, 100) + none + clock_from(130, 100));

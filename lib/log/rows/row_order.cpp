@@ -24,7 +24,7 @@ constexpr int kStepsAround = 16;      // of which the usual step is the median
 constexpr double kRunGap_s = 0.3;     // at least, between two runs,
 constexpr double kRunGapSteps = 8.0;  // and so many steps: every stage takes that for a gap
 constexpr double kPerSecond = 1000.0;  // a shift is whole milliseconds, so that times stay readable
-constexpr double kDay_s = 86400.0;
+constexpr double kDay_s = 86400.0, kHalfDay_s = 43200.0;
 constexpr double kNearMidnight_s = 60.0;  // a time of day so near to it passes it
 
 /// Whether the clock goes on from `time` with the row after it, that has the time `next`.
@@ -76,18 +76,22 @@ bool RowOrder::is_simply_next(int at) {
 /// `next` is the time of the row after it, as it came.
 void RowOrder::judge(int at, double next, Issues& issues) {
   const double t = store_.time[at];
-  const double own = t + kDay_s * midnights_;
+  const int days = placed(t) < t + clock_shift() ? midnights_ - 1 : midnights_;
+  const double own = t + kDay_s * days;
   Row row{own + offset_, own, at, numbers_[at]};
   if (std::isnan(t)) return leave_out("time_missing", row, issues);
   if (std::abs(t) > kImplausible) return leave_out("time_implausible", row, issues);
   if (runs_.empty()) add_run({.run = 1, .first_row = row.number, .is_read = is_wanted(1)});
-  if (midnights_ > 0 && row.time - newest_ > 0.5 * kDay_s)  // late, of the day before
-    row.time -= kDay_s, row.own -= kDay_s;
   if (row.time > newest_)
-    take_ahead(row, next + clock_shift(), issues);
+    take_ahead(row, placed(next), issues);
   else
-    take_behind(row, next + clock_shift(), issues);
+    take_behind(row, placed(next), issues);
   if (!early_.empty()) give_up_early(row.number - kOrderWindowRows, issues);
+}
+
+double RowOrder::placed(double stamp) const {
+  const double time = stamp + clock_shift();
+  return midnights_ > 0 && time - newest_ > kHalfDay_s ? time - kDay_s : time;
 }
 
 void RowOrder::take_ahead(const Row& row, double next, Issues& issues) {
@@ -249,7 +253,9 @@ void RowOrder::leave_out(const std::string& code, const Row& row, Issues& issues
               row.number, store_.time[row.at], 1, 1});
   if (code == "time_repeated") return;
   if (lost_.rows++ == 0) lost_.first = row.number;
-  if (lost_.rows > most_lost_.rows) most_lost_ = lost_;
+  if (lost_.rows <= most_lost_.rows) return;
+  lost_.step_s = usual_step();
+  most_lost_ = lost_;
 }
 
 bool RowOrder::is_same_row(int a, int b) const {
@@ -272,8 +278,8 @@ double RowOrder::usual_step() const {
 }
 
 void RowOrder::tell_lost(Issues& issues) const {
-  const double lost_s = static_cast<double>(most_lost_.rows) * usual_step();
-  if (lost_s <= judged_moment_s(usual_step())) return;
+  const double lost_s = static_cast<double>(most_lost_.rows) * most_lost_.step_s;
+  if (lost_s <= judged_moment_s(most_lost_.step_s)) return;
   issues.add(
       {"rows_not_judged", "t", Severity::severe,
        fmt::format("{} rows in succession from row {} on ({:.3g} s of them) have no usable time and were "

@@ -52,6 +52,7 @@ class RowOrder {
   };
   struct LostRows {
     std::int64_t rows = 0, first = 0;
+    double step_s = 0.0;  ///< usual where they were lost
   };
 
   /// Of a row with an earlier time than the newest one.
@@ -81,6 +82,8 @@ class RowOrder {
   bool is_same_row(int a, int b) const;
   bool is_wanted(int run) const { return wanted_run_ == kEveryRun || wanted_run_ == run; }
   double usual_step() const;
+  /// The time in the log of a stamp, which may be late and of the day before the present one.
+  double placed(double stamp) const;
   /// Time in the log less time of the present run's clock.
   double clock_shift() const { return offset_ + 86400.0 * midnights_; }
   const LogRun& run_at(double time) const;
