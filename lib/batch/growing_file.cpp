@@ -8,12 +8,22 @@
 #include <cstring>
 
 #include "lib/core/error.hpp"
+#include "lib/core/files/other_names.hpp"
 
 namespace faultline {
 
 GrowingFile::GrowingFile(std::string path) : path_(std::move(path)) {
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ >= 0 && has_other_names(file_)) begin_anew();
   if (file_ < 0) fail();
+}
+
+/// The file has the other name from now on, this one gets a new file.
+void GrowingFile::begin_anew() {
+  ::close(file_);
+  file_ = -1;
+  if (::unlink(path_.c_str()) == 0)
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
 GrowingFile::~GrowingFile() { ::close(file_); }

@@ -7,7 +7,8 @@
 namespace faultline {
 
 /// A file that grows line by line for readers who follow it. What it already holds from an earlier run and
-/// what comes again stays untouched; from the first difference on it is written anew.
+/// what comes again stays untouched; from the first difference on it is written anew. A file that has other
+/// names, too (hard links), keeps those and its content: under this one a new file takes its place.
 class GrowingFile {
  public:
   /// Throws Error(output).
@@ -21,6 +22,7 @@ class GrowingFile {
   void finish();
 
  private:
+  void begin_anew();
   bool is_there_already(std::string_view text) const;
   [[noreturn]] void fail() const;
 

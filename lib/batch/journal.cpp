@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/files/other_names.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 
@@ -84,6 +85,7 @@ std::map<std::string, JournalEntry> read_journal(const std::string& path) {
 }
 
 JournalWriter::JournalWriter(std::string path) : path_(std::move(path)) {
+  refuse_other_names(path_);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0)
     throw Error(ErrorCode::output, path_, std::string("cannot be opened (") + std::strerror(errno) + ")");

@@ -10,6 +10,7 @@
 #include "lib/batch/batch_index.hpp"
 #include "lib/batch/earlier_results.hpp"
 #include "lib/batch/log_result.hpp"
+#include "lib/core/files/other_names.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
 
@@ -134,6 +135,7 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
   facts.shard = options.shard;
   facts.shards = options.shards;
   const BatchFolder out(folder, options.wait);
+  refuse_other_names(out.journal());
   out.mark_unfinished();
   std::vector<std::string> settings;
   for (const ModelFacts& model : all) settings.push_back(settings_of(facts, model));

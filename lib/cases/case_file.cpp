@@ -10,6 +10,7 @@
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/other_names.hpp"
 
 namespace faultline {
 namespace {
@@ -111,6 +112,7 @@ void write_new(const std::string& path, const CaseBase& base) {
 /// In one transaction: what `make` makes of the open file becomes its content.
 void rewrite(const std::string& path, const std::function<CaseBase(SqliteFile& file)>& make) {
   check_file(path);
+  refuse_other_names(path);
   SqliteFile file(path, SqliteMode::change);
   file.text("PRAGMA journal_mode = DELETE");  // one file, also when another tool had left it in WAL mode
   file.run("BEGIN IMMEDIATE");

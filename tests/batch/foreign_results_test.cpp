@@ -141,5 +141,36 @@ TEST_F(ForeignResults, NothingIsRemovedThroughALinkInPlaceOfLogs) {
   EXPECT_EQ(read_file(mine), kMine);
 }
 
+/// Settings of mine under a second name.
+void link_mine(const std::string& mine, const std::string& name) {
+  fs::remove(name);
+  fs::create_hard_link(mine, name);
+}
+
+TEST_F(ForeignResults, AFileOfResultsThatIsAHardLinkIsReplacedAndNotWrittenThrough) {
+  merge_batches({part()}, out());
+  const std::string rows = read_file(out() + "/index.csv");
+  for (const char* name : {"/index.csv", "/index.ndjson", "/index.html", "/summary.json",
+                           "/.batch/finished.json", "/logs/runs_a.csv-0123456789ab.json"})
+    link_mine(settings(), out() + name);
+  merge_batches({part()}, out());
+  EXPECT_EQ(read_file(settings()), kMine);
+  EXPECT_EQ(read_file(out() + "/index.csv"), rows);
+  EXPECT_EQ(read_file(out() + "/logs/runs_a.csv-0123456789ab.json"), kReport);
+  EXPECT_EQ(fs::hard_link_count(settings()), 1u);
+}
+
+TEST_F(ForeignResults, AJournalThatIsAHardLinkIsNotAppendedTo) {
+  merge_batches({part()}, out());
+  link_mine(settings(), out() + "/.batch/journal");
+  try {
+    JournalWriter(out() + "/.batch/journal").add(entry_);
+    ADD_FAILURE() << "the journal was opened";
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("hard link"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(read_file(settings()), kMine);
+}
+
 }  // namespace
 }  // namespace faultline

@@ -182,6 +182,16 @@ TEST_F(CaseFile, AChangeThatFailsChangesNothing) {
   EXPECT_EQ(read_file(path_), before);
 }
 
+TEST_F(CaseFile, ThatIsAHardLinkIsNotChangedUnderItsOtherName) {
+  write_case_base(path_, example_base(2));
+  std::filesystem::create_hard_link(path_, folder_.file("other.cases.db"));
+  const std::string before = read_file(path_);
+  EXPECT_THROW(change_case_base(path_, [](CaseBase& base) { base.retain(base.at(1)); }), Error);
+  EXPECT_EQ(read_file(path_), before);
+  EXPECT_THROW(write_case_base(path_, example_base(1)), Error);
+  EXPECT_EQ(read_file(folder_.file("other.cases.db")), before);
+}
+
 TEST_F(CaseFile, MissingFile) { EXPECT_NE(refusal(path_).find("no such case base"), std::string::npos); }
 
 TEST_F(CaseFile, Directory) {
