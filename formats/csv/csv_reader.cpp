@@ -26,6 +26,8 @@ constexpr double kMostAbsentShare = 0.9;
 /// Of any line, also one that is no row.
 constexpr std::int64_t kLineWork_ns = 200;
 
+constexpr std::size_t kLongestHeadLine = 1 << 20;  ///< bytes; 16384 names of 64 characters
+
 std::size_t longest_line(std::string_view text) {
   std::size_t longest = 0;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -40,9 +42,13 @@ std::size_t longest_line(std::string_view text) {
 /// below.
 std::string_view whole_lines_head(ByteSource& bytes) {
   constexpr std::size_t kLines = 4;
-  while (bytes.head().size() < kLines * longest_line(bytes.head()) && bytes.head().size() < kLongestLine &&
-         bytes.extend_head()) {
-  }
+  std::size_t longest = longest_line(bytes.head());
+  while (longest <= kLongestHeadLine && bytes.head().size() < kLines * longest && bytes.extend_head())
+    longest = longest_line(bytes.head());
+  if (longest > kLongestHeadLine)
+    throw Error(ErrorCode::input, bytes.path(),
+                "has a line of more than 1 MiB near its beginning, where the names of the columns stand; "
+                "write the names in one line, and one line a sample");
   return bytes.head();
 }
 

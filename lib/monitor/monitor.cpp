@@ -96,6 +96,18 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   return monitor(log, model, options, std::numeric_limits<double>::infinity());
 }
 
+MonitoredLog read_unjudged(LogSource& log, const Model& model) {
+  LogTally tally;
+  log.rewind();
+  for (Log segment; log.next(segment);) {
+    tally.take(segment, log, model);
+    tally.thin.take(segment, log.identity().runs);
+  }
+  MonitoredLog out;
+  out.log = log_facts(log, tally, model);
+  return out;
+}
+
 MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s) {
   return monitor(log, model, {}, enough_from_s);
 }

@@ -18,4 +18,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
 /// to the end of that segment.
 MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s);
 
+/// What is known of a log whose rate or clock lets nothing of it be judged: read once, with no finding.
+MonitoredLog read_unjudged(LogSource& log, const Model& model);
+
 }  // namespace faultline

@@ -153,7 +153,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   std::unique_ptr<LogSource> kept;
   const LogRate rate = log_rate(log, model);
   LogSource& judged = settle_log(log, rate, model, doubts, kept);
-  const MonitoredLog run = monitor(judged, model, options);
+  const bool can_be_judged = rate.is_models() || doubts.find(kResampled);
+  const MonitoredLog run = can_be_judged ? monitor(judged, model, options) : read_unjudged(log, model);
   std::vector<FaultFinding> faults = found_in(run, model, cases);
   if (can_question(model) && !run.log.is_tracked)
     question_faults(judged, &judged == &log, model, faults, doubts);

@@ -42,6 +42,13 @@ TEST(CsvReader, MoreColumnsThanALogHasAreRefused) {
   EXPECT_NE(why_refused(std::string(1 << 20, ',')).find("columns"), std::string::npos);
 }
 
+TEST(CsvReader, AnEndlessHeaderLineIsRefusedBeforeItFillsTheMemory) {
+  std::string text = "t,q1";
+  while (text.size() < (3u << 20)) text += ",column_of_a_machine";
+  EXPECT_NE(why_refused(text + "\n").find("a line of more than 1 MiB near its beginning"), std::string::npos)
+      << why_refused(text + "\n");
+}
+
 TEST(CsvReader, RowsThatLackMostFieldsAreRefusedBeforeTheyFillTheMemory) {
   std::string text = wide_table(1500, 1, 310);
   for (int row = 310; row < 60000; ++row) text += fmt::format("{},1\n", row);

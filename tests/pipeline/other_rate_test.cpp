@@ -114,5 +114,14 @@ TEST(OtherRate, WhatALogMeansIsAskedAfterItsRate) {
       << "a robot that did not explain its own logs contradicts no other";
 }
 
+TEST(OtherRate, ALogThatIsFarTooSlowIsReadAndNotJudgedRowByRow) {
+  const Diagnosis slow = diagnosed_at(slide_at(0.02, FaultKind::torque_loss));
+  EXPECT_EQ(slow.verdict, Verdict::inconclusive);
+  EXPECT_NE(slow.verdict_reason.find("a sample every 0.02 s"), std::string::npos) << slow.verdict_reason;
+  EXPECT_TRUE(slow.residuals.empty()) << "nothing of it was held against the robot";
+  EXPECT_TRUE(slow.faults.empty());
+  EXPECT_GT(slow.log.rows_used, 0);
+}
+
 }  // namespace
 }  // namespace faultline

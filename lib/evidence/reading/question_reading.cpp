@@ -161,6 +161,15 @@ Beginning look_for_a_fit(LogSource& log, const MotionModel& model) {
   return out;
 }
 
+/// The first excerpt that moves: all that the question about the clock looks at.
+Beginning first_motion(LogSource& log, const MotionModel& model) {
+  Beginning out;
+  Log rest;
+  for (int i = 0; i < kExcerpts && !out.fit.has_motion(); ++i)
+    if ((out.rows = next_rows(log, rest)).rows() > 0) out.fit = fit_of(out.rows, model);
+  return out;
+}
+
 /// Whether all joints that are told as the rows are read now are told by another reading, too.
 bool tells_as_much(const Fit& then, const Fit& now) {
   for (int j = 0; j < now.joints(); ++j)
@@ -261,7 +270,7 @@ ReadingDoubt other_robot(const Beginning& beginning) {
 
 ReadingDoubt question_clock(LogSource& log, const MotionModel& model, double sample_period_s) {
   log.rewind();
-  const Beginning beginning = look_for_a_fit(log, model);
+  const Beginning beginning = first_motion(log, model);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
   Best best = clearly_better_than(beginning);
