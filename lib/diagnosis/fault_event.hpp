@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -21,6 +22,15 @@ struct FaultEvent {
   int run = 0;                  ///< as FaultFinding::run
   double clock_offset_s = 0.0;  ///< as FaultFinding::clock_offset_s
 };
+
+/// A time of a fault: "12.345 s", of a log with several runs "12.345 s (1.234 s on its clock)". `Fault` is a
+/// FaultEvent or a FaultFinding.
+template <typename Fault>
+std::string clock_words(const Fault& fault, double time_s, double sample_period_s) {
+  const std::string time = time_text(time_s, sample_period_s);
+  if (fault.run == 0 || !std::isfinite(time_s)) return time;
+  return time + " (" + time_text(time_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
+}
 
 /// "12.345 s", of a log with several runs "12.345 s (run 2, 1.234 s on its clock)". `Fault` is a FaultEvent
 /// or a FaultFinding.

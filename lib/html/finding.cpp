@@ -19,8 +19,8 @@ constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
 
 std::string times(const FaultFinding& f, double period_s) {
   return html_table({"onset", "alarm", "end", "confidence", "decided by"},
-                    {{onset_words(f, period_s), time_text(f.alarm_s, period_s), time_text(f.end_s, period_s),
-                      percent_text(f.confidence), decided_words(f)}},
+                    {{onset_words(f, period_s), clock_words(f, f.alarm_s, period_s),
+                      clock_words(f, f.end_s, period_s), percent_text(f.confidence), decided_words(f)}},
                     fmt::format("Fault {}", f.id));
 }
 
@@ -129,8 +129,8 @@ std::string html_fault_table(const Diagnosis& d) {
     const HtmlRow cells = {"",
                            plain_words(f.label),
                            onset_words(f, period),
-                           time_text(f.alarm_s, period),
-                           time_text(f.end_s, period),
+                           clock_words(f, f.alarm_s, period),
+                           clock_words(f, f.end_s, period),
                            percent_text(f.confidence)};
     for (std::size_t i = 1; i < cells.size(); ++i)
       text += fmt::format("<td data-label=\"{}\">{}</td>", heads[i], escaped_markup(cells[i]));

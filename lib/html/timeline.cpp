@@ -59,7 +59,7 @@ class Picture {
     const double period = d_.log.sample_period_s;
     return escaped_markup(fmt::format("Fault {}: {}; onset {}, alarm {}, end {}, confidence {}", f.id,
                                       plain_words(f.label), onset_words(f, period),
-                                      time_text(f.alarm_s, period), time_text(f.end_s, period),
+                                      clock_words(f, f.alarm_s, period), clock_words(f, f.end_s, period),
                                       percent_text(f.confidence)));
   }
 

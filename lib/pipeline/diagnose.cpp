@@ -118,6 +118,14 @@ void name_runs(Diagnosis& diagnosis) {
       }
 }
 
+/// What was found in a run is known of that run alone: where the next one shows it, it is found there again.
+void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& faults) {
+  for (FaultFinding& fault : faults)
+    for (const LogRun& run : runs)
+      if (run.is_read && run.start_s <= fault.onset_s && fault.onset_s <= run.end_s)
+        fault.end_s = std::min(fault.end_s, run.end_s);
+}
+
 /// What looks like a fault may be a change of the log's columns. `has_log_rows`: the rows of `judged` are
 /// those of the log, not at another rate.
 void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
@@ -158,6 +166,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   std::vector<FaultFinding> faults = found_in(run, model, cases);
   if (can_question(model) && !run.log.is_tracked)
     question_faults(judged, &judged == &log, model, faults, doubts);
+  end_with_run(run.log.runs, faults);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);

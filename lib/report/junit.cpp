@@ -23,12 +23,18 @@ std::string run_of(const FaultFinding& fault) {
 
 std::string seconds(double time_s) { return std::isfinite(time_s) ? seconds_text(time_s) : "unknown time"; }
 
+std::string on_clock(const FaultFinding& fault, double time_s) {
+  if (fault.run == 0 || !std::isfinite(time_s)) return seconds(time_s);
+  return fmt::format("{} ({} on its clock)", seconds_text(time_s),
+                     seconds_text(time_s - fault.clock_offset_s));
+}
+
 std::string failure(const FaultFinding& fault) {
   return fmt::format(
       "      <failure type=\"{}\" message=\"{}\">onset {}{}, alarm {}, end {}, confidence {:.2f}. "
       "{}</failure>\n",
       to_string(fault.label.kind), escaped_markup(plain_words(fault.label)), seconds(fault.onset_s),
-      run_of(fault), seconds(fault.alarm_s), seconds(fault.end_s), fault.confidence,
+      run_of(fault), on_clock(fault, fault.alarm_s), on_clock(fault, fault.end_s), fault.confidence,
       escaped_markup(fault.next_check));
 }
 

@@ -48,8 +48,8 @@ std::string fault_table(const Diagnosis& d) {
   const double period = d.log.sample_period_s;
   for (const FaultFinding& f : d.faults)
     rows.push_back({std::to_string(f.id), plain_words(f.label), onset_words(f, period),
-                    time_text(f.alarm_s, period), time_text(f.end_s, period), percent_text(f.confidence),
-                    decided_words(f)});
+                    clock_words(f, f.alarm_s, period), clock_words(f, f.end_s, period),
+                    percent_text(f.confidence), decided_words(f)});
   return table({"fault", "what", "onset", "alarm", "end", "confidence", "decided by"}, rows);
 }
 

@@ -72,7 +72,8 @@ class FaultBlock {
   std::string times() const {
     const double period = log_.sample_period_s;
     return fmt::format("  onset {}   alarm {}   end {}\n", onset_words(fault_, period),
-                       time_text(fault_.alarm_s, period), time_text(fault_.end_s, period));
+                       clock_words(fault_, fault_.alarm_s, period),
+                       clock_words(fault_, fault_.end_s, period));
   }
 
   std::string opinions() const {

@@ -29,6 +29,10 @@ TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
   EXPECT_EQ(read.run, 2);
   EXPECT_EQ(read.clock_offset_s, 10.25);
   EXPECT_EQ(onset_words(read, 0.01), "12.500 s (run 2, 2.250 s on its clock)");
+  EXPECT_EQ(clock_words(read, 13.0, 0.01), "13.000 s (2.750 s on its clock)");
+  FaultEvent single = read;
+  single.run = 0;
+  EXPECT_EQ(clock_words(single, 13.0, 0.01), "13.000 s");
 }
 
 TEST(FaultEvent, OfNoJointHasNullForIt) {

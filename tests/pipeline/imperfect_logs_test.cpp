@@ -220,6 +220,23 @@ TEST_F(ImperfectLogs, AFaultInTheSecondRunIsFoundWithItsTimeOnThatRunsClock) {
   EXPECT_NE(render_junit(found).find("(run 2, "), std::string::npos);
 }
 
+TEST_F(ImperfectLogs, AFaultEndsWithItsRunAndSoDoItsTimesInWords) {
+  const Log faulty = read("torque_loss_2.csv"), healthy = read("healthy_trapezoidal.csv");
+  Log both = faulty;
+  Log later = healthy;
+  for (double& t : later.time) t += faulty.time.back() + 5.0;
+  append(both, later);
+  const double back_s = later.time.front();
+  const Diagnosis found = diagnosed_file(written(both, "two.csv", faulty.rows(), back_s));
+  ASSERT_EQ(found.log.runs.size(), 2u);
+  ASSERT_FALSE(found.faults.empty());
+  EXPECT_LE(found.faults.front().end_s, found.log.runs[0].end_s);
+  const std::string text = render_text(found, {});
+  const std::string times = text.substr(text.find("  onset "), 200);
+  EXPECT_NE(times.substr(times.find("alarm"), 40).find("on its clock"), std::string::npos) << times;
+  EXPECT_NE(times.substr(times.find("   end"), 40).find("on its clock"), std::string::npos) << times;
+}
+
 TEST_F(ImperfectLogs, AHealthyLogWhoseClockRestartsIsJudgedAsAWhole) {
   const Log log = read("healthy_quintic.csv");
   for (int restart = 40; restart < 250; restart += 30) {
