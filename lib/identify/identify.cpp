@@ -15,6 +15,7 @@
 #include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/identify/quiet_solver.hpp"
+#include "lib/identify/verdict/inertia_verdict.hpp"
 
 namespace faultline {
 namespace {
@@ -144,6 +145,7 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
       id.issues.add(payload_issue(loaded.id, groups[g].payload.value));
   }
   std::optional<std::vector<double>> lengths = settle_physical(estimates, id);
+  find_negative_inertia(id);
   id.robot = robot_with(id.robot, id.space, id.estimate);
   return {std::move(id), std::move(lengths)};
 }
