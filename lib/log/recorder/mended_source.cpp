@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lib/log/log_channels.hpp"
+#include "lib/log/recorder/stopped_columns_source.hpp"
 #include "lib/log/rows/keep_rows.hpp"
 
 namespace faultline {
@@ -227,7 +228,8 @@ void MendedSource::hand_out(Log& segment) {
 }
 
 std::unique_ptr<LogSource> mended(std::unique_ptr<LogSource> source, std::vector<bool> slides) {
-  return std::make_unique<MendedSource>(std::move(source), std::move(slides));
+  return std::make_unique<StoppedColumnsSource>(
+      std::make_unique<MendedSource>(std::move(source), std::move(slides)));
 }
 
 }  // namespace faultline

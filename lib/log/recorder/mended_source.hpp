@@ -83,7 +83,7 @@ class MendedSource : public LogSource {
   mutable Issues issues_;
 };
 
-/// The source, mended.
+/// The source, mended, and without columns that the recorder did not measure (StoppedColumnsSource).
 std::unique_ptr<LogSource> mended(std::unique_ptr<LogSource> source, std::vector<bool> slides = {});
 
 }  // namespace faultline
