@@ -4,6 +4,7 @@
 #include "lib/diagnosis/decision.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
 #include "lib/diagnosis/finding.hpp"
+#include "lib/diagnosis/least_size.hpp"
 #include "lib/diagnosis/precedents.hpp"
 #include "lib/evidence/standstill.hpp"
 
@@ -14,6 +15,22 @@ namespace {
 double calibrated(const Decision& decision, const ConfidenceCalibration& calibration) {
   if (decision.label.joint == 0 || decision.label.kind == FaultKind::unknown) return decision.confidence;
   return calibration.of(confidence_source(decision.decided_by), decision.confidence);
+}
+
+/// What has no name for the want of evidence alone, and by its likeliest kind is below the least size of
+/// that, is named so: too small to be told from other faults, it is too small to matter as well.
+Decision named_if_small(const Decision& decision, const DecisionBasis& basis, const Model& model) {
+  if (decision.decided_by != DecidedBy::abstained || decision.label.kind != FaultKind::unknown)
+    return decision;
+  std::vector<LabelEvidence> known = basis.evidence;
+  std::erase_if(known, [](const LabelEvidence& e) { return e.label.kind == FaultKind::unknown; });
+  const LabelEvidence likely = likeliest(basis.evidence);
+  const bool is_known = !known.empty() && likely.label.joint > 0 && likely.label.kind != FaultKind::unknown;
+  if (!is_known || likely.log_likelihood_ratio < basis.threshold) return decision;
+  if (is_far_from_white(likely.surprise, basis.usual, true)) return decision;
+  if (!(extent_of(likely.label, basis.evidence, model).times_least < 1.0)) return decision;
+  return {likely.label, posterior_of(likely.label, known), DecidedBy::evidence,
+          DecisionReason::likelihood_names, likely.label};
 }
 
 }  // namespace
@@ -32,7 +49,7 @@ FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model
   for (int j = 0; j < model.robot.joints(); ++j)
     basis.is_held[j] = is_held(observed.evidence.standstill[j], torque_flows);
   basis.votes = votes_on(basis.episode, cases);
-  Decision decision = decide(basis);
+  Decision decision = named_if_small(decide(basis), basis, model);
   decision.confidence = calibrated(decision, model.confidence);
   FaultFinding finding = finding_of({observed, basis, decision}, model);
   finding.precedents = precedents_of(basis, cases, model);

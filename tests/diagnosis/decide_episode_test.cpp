@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/diagnosis/least_size.hpp"
 #include "tests/diagnosis/hand_made_episode.hpp"
 
 namespace faultline {
@@ -140,6 +141,27 @@ TEST(DecideEpisode, TheLikelihoodDoesNotOverruleNetworksThatAgree) {
   EXPECT_EQ(finding.label, kBias3);
   EXPECT_EQ(finding.decided_by, DecidedBy::agreement);
   EXPECT_NE(alternative(finding, kLocked2), nullptr);
+}
+
+/// Networks and cases name what raised no alarm, and two other faults explain the log alike; the likelier one
+/// is a payload of this size, in the unit of the hypothesis.
+FaultFinding undecided_payload(double size) {
+  const Model model = hand_made_rrp({kLocked2, 0.9}, {kLocked2, 0.9});
+  const double alarm = model.evidence.threshold;
+  EpisodeEvidence episode = episode_of_fault(model, {FaultKind::payload_change, 3}, 3.0 * alarm, size);
+  explain(episode, model, kLoss1, 3.0 * alarm - 2.0, 0.5);
+  return decide_episode({episode, {}}, model, empty_base(model));
+}
+
+TEST(DecideEpisode, WhatIsTooSmallToBeToldApartIsNamedByTheLikelihoodAndListedAsSmall) {
+  constexpr double kTiny = 1e-6;
+  const double least = kTiny / undecided_payload(kTiny).extent.times_least;
+  const FaultFinding small = undecided_payload(0.8 * least);
+  EXPECT_EQ(small.label, (FaultLabel{FaultKind::payload_change, 3}));
+  EXPECT_NEAR(small.extent.times_least, 0.8, 1e-9);
+  std::vector<FaultFinding> faults = {small};
+  EXPECT_EQ(take_small_changes(faults).size(), 1u);
+  EXPECT_EQ(undecided_payload(1.2 * least).label, kUnknown) << "it matters, so it is not named by guess";
 }
 
 TEST(DecideEpisode, ThinEvidenceIsNotNamed) {
