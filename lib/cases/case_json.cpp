@@ -6,6 +6,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/files/plain_name.hpp"
+#include "lib/core/json/json_problem.hpp"
 #include "lib/core/json_values.hpp"
 
 namespace faultline {
@@ -72,6 +73,14 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   return c;
 }
 
+/// `number` in the list, from 1, is for the message.
+Case case_number(std::int64_t number, const Json& json, const std::vector<Feature>& features) try {
+  return case_from(json, features);
+} catch (const nlohmann::json::exception& error) {
+  throw Error(ErrorCode::input, "case number " + std::to_string(number) + " of the list",
+              json_problem(error, ""));
+}
+
 Metric metric_from(const Json& json) {
   Metric metric;
   metric.near_similarity = json.at("near_similarity").get<double>();
@@ -129,13 +138,14 @@ CaseBase from_cases_json(const std::string& text, const std::string& where) try 
   check_schema(json);
   Metric metric = metric_from(json);
   std::vector<Case> cases;
-  for (const Json& c : json.at("cases")) cases.push_back(case_from(c, metric.features));
+  for (const Json& c : json.at("cases"))
+    cases.push_back(case_number(std::ssize(cases) + 1, c, metric.features));
   CaseBase base(std::move(metric), std::move(cases));
   base.belong_to(json.value("model_identity", ""));
   base.describe_robot({json.value("robot", ""), json.value("axes", "")});
   return base;
 } catch (const nlohmann::json::exception& error) {
-  throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
+  throw Error(ErrorCode::input, where, "is no export of a case base: " + json_problem(error, text));
 } catch (const Error& error) {
   throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
 }

@@ -18,6 +18,10 @@ namespace {
 
 constexpr std::streamsize kBlock = 1 << 16;
 
+/// Whether a write failed because the reader of a pipe has seen enough, as head has: that is no failure, and
+/// what comes after is lost on nobody.
+bool reader_has_left() { return errno == EPIPE; }
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
@@ -51,16 +55,19 @@ void AtomicFile::fail(const char* doing) {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("written");
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size() && !reader_has_left())
+    fail("written");
 }
 
 void AtomicFile::commit() {
-  if (std::fflush(file_) != 0) fail("written");
+  const bool flushed = std::fflush(file_) == 0, nobody_reads = !flushed && reader_has_left();
+  if (!flushed && !nobody_reads) fail("written");
   if (to_stdout_) return;
   std::FILE* file = file_;
   file_ = nullptr;
   const bool synced = temporary_ || ::fsync(::fileno(file)) == 0 || errno == EINVAL;
-  if (std::fclose(file) != 0 || !synced) fail("written");
+  const bool closed = std::fclose(file) == 0 || reader_has_left();
+  if (!nobody_reads && !(closed && synced)) fail("written");
   if (temporary_) temporary_->commit();
 }
 

@@ -53,6 +53,19 @@ TEST(CommandLine, AReaderThatHasSeenEnoughIsNoError) {
   EXPECT_EQ(run.err, "status 141\n");  // 128 and SIGPIPE
 }
 
+TEST(CommandLine, AReaderThatLeavesEarlyIsNoErrorOfAReportEither) {
+  const std::string golden = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden";
+  for (const char* format : {"--md", "--json", "--csv"}) {
+    const ProgramRun run =
+        run_command({"bash", "-c",
+                     "{ sleep 0.3; " + std::string(FAULTLINE_PROGRAM) + " diagnose " + golden +
+                         "/logs/healthy_quintic.csv --model " + golden + "/model-*.json --cases " + golden +
+                         "/cases-* " + format + " -; echo status $? >&2; } | true"});
+    EXPECT_NE(run.err.find("status 0"), std::string::npos) << format << ": " << run.err;
+    EXPECT_EQ(run.err.find("cannot be written"), std::string::npos) << format << ": " << run.err;
+  }
+}
+
 TEST(CommandLine, InspectHelpShowsAnExample) {
   const ProgramRun run = run_program({"inspect", "--help"});
   EXPECT_EQ(run.status, 0);

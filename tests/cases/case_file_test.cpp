@@ -281,5 +281,29 @@ TEST_F(CaseFile, ImportsThatAreNone) {
   EXPECT_THROW(from_cases_json(text, "x"), Error);
 }
 
+TEST_F(CaseFile, ANumberThatIsNoneInAnImportIsNamedWithItsPlace) {
+  const auto problem = [](const std::string& text) -> std::string {
+    try {
+      from_cases_json(text, "cases.json");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.message().find("json.exception"), std::string::npos) << error.message();
+      return error.message();
+    }
+    return "it was read";
+  };
+  std::string text = to_cases_json(example_base(2));
+  const std::size_t at = text.find("\"near_similarity\": ") + 19;
+  const std::size_t end = text.find(',', at);
+  const auto with = [&](const std::string& number) { return text.substr(0, at) + number + text.substr(end); };
+  EXPECT_NE(problem(with("Infinity")).find("line 3, column 21: \"Infinity\" cannot stand there"),
+            std::string::npos)
+      << problem(with("Infinity"));
+  EXPECT_NE(problem(with("1e999")).find("1e999 is larger than any number"), std::string::npos)
+      << problem(with("1e999"));
+  EXPECT_NE(problem(text.substr(0, 40)).find("ends too early"), std::string::npos);
+  text.replace(text.find("\"id\": 2"), 7, "\"id\": \"2\"");
+  EXPECT_NE(problem(text).find("case number 2 of the list"), std::string::npos) << problem(text);
+}
+
 }  // namespace
 }  // namespace faultline
