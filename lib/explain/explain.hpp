@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/explain/hypothesis.hpp"
+
+namespace faultline {
+
+/// What one log says: the best hypothesis of each kind and joint, best first.
+struct LogExplanation {
+  std::vector<Hypothesis> best;
+  double healthy_square = 1.0;  ///< mean square of what the healthy robot leaves, in standard deviations
+  bool slips = false;           ///< an encoder that jumps again and again: no single offset
+};
+
+LogExplanation explain_log(const LogFit& fit);
+
+/// When the evidence of `hypothesis` from its onset on passes `threshold`; the effects of the day are those
+/// of the whole log.
+double alarm_time(const LogFit& fit, const Hypothesis& hypothesis, double threshold);
+
+}  // namespace faultline

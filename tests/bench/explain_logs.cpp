@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The regression core beside the bank of filters: learns a robot from healthy logs, leaves each of them out
+// in turn for the limits, and explains other logs. Prints one JSON object a log. Usage:
+// faultline_explain_logs ROBOT.toml HEALTHY_LOG... -- LOG...
+#include <fmt/format.h>
+
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "formats/open_log.hpp"
+#include "lib/core/error.hpp"
+#include "lib/explain/explain.hpp"
+#include "lib/identify/days/fit_days.hpp"
+#include "lib/identify/identify.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+nlohmann::ordered_json to_json(const LogFit& fit, const LogExplanation& e) {
+  nlohmann::ordered_json out;
+  out["chi0"] = e.healthy_square;
+  out["slips"] = e.slips;
+  out["t_end"] = fit.time_s()[fit.count() - 1];
+  for (std::size_t k = 0; k < std::min<std::size_t>(8, e.best.size()); ++k) {
+    const Hypothesis& h = e.best[k];
+    nlohmann::ordered_json one;
+    one["kind"] = to_string(h.kind);
+    one["joint"] = h.joint;
+    one["t0"] = h.onset_s;
+    one["gain"] = h.gain;
+    one["size"] = std::vector<double>(h.size.data(), h.size.data() + h.size.size());
+    one["chi"] = h.fit.mean_square();
+    for (const double threshold : {20., 40., 80., 160., 320., 640., 1280.})
+      one["al"][fmt::format("{:g}", threshold)] = alarm_time(fit, h, threshold);
+    out["hyps"].push_back(one);
+  }
+  return out;
+}
+
+void explain_file(const std::string& path, const OpenLogOptions& reading, const BalanceModel& model,
+                  const char* role) {
+  const double from = processor_s();
+  const std::unique_ptr<LogSource> log = open_log(path, reading);
+  const LogFit fit(uniform_log(*log, model.setting.period_s), model);
+  nlohmann::ordered_json out = to_json(fit, explain_log(fit));
+  out["file"] = path;
+  out["role"] = role;
+  out["cpu_s"] = processor_s() - from;
+  out["rows"] = fit.log().rows();
+  fmt::print("{}\n", out.dump());
+  std::fflush(stdout);
+}
+
+void describe(const BalanceModel& m, double seconds) {
+  nlohmann::ordered_json out;
+  out["role"] = "model";
+  out["cpu_s"] = seconds;
+  const auto list = [](const auto& v) { return std::vector<double>(v.data(), v.data() + v.size()); };
+  out["theta"] = list(m.theta);
+  out["width"] = list(m.setting.friction_width);
+  out["compliance"] = list(m.setting.compliance);
+  out["fusion"] = list(m.setting.fusion);
+  out["lag"] = m.setting.torque_lag;
+  out["piece_kg"] = m.piece_kg;
+  out["day_std"] = list(m.day_variance.cwiseSqrt().eval());
+  out["difference"] = m.setting.velocity_is_difference;
+  for (const RippleRate& r : m.setting.ripples) out["ripples"].push_back({r.joint, r.rate});
+  for (const JointNoise& n : m.noise.joint)
+    out["noise"].push_back({n.base, n.torque, n.rest, n.speed, n.innovation});
+  fmt::print("{}\n", out.dump());
+  std::fflush(stdout);
+}
+
+int run(const std::string& robot_file, const std::vector<std::string>& healthy,
+        const std::vector<std::string>& logs) {
+  const Robot robot = load_robot_file(robot_file);
+  OpenLogOptions reading;
+  reading.columns = robot.log.columns;
+  reading.keep_extra = false;
+  std::vector<std::unique_ptr<LogSource>> owners;
+  std::vector<LogSource*> all;
+  for (const std::string& log : healthy) {
+    owners.push_back(open_log(log, reading));
+    all.push_back(owners.back().get());
+  }
+  double from = processor_s();
+  IdentifyOptions options;
+  options.method = IdentifyMethod::weak_form;
+  options.threads = 1;
+  const Identification identified = identify(all, robot, options);
+  fmt::print(stderr, "identify {:.1f} s\n", processor_s() - from);
+  DayFitOptions fit;
+  fit.torque_is_held = identified.robot.log.torque_between_samples == TorqueTiming::held ||
+                       (identified.robot.torque_phi && std::abs(*identified.robot.torque_phi) < 0.2);
+  from = processor_s();
+  const BalanceModel model = fit_days(all, identified.space, fit);
+  describe(model, processor_s() - from);
+  for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
+    std::vector<LogSource*> others;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k != left_out) others.push_back(all[k]);
+    const BalanceModel without = fit_days(others, identified.space, fit);
+    explain_file(healthy[left_out], reading, without, "left_out");
+  }
+  for (const std::string& log : logs) explain_file(log, reading, model, "test");
+  return 0;
+}
+
+}  // namespace
+}  // namespace faultline
+
+int main(int argc, char** argv) try {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto separator = std::find(arguments.begin(), arguments.end(), "--");
+  if (arguments.size() < 3 || separator == arguments.end())
+    throw faultline::Error(faultline::ErrorCode::usage, "faultline_explain_logs",
+                           "needs ROBOT.toml HEALTHY_LOG... -- LOG...");
+  return faultline::run(arguments[0], {arguments.begin() + 1, separator}, {separator + 1, arguments.end()});
+} catch (const std::exception& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  return 2;
+}
