@@ -12,7 +12,6 @@ namespace faultline {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::Vector4d;
 using Eigen::VectorXd;
 
 constexpr double kSaysNothing = 1e6;  // times the usual standard deviation
@@ -20,18 +19,26 @@ constexpr double kRare = 50.0;        // times the median: squares above it are 
 constexpr double kLeastShare = 0.1;   // of the median square that the constant part has at least
 constexpr double kRidge = 1e-4;       // of the variance, on the diagonal of the autocorrelation
 
-Vector4d variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, int j) {
+constexpr int kTerms = 5;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
+constexpr double kLeastTiming = 0.01;  // samples^2: a torque's step is known to a tenth of a sample at best
+
+Terms variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, int j) {
   const double still = elementary::tanh(rows.dq(k, j) / setting.friction_width[j]);
-  return {1.0, rows.torque(k, j) * rows.torque(k, j), 1.0 - still * still, rows.dq(k, j) * rows.dq(k, j)};
+  Terms out;
+  out << 1.0, rows.torque(k, j) * rows.torque(k, j), 1.0 - still * still, rows.dq(k, j) * rows.dq(k, j),
+      rows.step_square(k, j);
+  return out;
 }
 
-/// Non-negative least squares in four unknowns: the best of all sets of unknowns that may differ from zero.
-Vector4d non_negative(const Eigen::Matrix4d& a, const Vector4d& b) {
-  Vector4d best = Vector4d::Zero();
+/// Non-negative least squares in a few unknowns: the best of all sets of unknowns that may differ from zero.
+Terms non_negative(const TermMatrix& a, const Terms& b) {
+  Terms best = Terms::Zero();
   double least = std::numeric_limits<double>::infinity();
-  for (int set = 1; set < 16; ++set) {
+  for (int set = 1; set < 1 << kTerms; ++set) {
     std::vector<int> used;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < kTerms; ++i)
       if (set >> i & 1) used.push_back(i);
     const VectorXd part = a(used, used).ldlt().solve(b(used));
     if (!part.allFinite() || part.minCoeff() < 0.0) continue;
@@ -55,7 +62,8 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
   MatrixXd out(rows.rows(), rows.joints());
   for (int j = 0; j < rows.joints(); ++j) {
     const JointNoise& n = noise.joint[j];
-    const Vector4d share(n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed);
+    Terms share;
+    share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
       if (rows.lost[k]) out(k, j) *= kSaysNothing;
@@ -73,7 +81,7 @@ MatrixXd whiten(const MatrixXd& columns, const VectorXd& std, const JointNoise& 
   return out;
 }
 
-void fit_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise& noise) {
+RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise noise) {
   const int joints = setting.joints();
   noise.joint.resize(joints);
   for (int j = 0; j < joints; ++j) {
@@ -83,27 +91,29 @@ void fit_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, 
         if (counts(log, k)) squares.push_back(log.torque(k, j) * log.torque(k, j));
     if (squares.empty()) continue;
     const double median = upper_median(squares);
-    Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
-    Vector4d b = Vector4d::Zero();
+    TermMatrix a = TermMatrix::Zero();
+    Terms b = Terms::Zero();
     for (const LeftOver& log : logs)
       for (int k = 0; k < log.rows->rows(); ++k) {
         if (!counts(log, k)) continue;
-        const Vector4d x = variance_terms(*log.rows, setting, k, j);
+        const Terms x = variance_terms(*log.rows, setting, k, j);
         const double y = std::min(log.torque(k, j) * log.torque(k, j), kRare * median);
         const double weight = 1.0 / std::pow(2.25 * median, 2);
         a += weight * x * x.transpose();
         b += weight * y * x;
       }
-    const Vector4d share = non_negative(a, b);
+    const Terms share = non_negative(a, b);
     JointNoise& out = noise.joint[j];
     out.base = std::max(share[0], kLeastShare * median);
     out.torque = share[1];
     out.rest = share[2];
     out.speed = share[3];
+    out.timing = std::max(share[4], kLeastTiming);
   }
+  return noise;
 }
 
-void fit_filter(const std::vector<LeftOver>& logs, int order, RowNoise& noise) {
+RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise) {
   for (std::size_t j = 0; j < noise.joint.size(); ++j) {
     VectorXd correlation = VectorXd::Zero(order + 1);
     double rows = 0.0;
@@ -124,6 +134,7 @@ void fit_filter(const std::vector<LeftOver>& logs, int order, RowNoise& noise) {
     out.filter << 1.0, -a;
     out.innovation = std::sqrt(correlation[0] - a.dot(correlation.tail(order)));
   }
+  return noise;
 }
 
 }  // namespace faultline

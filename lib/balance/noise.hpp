@@ -8,9 +8,11 @@
 
 namespace faultline {
 
-/// Variance of one joint's rows: base + torque * tau^2 + rest * (1 - tanh^2(dq / width)) + speed * dq^2.
+/// Variance of one joint's rows: base + torque tau^2 + rest (1 - tanh^2(dq / width)) + speed dq^2 + timing
+/// step^2, where step^2 is the square of the torque's steps within the kernel: what a step that acts a share
+/// of a sample earlier or later leaves.
 struct JointNoise {
-  double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0;
+  double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0, timing = 0.0;
   Eigen::VectorXd filter;   ///< autoregression of the rows over their standard deviation: 1, -a1, -a2, ..
   double innovation = 1.0;  ///< standard deviation behind the filter
 };
@@ -33,14 +35,14 @@ Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Eigen::VectorXd& st
 struct LeftOver {
   const BalanceRows* rows = nullptr;
   Eigen::MatrixXd torque;         ///< rows x joints
-  Eigen::MatrixXd std;            ///< rows x joints, for fit_filter()
+  Eigen::MatrixXd std;            ///< rows x joints, for with_filter()
   std::vector<bool> not_counted;  ///< by row: near a change of the work piece
 };
 
 /// The variance of rows as non-negative least squares of the squared residuals, these cut where they are
 /// rare.
-void fit_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise& noise);
+RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise noise);
 /// Autoregression of order `order` of the residuals over their standard deviation (Yule and Walker).
-void fit_filter(const std::vector<LeftOver>& logs, int order, RowNoise& noise);
+RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise);
 
 }  // namespace faultline

@@ -55,6 +55,11 @@ Intervals intervals(const UniformLog& log, const RowSetting& setting) {
   return out;
 }
 
+int reach_samples(const RowSetting& setting, const VectorXd& kernel) {
+  const Index friction = gaussian_kernel(setting.friction_s, setting.period_s).size();
+  return static_cast<int>(kernel.size() / 2 + friction / 2 + 1);
+}
+
 /// Rows of the coarse grid: interval `first` + k * decimation is the middle of row k.
 struct CoarseGrid {
   int first = 0, step = 1, count = 0;
@@ -62,8 +67,7 @@ struct CoarseGrid {
 
 CoarseGrid coarse_grid(int samples, const RowSetting& setting, const VectorXd& kernel) {
   CoarseGrid grid;
-  const int friction = static_cast<int>(gaussian_kernel(setting.friction_s, setting.period_s).size());
-  grid.first = static_cast<int>(kernel.size()) / 2 + friction / 2 + 1;
+  grid.first = reach_samples(setting, kernel);
   grid.step = setting.decimation;
   const int last = samples - 1 - grid.first;  // one behind
   grid.count = last > grid.first ? (last - grid.first + grid.step - 1) / grid.step : 0;
@@ -99,9 +103,9 @@ VectorXd saturated(const VectorXd& speed, double width) {
 }
 
 /// -M(q) d2(torque)/dt2 of each spring, at the rows.
-void add_spring_columns(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
-                        const VectorXd& theta, const Intervals& at, const VectorXd& kernel,
-                        const CoarseGrid& grid, BalanceRows& rows) {
+void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, const VectorXd& theta,
+                        const Intervals& at, const VectorXd& kernel, const CoarseGrid& grid,
+                        BalanceRows& rows) {
   const ColumnLayout layout = layout_of(rigid, setting);
   const Chain<double> chain = chain_of(rigid, theta);
   const MatrixXd torque = smooth(at.torque, kernel);
@@ -150,6 +154,10 @@ std::vector<bool> crossing_lost(const std::vector<bool>& lost, const CoarseGrid&
 
 }  // namespace
 
+double reach_s(const RowSetting& setting) {
+  return setting.period_s * reach_samples(setting, gaussian_kernel(setting.kernel_s, setting.period_s));
+}
+
 Chain<double> chain_of(const RigidColumns& rigid, const VectorXd& theta) {
   Chain<double> chain = rigid.chain;
   const int n = rigid.joints();
@@ -197,6 +205,8 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   };
   for (int j = 0; j < n; ++j) rows.column.push_back(at_rows(fine[j]));
   rows.torque = at_rows(at.torque);
+  rows.step_square =
+      smooth_at(at.torque_step.cwiseAbs2(), kernel.cwiseAbs2(), grid.first, grid.step, grid.count);
   rows.q = at_rows(at.q);
   rows.dq = at_rows(at.link_speed);
   rows.time_s.resize(grid.count);
@@ -206,7 +216,7 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
     rows.time_s[m] = log.time_s(rows.sample[m] + 0.5);
   }
   rows.lost = crossing_lost(log.lost, grid, grid.first);
-  if (theta.size() > 0) add_spring_columns(log, setting, rigid, theta, at, kernel, grid, rows);
+  if (theta.size() > 0) add_spring_columns(setting, rigid, theta, at, kernel, grid, rows);
   return rows;
 }
 

@@ -14,9 +14,10 @@ namespace faultline {
 /// around time_s[k]; rows whose kernel leaves the log do not exist.
 struct BalanceRows {
   Eigen::VectorXd time_s;
-  Eigen::VectorXi sample;  ///< by row: the sample before its middle
-  Eigen::MatrixXd torque;  ///< rows x joints, N m or N
-  Eigen::MatrixXd q, dq;   ///< rows x joints, smoothed; `dq` is that of the link, behind the gear spring
+  Eigen::VectorXi sample;       ///< by row: the sample before its middle
+  Eigen::MatrixXd torque;       ///< rows x joints, N m or N
+  Eigen::MatrixXd q, dq;        ///< rows x joints, smoothed; `dq` is that of the link, behind the gear spring
+  Eigen::MatrixXd step_square;  ///< rows x joints: sum of (weight of the kernel * step of the torque)^2
   std::vector<Eigen::MatrixXd> column;  ///< by joint: rows x parameters (see ColumnLayout)
   std::vector<bool> lost;               ///< by row: its kernel crosses samples that the log lacks
 
@@ -33,6 +34,9 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
 /// springs: the same as torque - column * theta, but without the columns, for trajectories that are tried.
 Eigen::MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                             const Eigen::VectorXd& theta);
+
+/// How far the samples that a row is made of lie from its middle at most, s.
+double reach_s(const RowSetting& setting);
 
 /// The chain that moves as `theta` says; its friction does not count.
 Chain<double> chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);

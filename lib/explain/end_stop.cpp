@@ -53,7 +53,7 @@ Eigen::MatrixXd stop_std(const BalanceRows& rows, const BalanceModel& model) {
       if (s != 0) {
         const int at = halted_at(rows, model, j, s, {k, end});
         if (at < end)
-          for (int i = std::max(0, at - 2 * reach); i < std::min(rows.rows(), end + reach); ++i)
+          for (int i = std::max(0, at - reach); i < std::min(rows.rows(), end + reach); ++i)
             out(i, j) = kForce;
       }
       k = end;

@@ -16,8 +16,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kFreeRowCost =
+    1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
+constexpr int kRowsOfChange = 6;  // on each side of a change of the work piece: kernel and filter
 constexpr double kSameOnset_s = 0.08;
-constexpr std::size_t kOnsets = 6, kOnsetsForAll = 4;
+constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6;
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
 
@@ -69,9 +72,11 @@ std::set<double> onsets_of(const std::vector<Candidate>& own, const std::vector<
   return out;
 }
 
-void judge_candidates(const std::vector<Candidate>& all, Bench& bench) {
+void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change, Bench& bench) {
   const LogFit& fit = bench.fit;
-  const std::vector<double> common = common_onsets(all);
+  std::vector<double> common = common_onsets(all);
+  const double row_s = fit.model().setting.row_s();
+  for (const double rows : {-1.0, -0.5, 0.0}) common.insert(common.begin(), change.onset_s + rows * row_s);
   std::vector<double> changes;  // of the work piece
   for (int k = 0; k + 1 < static_cast<int>(fit.healthy().path.size()); ++k)
     if (fit.healthy().path[k] != fit.healthy().path[k + 1]) changes.push_back(fit.time_s()[k + 1]);
@@ -84,12 +89,12 @@ void judge_candidates(const std::vector<Candidate>& all, Bench& bench) {
   }
   std::vector<Candidate> blows = of(all, FaultKind::collision, fit.joints());
   if (blows.size() > 4) blows.resize(4);
-  for (const double t : onsets_of(blows, common, 2)) bench.go(FaultKind::collision, fit.joints(), t);
+  for (const double t : onsets_of(blows, common, 5)) bench.go(FaultKind::collision, fit.joints(), t);
   for (int joint = 1; joint <= fit.joints(); ++joint) {
     const bool slide = fit.model().rigid.chain.geometry[joint - 1].kind == AxisKind::prismatic;
     std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
     if (drifts.size() > 3) drifts.resize(3);
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, common.size()); ++k)
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, common.size()); ++k)
       for (const double sign : {-1.0, 1.0})
         drifts.push_back({FaultKind::sensor_drift, joint, common[k], 0.0, sign * (slide ? 0.01 : 0.03)});
     for (const Candidate& c : drifts) bench.go(c.kind, joint, c.onset_s, c.start);
@@ -148,18 +153,62 @@ bool slips(const std::vector<Hypothesis>& best, const std::vector<Hypothesis>& a
   });
 }
 
+/// The moment up to which rows are explained, where each row after it costs kFreeRowCost: effects of the day
+/// are those of the rows before, from cumulative normal equations.
+FreeForm free_form(const LogFit& fit) {
+  const int rows = fit.count(), n = fit.joints();
+  const int effects = static_cast<int>(fit.model().day_variance.size());
+  Stacked torque = fit.residual();
+  if (fit.has_piece())  // as seen before a fault could bend the effects of the day
+    torque -=
+        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
+  Stacked white = fit.whitened(torque);
+  const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
+  for (int k = 0; k < static_cast<int>(changes.size()); ++k)  // the time of a change is not known to a row
+    for (int j = 0; j < n && changes[k]; ++j) white[j * rows + k] = 0.0;
+  NormalEquations sums{MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
+  const VectorXd precision = fit.model().day_variance.cwiseInverse();
+  const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
+  double least = std::numeric_limits<double>::infinity();
+  int best = first;
+  VectorXd day = VectorXd::Zero(effects);
+  for (int k = 0; k + kTail < rows; ++k) {
+    for (int j = 0; j < n; ++j) {
+      const double y = white[j * rows + k];
+      if (!changes.empty() && changes[k]) continue;
+      const VectorXd w = fit.white_day().row(j * rows + k).transpose();
+      sums.matrix += w * w.transpose();
+      sums.vector += y * w;
+      sums.square += y * y;
+    }
+    if (k < first) continue;
+    const Regression before = regress(sums, precision);
+    const double cost =
+        0.5 * (sums.square - before.estimate.dot(sums.vector)) + kFreeRowCost * n * (rows - 1 - k);
+    if (cost >= least) continue;
+    least = cost;
+    best = k;
+    day = before.estimate;
+  }
+  FreeForm out;
+  out.onset_s = fit.time_s()[std::min(best + 1, rows - 1)];
+  out.left = white - fit.white_day() * day;
+  return out;
+}
+
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit) {
   Bench bench{fit, linear_faults(fit), {}};
   bench.judged.reserve(1024);
-  judge_candidates(search(fit, bench.linear), bench);
+  LogExplanation out;
+  out.free_form = free_form(fit);
+  judge_candidates(search(fit, bench.linear), out.free_form, bench);
   std::vector<Hypothesis> top = ranked(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
   for (const Hypothesis& h : top)
     if (h.gain >= kWorthRefining && h.kind != FaultKind::stuck_encoder && h.kind != FaultKind::sensor_bias)
       refine(h, bench);
-  LogExplanation out;
   out.best = ranked(bench.judged);
   if (!out.best.empty()) {
     const Hypothesis first = out.best.front();
@@ -172,11 +221,25 @@ LogExplanation explain_log(const LogFit& fit) {
   return out;
 }
 
+double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
+  const double edge = reach_s(fit.model().setting);
+  double sum = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] < change.onset_s - edge) continue;
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double z = change.left[j * fit.count() + k];
+      sum += 0.5 * z * z - 0.5;
+    }
+    if (sum > threshold) return std::max(fit.time_s()[k] + edge, change.onset_s);
+  }
+  return fit.time_s()[fit.count() - 1] + edge;
+}
+
 double alarm_time(const LogFit& fit, const Hypothesis& h, double threshold) {
   Stacked y = fit.residual() - fit.day_torque(h.fit.day);
   if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
   const Stacked without = fit.whitened(y);
-  const double edge = 3.0 * fit.model().setting.kernel_s;
+  const double edge = reach_s(fit.model().setting);
   double sum = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < h.onset_s - edge) continue;

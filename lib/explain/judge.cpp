@@ -82,6 +82,8 @@ Hypothesis judge_collision(const LogFit& fit, double onset_s) {
     Hypothesis h = hypothesis(fit, FaultKind::collision, n, onset_s,
                               fit.explain_with_piece(fit.residual(), columns, starts, onset_s), 0.0);
     h.duration_s = duration;
+    (h.size.cwiseAbs2().cwiseQuotient(columns.variance)).maxCoeff(&h.joint);
+    ++h.joint;
     if (h.gain > best.gain) best = std::move(h);
   }
   return best;

@@ -58,6 +58,8 @@ class LogFit {
   /// The same of another trajectory of this log.
   Stacked residual_of(const UniformLog& moved) const;
   const std::vector<Eigen::MatrixXd>& day_columns() const { return day_column_; }
+  /// Columns of the effects of a day, whitened and stacked.
+  const StackedColumns& white_day() const { return day_white_; }
   const Eigen::MatrixXd& tip_torque() const { return tip_; }
   const Explanation& healthy() const { return healthy_; }
   /// Path of the work piece before anything was known of the day.

@@ -90,8 +90,12 @@ TEST(BalanceRows, LostSamplesMarkTheRowsWhoseKernelCrossesThem) {
       balance_rows(log_of(run, 2.0, 2.01), setting_for(run.period_s), scara_columns(), {});
   int lost = 0;
   for (int k = 0; k < rows.rows(); ++k) {
-    if (rows.lost[k]) EXPECT_NEAR(rows.time_s[k], 2.005, 0.12);
-    if (std::abs(rows.time_s[k] - 2.005) < 0.05) EXPECT_TRUE(rows.lost[k]) << rows.time_s[k];
+    if (rows.lost[k]) {
+      EXPECT_NEAR(rows.time_s[k], 2.005, 0.12);
+    }
+    if (std::abs(rows.time_s[k] - 2.005) < 0.05) {
+      EXPECT_TRUE(rows.lost[k]) << rows.time_s[k];
+    }
     lost += rows.lost[k];
   }
   EXPECT_GT(lost, 0);

@@ -11,8 +11,8 @@ namespace faultline {
 
 struct DayFitOptions {
   double kernel_s = 0.0;  ///< 0: 12 ms above 200 Hz, else 16 ms
-  double row_s = 0.01;    ///< between two rows
-  int filter_order = 12;  ///< of the autoregression of the rows
+  double row_s = 0.0;     ///< between two rows; 0: twice the kernel, since finer rows repeat each other
+  int filter_order = 3;   ///< of the autoregression of the rows
   int rounds = 10;        ///< of parameters, days and noise in turn
   bool torque_is_held = false;
   bool springs = true, ripples = true, pieces = true;
