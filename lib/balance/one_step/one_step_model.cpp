@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/one_step/one_step_model.hpp"
+
+#include "lib/balance/one_step/innovations.hpp"
+#include "lib/balance/smoothing.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kQuietForce = 1e-3;  // of a joint's usual torque: what a model of a machine lacks at rest
+constexpr double kShareOfTorque = 0.004;  // of the torque itself: what it lacks under load
+constexpr double kUnknownTorque = 30.0;   // times the usual torque: where the torque was not logged
+
+}  // namespace
+
+VectorXd OneStepModel::numbers() const {
+  VectorXd out = VectorXd::Zero(layout().count());
+  out.head(theta.size()) = theta;
+  out.segment(layout().gain(0), joints()).setOnes();
+  return out;
+}
+
+MatrixXd OneStepModel::day_directions() const {
+  const MotionLayout at = layout();
+  const int n = at.joints;
+  MatrixXd out = MatrixXd::Zero(at.count(), at.base + 2 * n);
+  for (int p = 0; p < at.base; ++p) out(p, p) = theta[p];
+  for (int j = 0; j < n; ++j) {
+    out(at.viscous(j), at.base + j) = theta[at.viscous(j)];
+    out(at.coulomb(j), at.base + j) = theta[at.coulomb(j)];
+    out(at.force(j), at.base + n + j) = 1.0;
+  }
+  return out;
+}
+
+MatrixXd OneStepModel::force_std(const UniformLog& log) const {
+  MatrixXd out(joints(), log.rows() - 1);
+  for (int k = 0; k + 1 < log.rows(); ++k) {
+    out.col(k) = ((kQuietForce * torque_rms).array().square() +
+                  (kShareOfTorque * log.tau.row(k).transpose().array()).square())
+                     .sqrt();
+    if (log.lost[k] || (!setting.torque_is_held && log.lost[k + 1])) out.col(k) = kUnknownTorque * torque_rms;
+  }
+  return out;
+}
+
+MatrixXd OneStepModel::variance_of_readings(const UniformLog& log) const {
+  MatrixXd out = reading_variance.replicate(1, log.rows());
+  if (log.dq.rows() == 0) out.bottomRows(joints()).setConstant(kMissingReading);
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.lost[k]) out.col(k).setConstant(kMissingReading);
+  return out;
+}
+
+Trajectory readings(const UniformLog& log) {
+  const int n = log.joints();
+  Trajectory out(2 * n, log.rows());
+  out.topRows(n) = log.q.transpose();
+  if (log.dq.rows() > 0)
+    out.bottomRows(n) = log.dq.transpose();
+  else
+    for (int j = 0; j < n; ++j) out.row(n + j) = gradient(log.q.col(j), log.period_s).transpose();
+  return out;
+}
+
+}  // namespace faultline
