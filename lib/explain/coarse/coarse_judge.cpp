@@ -16,11 +16,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnknownForce = 30.0;  // of the usual torque: no bound for any force a robot meets
-constexpr double kOnsetNudge_s = 1e-4;  // of the derivative by the onset
-constexpr double kHolds = 4.0;          // mean square left up to which an explanation moves the trajectory
-constexpr double kAbsurd = 1e6;         // derivative of a state by the one before: the integration diverged
-constexpr double kMostSizes = 4.0;      // prior standard deviations that a size may start from
+constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
+constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
+constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory
+constexpr double kAbsurd = 1e6;           // derivative of a state by the one before: the integration diverged
+constexpr double kMostSizes = 4.0;        // prior standard deviations that a size may start from
+constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
 constexpr double kMostLoss = 1.05;
 constexpr double kMostPayload = 2.5;  // of the tip's mass
 
@@ -67,12 +68,14 @@ VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDire
 
 /// Covariance of what a prediction lacks; a joint that locks takes its speed, and that of those it carries
 /// along, away at an unknown moment.
-MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from) {
+MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
+                    double forgiven) {
   const int n = log.joints(), j = guess.joint - 1;
   MatrixXd std = log.force_std;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < steps.intervals; ++k)
-      if (log.stop(i, k) > 0.0) std(i, k) = kUnknownForce * log.model->torque_rms[i];
+      std(i, k) = log.stop(i, k) > 0.0 ? kUnknownForce * log.model->torque_rms[i]
+                                       : std::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
   if (guess.kind == FaultKind::unknown)
     std.row(j)
         .tail(steps.intervals - std::max(0, from - 1))
@@ -83,10 +86,15 @@ MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const Linear
   const RigidColumns& rigid = log.model->body.rigid();
   const JointMatrix<double> inertia = inertia_matrix(chain_of(rigid, log.numbers.head(rigid.base())),
                                                      JointVector<double>(log.about.col(from - 1).head(n)));
+  const double rest = log.time_s(from) - guess.onset_s;  // for which a jump of a velocity acts
   for (int i = 0; i < n; ++i) {
     if (i == j || inertia(i, j) == 0.0) continue;
     const auto speed = log.about.row(n + i);
-    block(n + i, n + i) += (speed.array() - speed.mean()).square().mean();
+    const double jump = (speed.array() - speed.mean()).square().mean();
+    block(i, i) += rest * rest * jump;
+    block(i, n + i) += rest * jump;
+    block(n + i, i) += rest * jump;
+    block(n + i, n + i) += jump;
   }
   const double slip = 0.5 * log.period_s() * std::abs(log.about(n + j, from - 1)) + 1e-5;
   block(j, j) += 4.0 * slip * slip;
@@ -106,7 +114,8 @@ void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const Coarse
   column.col(k * columns + columns - 1) = (then - now) / kOnsetNudge_s;
 }
 
-Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at, bool move_onset) {
+Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
+                     const CoarseJudging& how) {
   const OneStepModel& m = *log.model;
   const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
@@ -127,13 +136,13 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
                out.steps.slope.cwiseAbs().maxCoeff() < kAbsurd;
   if (!out.finite) return out;
   FilterInput& in = out.input;
-  const int extra = (reading ? 1 : 0) + (move_onset ? 1 : 0), columns = effects + sizes + extra;
+  const int extra = (reading ? 1 : 0) + (how.move_onset ? 1 : 0), columns = effects + sizes + extra;
   MatrixXd directions = MatrixXd::Zero(m.layout().count(), sizes + extra);
   if (sizes > 0) directions.leftCols(sizes) = fault.direction;
   in.column = out.steps.columns(log.day, directions);
-  if (move_onset) add_onset_column(log, plan, guess, at.about, in.column, columns);
-  in.process = process_of(log, guess, out.steps, from);
-  in.variance = log.variance;
+  if (how.move_onset) add_onset_column(log, plan, guess, at.about, in.column, columns);
+  in.process = process_of(log, guess, out.steps, from, how.forgiven);
+  in.variance = log.variance.colwise() + forgiven_variance(m, how.forgiven);
   if (guess.kind == FaultKind::stuck_encoder) {
     in.variance.row(j).tail(log.samples() - from).setConstant(kMissingReading);
     in.variance.row(n + j).tail(log.samples() - from).setConstant(kMissingReading);
@@ -151,13 +160,13 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
     out.precision[effects] = std::pow(usual_reading_error(m, j), -2);
   }
   if (at.size.size() > 0) out.about.segment(effects, at.size.size()) = at.size;
-  if (move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());
+  if (how.move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());
   return out;
 }
 
 /// The regression over the innovations, its prior about the values before.
 CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
-                            const Linearised& lin, bool move_onset) {
+                            const Linearised& lin, const CoarseJudging& how) {
   const Innovations filter = innovations(lin.steps, lin.input);
   const int effects = static_cast<int>(log.day.cols()), columns = filter.columns;
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
@@ -186,8 +195,8 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
     }
   out.log_likelihood = fit.log_likelihood - 0.5 * missing - 0.5 * out.log_ratio.sum();
   out.day = fit.estimate.head(effects);
-  out.size = fit.estimate.segment(effects, columns - effects - (move_onset ? 1 : 0));
-  if (move_onset) out.onset_step_s = fit.estimate[columns - 1];
+  out.size = fit.estimate.segment(effects, columns - effects - (how.move_onset ? 1 : 0));
+  if (how.move_onset) out.onset_step_s = fit.estimate[columns - 1];
   out.about = at.about + smoothed(lin.steps, filter, change);
   return out;
 }
@@ -247,26 +256,35 @@ FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int join
   return out;
 }
 
+VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
+  VectorXd range(2 * m.joints());
+  range << m.q_high - m.q_low, m.top_speed;
+  return (forgiven * range).cwiseAbs2();
+}
+
+double forgiven_torque(double forgiven) { return kTorqueForState * forgiven; }
+
 double usual_reading_error(const OneStepModel& model, int joint) {
   return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
 }
 
-CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, int rounds, bool move_onset) {
+CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
   const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
   const int late = log.samples() - from;
   const bool reading = is_reading(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
   if (reading && at.size.size() > 0) at.about -= at.size[0] * read_column(log, guess, from);
   CoarseExplanation best;
   bool any = false;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < how.rounds; ++round) {
     if (locked) {
       at.about.row(j).tail(late).setConstant(log.read.row(j).tail(late).mean());
       at.about.row(n + j).tail(late).setZero();
     }
-    const Linearised lin = linearise(log, guess, at, move_onset);
+    const Linearised lin = linearise(log, guess, at, how);
     if (!lin.finite) break;
-    CoarseExplanation now = regressed(log, guess, at, lin, move_onset);
+    CoarseExplanation now = regressed(log, guess, at, lin, how);
     if (locked) now.about.row(n + j).tail(late).setZero();
     const bool holds = now.mean_square() < kHolds;
     at.about = holds ? now.about : log.about;

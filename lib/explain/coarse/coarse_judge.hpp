@@ -29,9 +29,19 @@ FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int 
 /// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
 double usual_reading_error(const OneStepModel& model, int joint);
 
-/// The log explained by a guess, integrated and linearised about the trajectory that it implies, `rounds`
-/// times in turn; the best round counts. With `move_onset` the onset is a further unknown.
-CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, int rounds,
-                               bool move_onset = false);
+struct CoarseJudging {
+  int rounds = 1;           ///< of integration and regression in turn
+  bool move_onset = false;  ///< the onset is a further unknown
+  double forgiven = 0.0;    ///< share of each state and torque that a wrong size or onset may miss
+};
+
+/// The log explained by a guess, integrated and linearised about the trajectory that it implies in turn; the
+/// best round counts.
+CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
+
+/// Variance to add to each reading (2 joints) and standard deviation to add to a joint's torque by its size,
+/// where a share `forgiven` of each joint's range, top speed and torque may be missed.
+Eigen::VectorXd forgiven_variance(const OneStepModel& model, double forgiven);
+double forgiven_torque(double forgiven);
 
 }  // namespace faultline

@@ -67,8 +67,8 @@ void mark_stop(CoarseLog& log, int j, double side, int begin, int end) {
   int first = -1;
   bool stayed = false;
   for (int k = begin; k < end && !stayed; ++k) {
-    if (!halts_at(log, j, side, k, still)) continue;
-    if (first < 0) first = k;
+    if (first < 0 && halts_at(log, j, side, k, still)) first = k;
+    if (first < 0) continue;  // it may bounce before it stays
     stayed = k < end - stays && speed.segment(k, stays).cwiseAbs().mean() < 2.0 * still;
   }
   if (!stayed) return;
@@ -119,7 +119,7 @@ CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);
   out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});
-  out.healthy = judge_coarse(out, {}, kSmoothings);
+  out.healthy = judge_coarse(out, {}, {.rounds = kSmoothings});
   return out;
 }
 

@@ -16,10 +16,9 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 3> kBlow_s = {0.05, 0.15, 0.4};  // lengths of a collision that are tried
 constexpr double kOnsetStep_s = 0.05;                         // between two onsets at least
-constexpr double kForgivenState = 0.002;  // of a joint's range or top speed: what a linear column misses
-constexpr double kForgivenTorque = 0.03;  // of the torque, for the same reason
-constexpr double kWorthASecond = 2.0;     // nats
-constexpr double kStrikes = 10.0;         // mean square of one sample's innovations that no noise has
+constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
+constexpr double kWorthASecond = 2.0;                         // nats
+constexpr double kStrikes = 10.0;  // mean square of one sample's innovations that no noise has
 constexpr std::size_t kOnsetsTried = 3;
 constexpr double kWrongWay = -9.0;  // nats of a loss or payload below 0
 
@@ -86,13 +85,12 @@ Base base_of(const CoarseLog& log) {
   MatrixXd std = log.force_std;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < std.cols(); ++k)
-      std(i, k) = log.stop(i, k) > 0.0 ? 30.0 * m.torque_rms[i]
-                                       : std::hypot(std(i, k), kForgivenTorque * log.log.tau(k, i));
+      std(i, k) = log.stop(i, k) > 0.0
+                      ? 30.0 * m.torque_rms[i]
+                      : std::hypot(std(i, k), forgiven_torque(kForgiven) * log.log.tau(k, i));
   in.process = process_covariance(log.healthy_steps, m.layout(), std);
   in.reading = log.read - log.about;
-  VectorXd range(2 * n);
-  range << m.q_high - m.q_low, m.top_speed;
-  in.variance = log.variance.colwise() + (kForgivenState * range).cwiseAbs2();
+  in.variance = log.variance.colwise() + forgiven_variance(m, kForgiven);
   Base out;
   out.filter = innovations(log.healthy_steps, in);
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());

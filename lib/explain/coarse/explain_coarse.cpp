@@ -2,6 +2,7 @@
 #include "lib/explain/coarse/explain_coarse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
@@ -26,11 +27,45 @@ constexpr int kMostMoves = 24;
 constexpr int kNewton = 6;              // steps of onset and size together
 constexpr double kLongSample_s = 0.05;  // from which an onset moves by shares of a sample
 constexpr double kMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
+/// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
+constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
+constexpr int kStepsForEach = 2;
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03, kSettled_s = 2e-4;
 constexpr double kStandsFor_s = 0.3;  // at the end of a log: where a locked joint stands
 constexpr double kStillWithin = 5.0;  // standard deviations of a reading
 constexpr double kStillRounding = 1e-6;
 constexpr int kFewestRepeated = 4;  // samples that repeat a code to the end
+
+bool moves_with_onset(FaultKind kind) {
+  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
+         kind != FaultKind::stuck_encoder && kind != FaultKind::unknown;
+}
+
+/// A step of Newton on onset and size together; false where the guess cannot be integrated. `step_s` receives
+/// by how much the onset wanted to move.
+bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s) {
+  const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
+  const CoarseExplanation fit =
+      judge_coarse(log, guess, {.rounds = 1, .move_onset = true, .forgiven = forgiven});
+  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return false;
+  guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
+                             log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
+  guess.start = fit.size;
+  *step_s = fit.onset_step_s;
+  return true;
+}
+
+/// The guess brought near its best onset and size. What a wrong onset leaves is first forgiven, then ever
+/// less, so that the steps of Newton find their way from a sample away.
+CoarseGuess approached(const CoarseLog& log, CoarseGuess guess) {
+  for (const double forgiven : kForgivenInTurn)
+    for (int k = 0; k < kStepsForEach; ++k) {
+      double step = 0.0;
+      if (!newton_step(log, forgiven, guess, &step)) return guess;
+      if (std::abs(step) < kSettled_s) break;
+    }
+  return guess;
+}
 
 /// A hypothesis that was judged.
 struct Judged {
@@ -46,8 +81,13 @@ struct CoarseBench {
   std::vector<Judged> best;
   std::vector<CoarseGuess> tried;
 
+  /// Judges a guess as it is and, where its onset matters, from where its best onset is.
+  void try_from(const CoarseGuess& guess) {
+    go(guess, kRounds);
+    if (moves_with_onset(guess.kind)) go(approached(log, guess), kRounds);
+  }
   Judged go(const CoarseGuess& guess, int rounds) {
-    Judged out{guess, guess.kind, 0.0, judge_coarse(log, guess, rounds)};
+    Judged out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds})};
     out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
     if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
       out.kind = FaultKind::free_swinging;
@@ -75,11 +115,11 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const int n = log.joints();
   for (std::size_t k = 0; k < std::min(kJudged, search.candidates.size()); ++k)
-    bench.go(search.candidates[k].guess, kRounds);
+    bench.try_from(search.candidates[k].guess);
   for (std::size_t k = 0; k < std::min(kOnsetsForAllKinds, search.onsets.size()); ++k) {
     const double onset = log.time_s(search.onsets[k]);
     const auto try_one = [&](FaultKind kind, int joint) {
-      if (!bench.tried_near(kind, joint, onset)) bench.go({kind, joint, onset, 0.0, {}}, kRounds);
+      if (!bench.tried_near(kind, joint, onset)) bench.try_from({kind, joint, onset, 0.0, {}});
     };
     for (int j = 1; j <= n; ++j) try_one(FaultKind::torque_loss, j);
     for (int j = 1; j <= n; ++j) try_one(FaultKind::friction_increase, j);
@@ -147,19 +187,15 @@ Judged moved(Judged best, CoarseBench& bench) {
 /// Steps of Newton on onset and size together.
 Judged settled(Judged best, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
-  const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
   Judged at = best;
   for (int k = 0; k < kNewton; ++k) {
     CoarseGuess guess = at.guess;
     guess.start = at.fit.size;
-    const CoarseExplanation fit = judge_coarse(log, guess, 1, true);
-    if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) break;
-    guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
-                               log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
-    guess.start = fit.size;
+    double step = 0.0;
+    if (!newton_step(log, 0.0, guess, &step)) break;
     at = bench.go(guess, kRounds - 1);
     if (at.gain > best.gain) best = at;
-    if (std::abs(fit.onset_step_s) < kSettled_s) break;
+    if (std::abs(step) < kSettled_s) break;
   }
   return best;
 }
@@ -167,8 +203,7 @@ Judged settled(Judged best, CoarseBench& bench) {
 void refine(const Judged& start, CoarseBench& bench) {
   Judged best = moved(start, bench);
   const FaultKind kind = best.guess.kind;
-  const bool smooth = kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift;
-  if (smooth) best = settled(std::move(best), bench);
+  if (moves_with_onset(kind)) best = settled(std::move(best), bench);
   if (kind != FaultKind::collision) return;
   for (const double factor : {0.5, 0.7, 1.4, 2.0}) {
     CoarseGuess guess = best.guess;
