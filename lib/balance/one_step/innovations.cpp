@@ -41,7 +41,8 @@ void take_in(int i, double variance, const Eigen::RowVectorXd& reading, StateMat
 
 Innovations innovations(const LinearSteps& steps, const FilterInput& in) {
   Innovations out;
-  const int states = out.states = steps.states, columns = out.columns = in.columns(steps.intervals), wide = 1 + columns;
+  const int states = out.states = steps.states, columns = out.columns = in.columns(steps.intervals),
+            wide = 1 + columns;
   const int samples = out.samples = steps.intervals + 1;
   out.white.resize(states * samples, wide);
   out.variance.resize(states, samples);

@@ -11,8 +11,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kQuietForce = 1e-3;  // of a joint's usual torque: what a model of a machine lacks at rest
-constexpr double kShareOfTorque = 0.004;  // of the torque itself: what it lacks under load
-constexpr double kUnknownTorque = 30.0;   // times the usual torque: where the torque was not logged
+constexpr double kModelLacks =
+    0.004;  // of the torque and of each term of the model: what it lacks under load
+constexpr double kUnknownTorque = 30.0;  // times the usual torque: where the torque was not logged
 
 }  // namespace
 
@@ -36,12 +37,16 @@ MatrixXd OneStepModel::day_directions() const {
   return out;
 }
 
-MatrixXd OneStepModel::force_std(const UniformLog& log) const {
-  MatrixXd out(joints(), log.rows() - 1);
+MatrixXd OneStepModel::force_std(const UniformLog& log, const Trajectory& motion) const {
+  const int n = joints(), base = layout().base;
+  MatrixXd out(n, log.rows() - 1), term(n, base);
   for (int k = 0; k + 1 < log.rows(); ++k) {
-    out.col(k) = ((kQuietForce * torque_rms).array().square() +
-                  (kShareOfTorque * log.tau.row(k).transpose().array()).square())
-                     .sqrt();
+    const JointVector<double> ddq = (motion.col(k + 1) - motion.col(k)).tail(n) / setting.period_s;
+    body.torque_by_parameter(motion.col(k).head(n), motion.col(k).tail(n), ddq, term);
+    const VectorXd square = log.tau.row(k).transpose().cwiseAbs2() +
+                            (term * theta.head(base).asDiagonal()).rowwise().squaredNorm();
+    out.col(k) =
+        (kQuietForce * kQuietForce * torque_rms.cwiseAbs2() + kModelLacks * kModelLacks * square).cwiseSqrt();
     if (log.lost[k] || (!setting.torque_is_held && log.lost[k + 1])) out.col(k) = kUnknownTorque * torque_rms;
   }
   return out;

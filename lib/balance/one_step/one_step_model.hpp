@@ -34,8 +34,9 @@ struct OneStepModel {
   Eigen::VectorXd numbers() const;
   /// Directions of the effects of a day in these numbers: numbers x effects.
   Eigen::MatrixXd day_directions() const;
-  /// Standard deviation of the force that the model lacks in each interval: joints x intervals, N m or N.
-  Eigen::MatrixXd force_std(const UniformLog& log) const;
+  /// Standard deviation of the force that the model lacks in each interval of a motion: joints x intervals,
+  /// N m or N.
+  Eigen::MatrixXd force_std(const UniformLog& log, const Trajectory& motion) const;
   /// Variance of each reading of a log; lost samples have none: 2 joints x samples.
   Eigen::MatrixXd variance_of_readings(const UniformLog& log) const;
 };

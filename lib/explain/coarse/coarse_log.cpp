@@ -114,8 +114,9 @@ CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
   out.day = model.day_directions();
   out.read = readings(out.log);
   out.variance = model.variance_of_readings(out.log);
-  out.force_std = model.force_std(out.log);
+  out.force_std = model.force_std(out.log, out.read);
   out.about = smoothed_log(out);
+  out.force_std = model.force_std(out.log, out.about);
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);
   out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});

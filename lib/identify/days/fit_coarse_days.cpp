@@ -29,8 +29,8 @@ constexpr int kDoubtRounds = 7;
 constexpr int kNoiseFrom = 2;           // round from which the readings' noise is learned
 constexpr double kLeastReading = 1e-5;  // rad, m, rad/s or m/s: rounding of what a log holds
 constexpr double kFree = 100.0;         // SI units: prior standard deviation of a parameter's step
-constexpr double kKeptInertia = 0.3;   // of the inertia before: what one step may leave of it
-constexpr int kStepHalvings = 8;            // of a step that leaves less
+constexpr double kKeptInertia = 0.3;    // of the inertia before: what one step may leave of it
+constexpr int kStepHalvings = 8;        // of a step that leaves less
 constexpr int kInertiaRows = 40;        // of each log that the inertia is looked at in
 constexpr double kDayInertia = 1e-3;    // relative: how much masses differ by day at least
 constexpr double kDayFriction = 0.02;   // relative
@@ -124,14 +124,16 @@ struct CoarseRound {
   double rows = 0.0;
 };
 
-void go_through(const UniformLog& log, const OneStepModel& m, double doubt, Trajectory& about, CoarseRound& round) {
+void go_through(const UniformLog& log, const OneStepModel& m, double doubt, Trajectory& about,
+                CoarseRound& round) {
   const MotionLaw law(m.body, m.numbers());
   const LinearSteps steps = linear_steps(log, about, m.setting, {.usual = &law});
   const MotionLayout at = m.layout();
   FilterInput in;
   in.column = steps.columns(MatrixXd::Identity(at.count(), at.learned()), MatrixXd(at.count(), 0));
   const MatrixXd wide = (doubt * m.torque_rms).replicate(1, steps.intervals);
-  in.process = process_covariance(steps, at, (m.force_std(log).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
+  in.process =
+      process_covariance(steps, at, (m.force_std(log, about).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
   in.reading = readings(log) - about;
   in.variance = m.variance_of_readings(log);
   const Innovations filter = innovations(steps, in);
