@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace faultline {
 namespace {
@@ -10,7 +11,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShortest_s = 1e-12;  // part of an interval that is worth integrating
+constexpr double kTurn = 0.1;                // rad of a joint in a substep: leaves some 1e-6 of a state
+constexpr double kMostSubsteps_Hz = 2000.0;  // for a velocity that is no velocity
+constexpr double kShortest_s = 1e-12;        // part of an interval that is worth integrating
 
 /// Part of an interval that one law moves.
 struct Part {
@@ -49,9 +52,10 @@ struct IntervalTorque {
   JointVector<double> at(double s) const { return begin + s * slope; }
 };
 
-IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& setting) {
+IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& setting, const MotionPlan& plan) {
   IntervalTorque out;
   out.begin = log.tau.row(k).transpose();
+  if (plan.force != nullptr) out.begin += plan.force->col(k);
   out.slope = JointVector<double>::Zero(log.joints());
   if (!setting.torque_is_held && k + 1 < log.rows())
     out.slope = (log.tau.row(k + 1) - log.tau.row(k)).transpose() / setting.period_s;
@@ -60,6 +64,17 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
 
 /// Weights and places of the four stages of Runge and Kutta.
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+
+/// Substeps of an interval that begins in `state`.
+int substeps_of(const StepSetting& setting, const MotionLaw& law, const VectorXd& state) {
+  const int n = law.joints();
+  double per_s = 1.0 / setting.substep_s;
+  for (int j = 0; j < n; ++j)
+    if (law.body().rigid().chain.geometry[j].kind == AxisKind::revolute)
+      per_s = std::max(per_s, std::abs(state[n + j]) / kTurn);
+  return std::max(1,
+                  static_cast<int>(std::ceil(setting.period_s * std::min(per_s, kMostSubsteps_Hz) - 1e-9)));
+}
 
 void stop_locked(const MotionLaw& law, VectorXd& state) {
   for (int j = 0; j < law.joints(); ++j)
@@ -171,12 +186,13 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
       out.miss.col(k) = known->miss.col(k);
       continue;
     }
-    const IntervalTorque torque = torque_of(log, k, setting);
+    const IntervalTorque torque = torque_of(log, k, setting, plan);
     VectorXd state = about.col(k);
+    const int substeps = substeps_of(setting, *plan.usual, state);
     slope.setIdentity();
     number.setZero();
     for (int p = 0; p < parts.count; ++p) {
-      move_with_slopes(parts.part[p], torque, setting.substeps, state, w);
+      move_with_slopes(parts.part[p], torque, substeps, state, w);
       const auto by_state = w.tangent.leftCols(states);
       const auto by_number = w.tangent.rightCols(numbers);
       slope = (by_state * slope).eval();
@@ -194,8 +210,9 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
 VectorXd next_state(const UniformLog& log, int k, VectorXd state, const StepSetting& setting,
                     const MotionPlan& plan) {
   const Parts parts = parts_of(log.time_s(k), setting.period_s, plan);
-  const IntervalTorque torque = torque_of(log, k, setting);
-  for (int p = 0; p < parts.count; ++p) move(parts.part[p], torque, setting.substeps, state);
+  const IntervalTorque torque = torque_of(log, k, setting, plan);
+  const int substeps = substeps_of(setting, *plan.usual, state);
+  for (int p = 0; p < parts.count; ++p) move(parts.part[p], torque, substeps, state);
   return state;
 }
 

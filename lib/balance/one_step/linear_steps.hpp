@@ -13,7 +13,7 @@ namespace faultline {
 struct StepSetting {
   double period_s = 0.0;        ///< of the samples
   bool torque_is_held = false;  ///< between samples; else it runs straight
-  int substeps = 1;             ///< Runge-Kutta steps of fourth order a sample
+  double substep_s = 0.02;      ///< of a Runge-Kutta step of fourth order at most; a fast joint asks for more
 };
 
 /// The law that moves the robot, and another one that does from `begin_s` to `end_s`.
@@ -21,6 +21,7 @@ struct MotionPlan {
   const MotionLaw* usual = nullptr;
   const MotionLaw* within = nullptr;
   double begin_s = 1e300, end_s = 1e300;
+  const Eigen::MatrixXd* force = nullptr;  ///< joints x intervals, N m or N: beside the torque, if any
 };
 
 /// A trajectory: q, then dq, of every sample: 2 joints x samples.

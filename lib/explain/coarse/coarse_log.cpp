@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/coarse_log.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchDoubt = 1.0;  // of the usual torque: a trajectory that any fault may have made
-constexpr int kSmoothings = 2;
+constexpr double kMuchDoubt = 1.0;  // of the usual torque and of the logged one: any of it may be missing
+constexpr int kSmoothings = 4;      // of the whole log: a force as large as the torque settles
+constexpr int kHealthyRounds = 2;
 constexpr double kFirstOnset_s = 0.5;
 constexpr int kFirstOnset = 6;          // samples
 constexpr double kOutside = 0.05;       // of the healthy range by which a joint must be outside
@@ -28,23 +30,36 @@ constexpr int kFewestRepeats = 3;       // samples: a position that repeats long
 constexpr double kTellingNoise = 2e-5;  // rad or m: without noise a joint at rest repeats its code
 constexpr int kFewestSamples = 16;      // of a log that anything can be said of
 
-/// The trajectory smoothed under the healthy robot, any torque in doubt.
+/// The trajectory smoothed under the healthy robot, any torque in doubt. The steps are linear about the force
+/// that the trajectory asks for, too: it may be as large as the torque.
 Trajectory smoothed_log(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
+  const int n = m.joints(), force = m.layout().force(0);
   const MotionLaw law(m.body, log.numbers);
   Trajectory about = log.read;
-  for (int k = 0; k < kSmoothings; ++k) {
-    const LinearSteps steps = linear_steps(log.log, about, m.setting, {.usual = &law});
+  const auto torque = log.log.tau.topRows(log.samples() - 1).transpose();
+  const MatrixXd doubt =
+      (log.force_std.cwiseAbs2() + kMuchDoubt * kMuchDoubt * torque.cwiseAbs2()).colwise() +
+      kMuchDoubt * kMuchDoubt * m.torque_rms.cwiseAbs2();
+  MatrixXd missing = MatrixXd::Zero(n, log.samples() - 1);
+  FilterInput in;
+  in.column.resize(2 * n, 0);
+  in.variance = log.variance;
+  for (int round = 0; round < kSmoothings; ++round) {
+    LinearSteps steps = linear_steps(log.log, about, m.setting, {.usual = &law, .force = &missing});
     if (!steps.miss.allFinite() || !steps.slope.allFinite())
       throw Error(ErrorCode::input, "", "moves so that the robot cannot be integrated through it");
-    FilterInput in;
-    in.column.resize(steps.states, 0);
-    const MatrixXd doubt = (kMuchDoubt * m.torque_rms).replicate(1, steps.intervals);
-    in.process =
-        process_covariance(steps, m.layout(), (log.force_std.cwiseAbs2() + doubt.cwiseAbs2()).cwiseSqrt());
+    for (int k = 0; k < steps.intervals; ++k)
+      steps.miss.col(k) -= steps.number_of(k).middleCols(force, n) * missing.col(k);
+    in.process = process_covariance(steps, m.layout(), doubt.cwiseSqrt());
     in.reading = log.read - about;
-    in.variance = log.variance;
-    about += smoothed(steps, innovations(steps, in), VectorXd(0));
+    const Trajectory change = smoothed(steps, innovations(steps, in), VectorXd(0));
+    for (int k = 0; k < steps.intervals; ++k) {
+      const MatrixXd by_force = steps.number_of(k).middleCols(force, n);
+      const VectorXd off = change.col(k + 1) - steps.slope_of(k) * change.col(k) - steps.miss.col(k);
+      missing.col(k) = by_force.colPivHouseholderQr().solve(off);
+    }
+    about += change;
   }
   return about;
 }
@@ -120,7 +135,7 @@ CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);
   out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});
-  out.healthy = judge_coarse(out, {}, {.rounds = kSmoothings});
+  out.healthy = judge_coarse(out, {}, {.rounds = kHealthyRounds});
   return out;
 }
 

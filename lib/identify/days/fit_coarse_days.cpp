@@ -23,7 +23,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
-constexpr double kSubstep_s = 0.02;      // of the integration: 1e-6 of a state at speeds of some rad/s
 constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
 constexpr int kDoubtRounds = 7;
 constexpr int kNoiseFrom = 2;           // round from which the readings' noise is learned
@@ -215,7 +214,6 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
   m.setting.period_s = logs.front().period_s;
   m.setting.torque_is_held = options.torque_is_held;
-  m.setting.substeps = std::max(1, static_cast<int>(std::ceil(m.setting.period_s / kSubstep_s - 1e-9)));
   take_looks(logs, m);
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m);
