@@ -143,7 +143,9 @@ void judge_standstill(int j, CoarseBench& bench) {
   while (since > 0 && std::abs(q[since - 1] - rest) <= q_still && std::abs(v[since - 1]) <= v_still) --since;
   const auto lock = [&](double onset) { bench.go({FaultKind::locked, j + 1, onset, 0.0, {}}, 1); };
   if (samples - since > 3)
-    for (const int before : {2, 1, 0}) lock(log.time_s(std::max(1, since - before)) - 0.5 * log.period_s());
+    for (const int before : {2, 1, 0})
+      for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9})
+        lock(log.time_s(std::max(1, since - before)) - share * log.period_s());
   int same = samples;
   while (same > 1 && log.log.q(same - 1, j) == log.log.q(same - 2, j)) --same;
   if (samples - same < kFewestRepeated || samples - same <= 2 * m.longest_repeat[j]) return;
