@@ -13,6 +13,7 @@ using Eigen::VectorXd;
 
 constexpr double kTurn = 0.1;                // rad of a joint in a substep: leaves some 1e-6 of a state
 constexpr double kMostSubsteps_Hz = 2000.0;  // for a velocity that is no velocity
+constexpr double kNearRest = 5.0;            // widths of the friction: beyond, tanh is 1 but for 1e-4
 constexpr double kShortest_s = 1e-12;        // part of an interval that is worth integrating
 
 /// Part of an interval that one law moves.
@@ -65,13 +66,22 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
 /// Weights and places of the four stages of Runge and Kutta.
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
-/// Substeps of an interval that begins in `state`.
-int substeps_of(const StepSetting& setting, const MotionLaw& law, const VectorXd& state) {
-  const int n = law.joints();
+/// Substeps of an interval, as fast motion and friction that changes its sign ask for.
+int substeps_of(const StepSetting& setting, const MotionPlan& plan, const VectorXd& begin,
+                const VectorXd& end) {
+  const MotionBody& body = plan.usual->body();
+  const int n = plan.usual->joints();
   double per_s = 1.0 / setting.substep_s;
   for (int j = 0; j < n; ++j)
-    if (law.body().rigid().chain.geometry[j].kind == AxisKind::revolute)
-      per_s = std::max(per_s, std::abs(state[n + j]) / kTurn);
+    if (body.rigid().chain.geometry[j].kind == AxisKind::revolute)
+      per_s = std::max(per_s, std::abs(begin[n + j]) / kTurn);
+  for (const MotionLaw* law : {plan.usual, plan.within}) {
+    if (law == nullptr) continue;
+    const JointVector<double> rate = law->friction_rate(begin.head(n));
+    for (int j = 0; j < n; ++j)
+      if (share_near_rest(begin[n + j], end[n + j], body.friction_width()[j]) > 0.0)
+        per_s = std::max(per_s, rate[j]);
+  }
   return std::max(1,
                   static_cast<int>(std::ceil(setting.period_s * std::min(per_s, kMostSubsteps_Hz) - 1e-9)));
 }
@@ -188,7 +198,7 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
     }
     const IntervalTorque torque = torque_of(log, k, setting, plan);
     VectorXd state = about.col(k);
-    const int substeps = substeps_of(setting, *plan.usual, state);
+    const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
     slope.setIdentity();
     number.setZero();
     for (int p = 0; p < parts.count; ++p) {
@@ -207,13 +217,22 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
   return out;
 }
 
-VectorXd next_state(const UniformLog& log, int k, VectorXd state, const StepSetting& setting,
+VectorXd next_state(const UniformLog& log, int k, const Trajectory& about, const StepSetting& setting,
                     const MotionPlan& plan) {
   const Parts parts = parts_of(log.time_s(k), setting.period_s, plan);
   const IntervalTorque torque = torque_of(log, k, setting, plan);
-  const int substeps = substeps_of(setting, *plan.usual, state);
+  VectorXd state = about.col(k);
+  const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
   for (int p = 0; p < parts.count; ++p) move(parts.part[p], torque, substeps, state);
   return state;
+}
+
+double share_near_rest(double begin, double end, double friction_width) {
+  const double near = kNearRest * friction_width;
+  const double low = std::min(begin, end), high = std::max(begin, end);
+  const double within = std::min(high, near) - std::max(low, -near);
+  if (within < 0.0) return 0.0;
+  return high - low < 1e-12 ? 1.0 : within / (high - low);
 }
 
 }  // namespace faultline

@@ -49,8 +49,12 @@ struct LinearSteps {
 LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
                          const MotionPlan& plan, const LinearSteps* known = nullptr);
 
-/// State after interval `k` of the log that begins in `state`.
-Eigen::VectorXd next_state(const UniformLog& log, int k, Eigen::VectorXd state, const StepSetting& setting,
+/// State after interval `k` of the log that begins in the trajectory's.
+Eigen::VectorXd next_state(const UniformLog& log, int k, const Trajectory& about, const StepSetting& setting,
                            const MotionPlan& plan);
+
+/// Share of the time that a velocity is near rest which runs straight from `begin` to `end`: within some
+/// widths of the friction's change of sign.
+double share_near_rest(double begin, double end, double friction_width);
 
 }  // namespace faultline

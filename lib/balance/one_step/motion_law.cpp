@@ -2,6 +2,7 @@
 #include "lib/balance/one_step/motion_law.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "lib/balance/regressor.hpp"
 #include "lib/balance/rows.hpp"
@@ -62,6 +63,19 @@ void MotionLaw::acceleration(const JointVector<double>& q, const JointVector<dou
                              const JointVector<double>& tau, JointVector<double>& ddq) const {
   const JointVector<double> acting = gain_.cwiseProduct(tau) + force_;
   dynamics_.acceleration(q, dq, acting, ddq, locked_);
+}
+
+JointVector<double> MotionLaw::friction_rate(const JointVector<double>& q) const {
+  const int n = joints();
+  JointMatrix<double> inertia;
+  JointVector<double> bias, out(n);
+  dynamics_.inertia_and_bias(q, JointVector<double>::Zero(n), inertia, bias);
+  const JointMatrix<double> inverse = inertia.llt().solve(JointMatrix<double>::Identity(n, n));
+  for (int j = 0; j < n; ++j) {
+    const Friction<double>& f = dynamics_.chain().friction[j];
+    out[j] = inverse(j, j) * std::max(0.0, f.viscous + f.coulomb / f.width);
+  }
+  return out;
 }
 
 void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& dq,

@@ -54,6 +54,8 @@ class MotionLaw {
   /// Acceleration under the logged torque `tau`.
   void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
                     const JointVector<double>& tau, JointVector<double>& ddq) const;
+  /// How fast each joint's friction changes its velocity near rest, 1/s.
+  JointVector<double> friction_rate(const JointVector<double>& q) const;
   /// Derivatives of the acceleration `ddq` at this state: joints x (2 joints + numbers), by q, dq and each
   /// number.
   void slopes(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,

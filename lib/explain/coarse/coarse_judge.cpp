@@ -109,8 +109,8 @@ void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const Coarse
                  log.samples() - 2);
   MotionPlan later = plan;
   later.begin_s += kOnsetNudge_s;
-  const VectorXd now = next_state(log.log, k, about.col(k), log.model->setting, plan);
-  const VectorXd then = next_state(log.log, k, about.col(k), log.model->setting, later);
+  const VectorXd now = next_state(log.log, k, about, log.model->setting, plan);
+  const VectorXd then = next_state(log.log, k, about, log.model->setting, later);
   column.col(k * columns + columns - 1) = (then - now) / kOnsetNudge_s;
 }
 
