@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 
 constexpr double kQuietForce = 1e-3;  // of a joint's usual torque: what a model of a machine lacks at rest
 constexpr double kModelLacks =
-    0.004;  // of the torque and of each term of the model: what it lacks under load
+    0.004;                          // of the torque and of each term of the model: what it lacks under load
+constexpr double kRestLacks = 0.3;  // of Coulomb friction: what a tanh of another width differs by
 constexpr double kUnknownTorque = 30.0;  // times the usual torque: where the torque was not logged
 
 }  // namespace
@@ -45,8 +46,13 @@ MatrixXd OneStepModel::force_std(const UniformLog& log, const Trajectory& motion
     body.torque_by_parameter(motion.col(k).head(n), motion.col(k).tail(n), ddq, term);
     const VectorXd square = log.tau.row(k).transpose().cwiseAbs2() +
                             (term * theta.head(base).asDiagonal()).rowwise().squaredNorm();
-    out.col(k) =
-        (kQuietForce * kQuietForce * torque_rms.cwiseAbs2() + kModelLacks * kModelLacks * square).cwiseSqrt();
+    VectorXd rest(n);  // friction near rest has a shape of its own
+    for (int j = 0; j < n; ++j)
+      rest[j] = kRestLacks * theta[layout().coulomb(j)] *
+                share_near_rest(motion(n + j, k), motion(n + j, k + 1), body.friction_width()[j]);
+    out.col(k) = rest.cwiseAbs2();
+    out.col(k) += kQuietForce * kQuietForce * torque_rms.cwiseAbs2() + kModelLacks * kModelLacks * square;
+    out.col(k) = out.col(k).cwiseSqrt().eval();
     if (log.lost[k] || (!setting.torque_is_held && log.lost[k + 1])) out.col(k) = kUnknownTorque * torque_rms;
   }
   return out;
