@@ -41,8 +41,13 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   return out;
 }
 
-std::optional<ExplainedFault> decide_log(const LogFit& fit, const LogExplanation& e,
-                                         const EvidenceLimits& limits) {
+AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& e) {
+  return {[&fit](const Hypothesis& h, double limit) { return alarm_time(fit, h, limit); },
+          [&fit, &e](double limit) { return alarm_time(fit, e.free_form, limit); }};
+}
+
+std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
+                                         const AlarmTimes& alarms) {
   const auto best =
       std::find_if(e.best.begin(), e.best.end(), [&](const Hypothesis& h) { return passes(h, limits); });
   if (best == e.best.end()) return std::nullopt;
@@ -56,10 +61,10 @@ std::optional<ExplainedFault> decide_log(const LogFit& fit, const LogExplanation
     if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
       out.could_also_be.push_back({h->kind, h->joint});
   const double limit = limits.of(best->kind);
-  const bool any_form = unknown && !(e.slips && best->kind == FaultKind::sensor_bias);
+  const bool any_form = unknown && alarms.of_free_form && !(e.slips && best->kind == FaultKind::sensor_bias);
   out.label = unknown ? FaultLabel{FaultKind::unknown, best->joint} : FaultLabel{best->kind, best->joint};
   out.onset_s = any_form ? e.free_form.onset_s : best->onset_s;
-  out.alarm_s = any_form ? alarm_time(fit, e.free_form, limit) : alarm_time(fit, *best, limit);
+  out.alarm_s = any_form ? alarms.of_free_form(limit) : alarms.of(*best, limit);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,9 +33,19 @@ struct ExplainedFault {
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
 };
 
+/// When the evidence of a hypothesis, and of a change of any form, passes a limit in nats. Without
+/// `of_free_form` an unknown fault has the onset and the alarm of the hypothesis that comes nearest.
+struct AlarmTimes {
+  std::function<double(const Hypothesis&, double)> of;
+  std::function<double(double)> of_free_form{};
+};
+
+/// Those of rows of 50 Hz and more.
+AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& explanation);
+
 /// The fault that explains the log best, or `unknown` where the best explanation leaves much more than noise.
 /// Empty when no hypothesis passes its limit.
-std::optional<ExplainedFault> decide_log(const LogFit& fit, const LogExplanation& explanation,
-                                         const EvidenceLimits& limits);
+std::optional<ExplainedFault> decide_log(const LogExplanation& explanation, const EvidenceLimits& limits,
+                                         const AlarmTimes& alarms);
 
 }  // namespace faultline

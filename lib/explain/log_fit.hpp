@@ -35,6 +35,7 @@ struct Explanation {
   Stacked left;                 ///< whitened rows left over; NaN where rows do not count
   PiecePath path;               ///< of the work piece; empty without one
   Eigen::VectorXd piece_level;  ///< the path, smoothed
+  Eigen::VectorXd row_gain;     ///< by sample, at coarse rates: nats by which it beats the healthy robot
   double mean_square() const;   ///< of what is left: 1 where it is noise
 };
 

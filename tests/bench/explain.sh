@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The regression beside the bank of filters: the living cells and the exact robots from 100 Hz on, learned from the
+# The regression beside the bank of filters: the living cells and the exact robots, learned from the
 # same healthy logs as living.sh and independent_simulation.sh and scored by the same rules.
 # Usage: bash tests/bench/explain.sh [CELL or GROUP...]    with the data in $FAULTLINE_SHARED_DATA
 set -euo pipefail
@@ -55,4 +55,6 @@ done <<'GROUPS'
 industrial 000 015 0.35 unknown
 light 016 031 0.25 unknown
 bench_100hz 032 059 1.0 held
+bench_73ms 060 070 1.0 held
+bench_noisy 071 081 1.0 held
 GROUPS

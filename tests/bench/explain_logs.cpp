@@ -16,7 +16,10 @@
 
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/decide_log.hpp"
+#include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/identify/days/fit_days.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -41,10 +44,47 @@ struct Bench {
   }
 };
 
-LogFit fit_of(LogSource& log, const BalanceModel& model) {
-  log.rewind();
-  return {uniform_log(log, model.setting.period_s), model};
-}
+/// A log explained, with its alarms.
+struct Explained {
+  LogExplanation what;
+  AlarmTimes alarms;
+};
+
+/// From 50 Hz on: rows of the torque balance.
+struct FineCore {
+  using Model = BalanceModel;
+  ParameterSpace space;
+  DayFitOptions options;
+
+  Model learn(const std::vector<LogSource*>& logs) const { return fit_days(logs, space, options); }
+  static Explained explain(LogSource& log, const Model& model) {
+    log.rewind();
+    const auto fit = std::make_shared<LogFit>(uniform_log(log, model.setting.period_s), model);
+    LogExplanation what = explain_log(*fit);
+    const FreeForm change = what.free_form;
+    return {std::move(what),
+            {[fit](const Hypothesis& h, double limit) { return alarm_time(*fit, h, limit); },
+             [fit, change](double limit) { return alarm_time(*fit, change, limit); }}};
+  }
+};
+
+/// Below: one-step predictions of the integrated robot.
+struct CoarseCore {
+  using Model = OneStepModel;
+  Robot robot;
+  ParameterSpace space;
+  CoarseFitOptions options;
+
+  Model learn(const std::vector<LogSource*>& logs) const {
+    return fit_coarse_days(logs, robot, space, options);
+  }
+  static Explained explain(LogSource& log, const Model& model) {
+    log.rewind();
+    const auto fit = std::make_shared<CoarseLog>(coarse_log(uniform_log(log, model.setting.period_s), model));
+    return {explain_coarse(*fit),
+            {[fit](const Hypothesis& h, double limit) { return coarse_alarm_time(*fit, h, limit); }}};
+  }
+};
 
 Json labels_of(const std::vector<FaultLabel>& labels) {
   Json out = Json::array();
@@ -60,13 +100,13 @@ std::string best_of(const LogExplanation& e) {
   return out;
 }
 
-void judge_log(const Bench& bench, const std::string& path, const BalanceModel& model,
+template <typename Core>
+void judge_log(const Bench& bench, const std::string& path, const typename Core::Model& model,
                const EvidenceLimits& limits) {
   const double from = processor_s();
   const std::unique_ptr<LogSource> log = open_log(path, bench.reading);
-  const LogFit fit = fit_of(*log, model);
-  const LogExplanation explanation = explain_log(fit);
-  const std::optional<ExplainedFault> fault = decide_log(fit, explanation, limits);
+  const Explained e = Core::explain(*log, model);
+  const std::optional<ExplainedFault> fault = decide_log(e.what, limits, e.alarms);
   Json report = {{"verdict", fault ? "faulty" : "healthy"}, {"faults", Json::array()}};
   if (fault)
     report["faults"].push_back({{"kind", to_string(fault->label.kind)},
@@ -78,12 +118,41 @@ void judge_log(const Bench& bench, const std::string& path, const BalanceModel& 
   const std::string name = std::filesystem::path(path).filename().string();
   std::ofstream(bench.out / "reports" / (name + ".json")) << report.dump(1) << "\n";
   fmt::print("{} {} left {:.2f}{}, {:.2f} s\n", name, fault ? to_string(fault->label.kind) : "healthy",
-             explanation.healthy_square, best_of(explanation), processor_s() - from);
+             e.what.healthy_square, best_of(e.what), processor_s() - from);
   std::fflush(stdout);
+}
+
+/// Learns from all healthy logs, takes the limits from each of them explained by the others, explains the
+/// rest.
+template <typename Core>
+void learn_and_explain(const Bench& bench, const Core& core, double from,
+                       const std::vector<std::string>& logs) {
+  const typename Core::Model model = core.learn(bench.all_but(bench.healthy.size()));
+  std::vector<LogExplanation> left_out;
+  for (std::size_t k = 0; k < bench.healthy.size(); ++k) {
+    const typename Core::Model others = core.learn(bench.all_but(k));
+    left_out.push_back(Core::explain(*bench.healthy[k], others).what);
+    fmt::print("{} left out: left {:.2f}{}\n", bench.healthy[k]->identity().path,
+               left_out.back().healthy_square, best_of(left_out.back()));
+  }
+  const double seconds = processor_s() - from;
+  std::ofstream(bench.out / "learn_s") << seconds << "\n";
+  fmt::print("learned in {:.1f} s of processor time\n", seconds);
+  for (const std::string& log : logs) judge_log<Core>(bench, log, model, evidence_limits(left_out));
+}
+
+/// Median sample period, s.
+double period_of(LogSource& source) {
+  source.rewind();
+  const Log log = read_all(source);
+  std::vector<double> steps;
+  for (int k = 1; k < log.rows(); ++k) steps.push_back(log.time[k] - log.time[k - 1]);
+  return upper_median(std::move(steps));
 }
 
 int run(const std::string& robot_file, const std::filesystem::path& out,
         const std::vector<std::string>& healthy, const std::vector<std::string>& logs) {
+  constexpr double kCoarse_s = 0.02;
   const Robot robot = load_robot_file(robot_file);
   Bench bench;
   bench.out = out;
@@ -92,26 +161,16 @@ int run(const std::string& robot_file, const std::filesystem::path& out,
   std::filesystem::create_directories(out / "reports");
   for (const std::string& log : healthy) bench.healthy.push_back(open_log(log, bench.reading));
   const double from = processor_s();
-  const std::vector<LogSource*> all = bench.all_but(healthy.size());
   IdentifyOptions options;
   options.method = IdentifyMethod::weak_form;
   options.threads = 1;
+  const std::vector<LogSource*> all = bench.all_but(healthy.size());
   const Identification identified = identify(all, robot, options);
-  DayFitOptions fit;
-  fit.torque_is_held = identified.robot.log.torque_between_samples == TorqueTiming::held;
-  const BalanceModel model = fit_days(all, identified.space, fit);
-  std::vector<LogExplanation> left_out;
-  for (std::size_t k = 0; k < healthy.size(); ++k) {
-    const BalanceModel others = fit_days(bench.all_but(k), identified.space, fit);
-    left_out.push_back(explain_log(fit_of(*bench.healthy[k], others)));
-    fmt::print("{} left out: left {:.2f}{}\n", healthy[k], left_out.back().healthy_square,
-               best_of(left_out.back()));
-  }
-  const EvidenceLimits limits = evidence_limits(left_out);
-  const double seconds = processor_s() - from;
-  std::ofstream(out / "learn_s") << seconds << "\n";
-  fmt::print("learned in {:.1f} s of processor time\n", seconds);
-  for (const std::string& log : logs) judge_log(bench, log, model, limits);
+  const bool is_held = identified.robot.log.torque_between_samples == TorqueTiming::held;
+  if (period_of(*all.front()) > kCoarse_s)
+    learn_and_explain(bench, CoarseCore{robot, identified.space, {.torque_is_held = is_held}}, from, logs);
+  else
+    learn_and_explain(bench, FineCore{identified.space, {.torque_is_held = is_held}}, from, logs);
   return 0;
 }
 
