@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/identify/extra/extra_term.hpp"
-#include "lib/identify/regressor.hpp"
+#include "lib/balance/regressor.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lib/identify/regressor.hpp"
+#include "lib/balance/regressor.hpp"
 
 namespace faultline {
 namespace {

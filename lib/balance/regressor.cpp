@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/regressor.hpp"
+#include "lib/balance/regressor.hpp"
 
 #include "lib/robot/dynamics.hpp"
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/balance_model.hpp"
+
+#include <cmath>
+
+#include "lib/balance/regressor.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kAlong = 0.9;  // cosine between a slide and gravity
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const ColumnLayout& layout,
+                                         const Eigen::VectorXd& theta) {
+  const DayLayout day{layout.base, layout.joints};
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(rows.rows(), -1.0, 1.0);
+  std::vector<Eigen::MatrixXd> out(layout.joints, Eigen::MatrixXd::Zero(rows.rows(), day.count()));
+  for (int j = 0; j < layout.joints; ++j) {
+    const Eigen::MatrixXd& column = rows.column[j];
+    out[j].leftCols(layout.base) = column.leftCols(layout.base) * theta.head(layout.base).asDiagonal();
+    const Eigen::VectorXd friction = column.col(layout.viscous(j)) * theta[layout.viscous(j)] +
+                                     column.col(layout.coulomb(j)) * theta[layout.coulomb(j)];
+    out[j].col(day.friction(j)) = friction;
+    out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
+    out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
+    out[j].col(day.offset(j)).setOnes();
+  }
+  return out;
+}
+
+Eigen::MatrixXd torque_of(const BalanceRows& rows, const Eigen::VectorXd& theta) {
+  Eigen::MatrixXd out(rows.rows(), rows.joints());
+  for (int j = 0; j < rows.joints(); ++j) out.col(j) = rows.column[j] * theta;
+  return out;
+}
+
+Eigen::MatrixXd payload_torque(const BalanceRows& rows, const Eigen::MatrixXd& payload, int link) {
+  Eigen::MatrixXd out(rows.rows(), rows.joints());
+  for (int j = 0; j < rows.joints(); ++j)
+    out.col(j) = rows.column[j].leftCols(payload.rows()) * payload.col(link);
+  return out;
+}
+
+bool is_rotor(const RigidColumns& rigid, int parameter) {
+  return rigid.lift.col(parameter).head(rigid.joints() * kLinkParameters).isZero(0.0);
+}
+
+bool carries_weight(const RigidColumns& rigid, int joint) {
+  const JointGeometry& axis = rigid.chain.geometry[joint];
+  const double g = rigid.chain.gravity.norm();
+  if (axis.kind != AxisKind::prismatic || g == 0.0) return false;
+  for (int j = 0; j < joint; ++j)  // a joint that tilts the slide makes weight and offset different
+    if (rigid.chain.geometry[j].kind == AxisKind::revolute &&
+        std::abs(rigid.chain.geometry[j].axis.dot(rigid.chain.gravity)) < kAlong * g)
+      return false;
+  return std::abs(axis.axis.dot(rigid.chain.gravity)) > kAlong * g;
+}
+
+}  // namespace faultline

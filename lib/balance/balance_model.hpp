@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/balance/noise.hpp"
+#include "lib/balance/row_setting.hpp"
+
+namespace faultline {
+
+/// A robot as its torque-balance rows show it, with what is normal to differ from day to day and the noise of
+/// the rows: what explains a log (physics, section 11).
+struct BalanceModel {
+  RowSetting setting;
+  RigidColumns rigid;
+  Eigen::MatrixXd payload;       ///< base parameters x links: what 1 kg at the end of a link adds to them
+  Eigen::VectorXd theta;         ///< see ColumnLayout
+  Eigen::VectorXd day_variance;  ///< prior variance of the effects of a day, see DayLayout
+  RowNoise noise;
+  double piece_kg = 0.0;  ///< of a work piece that comes and goes at the tip; 0: there is none
+
+  // What the healthy logs looked like, by joint.
+  Eigen::VectorXd q_noise, dq_noise;         ///< white noise of one sample
+  Eigen::VectorXd q_low, q_high, top_speed;  ///< range, and the speed that 1 in 1000 rows exceeds
+  Eigen::VectorXd torque_rms;
+  Eigen::VectorXi longest_repeat;  ///< samples by which a position repeats the one before, at most
+  Eigen::VectorXd repeat_share;    ///< of samples that repeat the position before
+
+  int joints() const { return setting.joints(); }
+  ColumnLayout layout() const { return layout_of(rigid, setting); }
+};
+
+/// Where the effects of a day stand: relative change of each base parameter; then, for each joint, relative
+/// friction, its relative slope over the log, gain and offset of the torque.
+struct DayLayout {
+  int base = 0, joints = 0;
+
+  int inertia(int parameter) const { return parameter; }
+  int friction(int joint) const { return base + joint; }
+  int friction_slope(int joint) const { return base + joints + joint; }
+  int gain(int joint) const { return base + 2 * joints + joint; }
+  int offset(int joint) const { return base + 3 * joints + joint; }
+  int count() const { return base + 4 * joints; }
+};
+
+inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }
+
+/// Columns of the effects of a day, by joint: rows x effects.
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const ColumnLayout& layout,
+                                         const Eigen::VectorXd& theta);
+
+/// Torque of the robot `theta` in each row: rows x joints.
+Eigen::MatrixXd torque_of(const BalanceRows& rows, const Eigen::VectorXd& theta);
+
+/// Torque that 1 kg at the end of link `link` takes in each row: rows x joints.
+Eigen::MatrixXd payload_torque(const BalanceRows& rows, const Eigen::MatrixXd& payload, int link);
+
+/// Whether a base parameter is the inertia of a rotor, which no link has a part in.
+bool is_rotor(const RigidColumns& rigid, int parameter);
+
+/// Whether torque gain and offset of a joint look like a mass: a slide that gravity pulls along.
+bool carries_weight(const RigidColumns& rigid, int joint);
+
+}  // namespace faultline

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/noise.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSaysNothing = 1e6;  // times the usual standard deviation
+constexpr double kRare = 50.0;        // times the median: squares above it are cut
+constexpr double kLeastShare = 0.1;   // of the median square that the constant part has at least
+constexpr double kRidge = 1e-4;       // of the variance, on the diagonal of the autocorrelation
+
+constexpr int kTerms = 5;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
+constexpr double kLeastTiming = 0.01;  // samples^2: a torque's step is known to a tenth of a sample at best
+
+Terms variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, int j) {
+  const double still = elementary::tanh(rows.dq(k, j) / setting.friction_width[j]);
+  Terms out;
+  out << 1.0, rows.torque(k, j) * rows.torque(k, j), 1.0 - still * still, rows.dq(k, j) * rows.dq(k, j),
+      rows.step_square(k, j);
+  return out;
+}
+
+/// Non-negative least squares in a few unknowns: the best of all sets of unknowns that may differ from zero.
+Terms non_negative(const TermMatrix& a, const Terms& b) {
+  Terms best = Terms::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (int set = 1; set < 1 << kTerms; ++set) {
+    std::vector<int> used;
+    for (int i = 0; i < kTerms; ++i)
+      if (set >> i & 1) used.push_back(i);
+    const VectorXd part = a(used, used).ldlt().solve(b(used));
+    if (!part.allFinite() || part.minCoeff() < 0.0) continue;
+    const double value = part.dot(a(used, used) * part) - 2.0 * part.dot(b(used));
+    if (value >= least) continue;
+    least = value;
+    best.setZero();
+    for (std::size_t i = 0; i < used.size(); ++i) best[used[i]] = part[static_cast<int>(i)];
+  }
+  return best;
+}
+
+bool counts(const LeftOver& log, int k) {
+  return !log.rows->lost[k] && (log.not_counted.empty() || !log.not_counted[k]);
+}
+
+}  // namespace
+
+MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNoise& noise,
+                 const VectorXd& loudness) {
+  MatrixXd out(rows.rows(), rows.joints());
+  for (int j = 0; j < rows.joints(); ++j) {
+    const JointNoise& n = noise.joint[j];
+    Terms share;
+    share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
+    for (int k = 0; k < rows.rows(); ++k) {
+      out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
+      if (rows.lost[k]) out(k, j) *= kSaysNothing;
+    }
+  }
+  return out;
+}
+
+MatrixXd whiten(const MatrixXd& columns, const VectorXd& std, const JointNoise& noise) {
+  const MatrixXd scaled = (columns.array().colwise() / (noise.innovation * std.array())).matrix();
+  MatrixXd out = scaled;
+  const Eigen::Index rows = columns.rows();
+  for (Eigen::Index lag = 1; lag < noise.filter.size() && lag < rows; ++lag)
+    out.bottomRows(rows - lag) += noise.filter[lag] * scaled.topRows(rows - lag);
+  return out;
+}
+
+RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise noise) {
+  const int joints = setting.joints();
+  noise.joint.resize(joints);
+  for (int j = 0; j < joints; ++j) {
+    std::vector<double> squares;
+    for (const LeftOver& log : logs)
+      for (int k = 0; k < log.rows->rows(); ++k)
+        if (counts(log, k)) squares.push_back(log.torque(k, j) * log.torque(k, j));
+    if (squares.empty()) continue;
+    const double median = upper_median(squares);
+    TermMatrix a = TermMatrix::Zero();
+    Terms b = Terms::Zero();
+    for (const LeftOver& log : logs)
+      for (int k = 0; k < log.rows->rows(); ++k) {
+        if (!counts(log, k)) continue;
+        const Terms x = variance_terms(*log.rows, setting, k, j);
+        const double y = std::min(log.torque(k, j) * log.torque(k, j), kRare * median);
+        const double weight = 1.0 / std::pow(2.25 * median, 2);
+        a += weight * x * x.transpose();
+        b += weight * y * x;
+      }
+    const Terms share = non_negative(a, b);
+    JointNoise& out = noise.joint[j];
+    out.base = std::max(share[0], kLeastShare * median);
+    out.torque = share[1];
+    out.rest = share[2];
+    out.speed = share[3];
+    out.timing = std::max(share[4], kLeastTiming);
+  }
+  return noise;
+}
+
+RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise) {
+  for (std::size_t j = 0; j < noise.joint.size(); ++j) {
+    VectorXd correlation = VectorXd::Zero(order + 1);
+    double rows = 0.0;
+    for (const LeftOver& log : logs) {
+      const VectorXd x = log.torque.col(j).cwiseQuotient(log.std.col(j));
+      rows += static_cast<double>(x.size());
+      for (int lag = 0; lag <= order && lag < x.size(); ++lag)
+        correlation[lag] += x.head(x.size() - lag).dot(x.tail(x.size() - lag));
+    }
+    correlation /= rows;
+    correlation[0] *= 1.0 + kRidge;
+    MatrixXd toeplitz(order, order);
+    for (int i = 0; i < order; ++i)
+      for (int k = 0; k < order; ++k) toeplitz(i, k) = correlation[std::abs(i - k)];
+    const VectorXd a = toeplitz.ldlt().solve(correlation.tail(order));
+    JointNoise& out = noise.joint[j];
+    out.filter.resize(order + 1);
+    out.filter << 1.0, -a;
+    out.innovation = std::sqrt(correlation[0] - a.dot(correlation.tail(order)));
+  }
+  return noise;
+}
+
+}  // namespace faultline

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/one_step/motion_law.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "lib/balance/regressor.hpp"
+#include "lib/balance/rows.hpp"
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNudge = 1e-6;  // rad, m, rad/s or m/s: of a derivative by difference; its error is as small
+
+Chain<double> chain_with_friction(const MotionBody& body, const VectorXd& numbers) {
+  const MotionLayout at = body.layout();
+  Chain<double> chain = chain_of(body.rigid(), numbers.head(at.base));
+  chain.friction.assign(at.joints, {});
+  for (int j = 0; j < at.joints; ++j) {
+    chain.friction[j].viscous = numbers[at.viscous(j)];
+    chain.friction[j].coulomb = numbers[at.coulomb(j)];
+    chain.friction[j].width = body.friction_width()[j];
+  }
+  return chain;
+}
+
+}  // namespace
+
+MotionBody::MotionBody(RigidColumns rigid, VectorXd friction_width)
+    : rigid_(std::move(rigid)), friction_width_(std::move(friction_width)) {
+  rigid_.chain.friction.assign(rigid_.joints(), {});
+  for (int p = 0; p < rigid_.base(); ++p) {
+    FastDynamics one(chain_of(rigid_, VectorXd::Unit(rigid_.base(), p)));
+    if (!one.planar()) break;
+    unit_.push_back(std::move(one));
+  }
+}
+
+void MotionBody::torque_by_parameter(const JointVector<double>& q, const JointVector<double>& dq,
+                                     const JointVector<double>& ddq, Eigen::Ref<MatrixXd> out) const {
+  for (std::size_t p = 0; p < unit_.size(); ++p)
+    out.col(static_cast<Eigen::Index>(p)) = unit_[p].body_torque(q, dq, ddq);
+  if (!unit_.empty()) return;
+  LinkRegressor links;
+  torque_regressor(rigid_.chain, q, dq, ddq, links);
+  const int n = rigid_.joints();
+  out.noalias() = links * rigid_.lift.topRows(n * kLinkParameters);
+  for (int j = 0; j < n; ++j) out.row(j) += ddq[j] * rigid_.lift.row(n * kLinkParameters + j);
+}
+
+MotionLaw::MotionLaw(const MotionBody& body, const VectorXd& numbers, unsigned locked)
+    : body_(&body),
+      dynamics_(chain_with_friction(body, numbers)),
+      gain_(numbers.segment(body.layout().gain(0), body.layout().joints)),
+      force_(numbers.segment(body.layout().force(0), body.layout().joints)),
+      locked_(locked) {}
+
+void MotionLaw::acceleration(const JointVector<double>& q, const JointVector<double>& dq,
+                             const JointVector<double>& tau, JointVector<double>& ddq) const {
+  const JointVector<double> acting = gain_.cwiseProduct(tau) + force_;
+  dynamics_.acceleration(q, dq, acting, ddq, locked_);
+}
+
+JointVector<double> MotionLaw::friction_rate(const JointVector<double>& q) const {
+  const int n = joints();
+  JointMatrix<double> inertia;
+  JointVector<double> bias, out(n);
+  dynamics_.inertia_and_bias(q, JointVector<double>::Zero(n), inertia, bias);
+  const JointMatrix<double> inverse = inertia.llt().solve(JointMatrix<double>::Identity(n, n));
+  for (int j = 0; j < n; ++j) {
+    const Friction<double>& f = dynamics_.chain().friction[j];
+    out[j] = inverse(j, j) * std::max(0.0, f.viscous + f.coulomb / f.width);
+  }
+  return out;
+}
+
+void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& dq,
+                       const JointVector<double>& tau, const JointVector<double>& ddq, MatrixXd& out) const {
+  const int n = joints();
+  const MotionLayout at = body_->layout();
+  out.setZero(n, 2 * n + at.count());
+  JointMatrix<double> inertia;
+  JointVector<double> bias;
+  dynamics_.inertia_and_bias(q, dq, inertia, bias);
+  const JointVector<double> torque = bias + inertia * ddq;
+  JointVector<double> moved = q;
+  for (int j = 0; j < n; ++j) {
+    moved[j] = q[j] + kNudge;
+    out.col(j) = (torque - dynamics_.body_torque(moved, dq, ddq)) / kNudge;
+    moved[j] = q[j];
+  }
+  moved = dq;
+  auto number = out.rightCols(at.count());
+  body_->torque_by_parameter(q, dq, ddq, number.leftCols(at.base));
+  number.leftCols(at.base) *= -1.0;
+  for (int j = 0; j < n; ++j) {
+    const Friction<double>& f = dynamics_.chain().friction[j];
+    const double saturated = elementary::tanh(dq[j] / f.width);
+    moved[j] = dq[j] + kNudge;
+    out.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
+    moved[j] = dq[j];
+    out(j, n + j) -= f.viscous + f.coulomb / f.width * (1.0 - saturated * saturated);
+    number(j, at.viscous(j)) = -dq[j];
+    number(j, at.coulomb(j)) = -saturated;
+    number(j, at.gain(j)) = tau[j];
+    number(j, at.force(j)) = 1.0;
+  }
+  for (int j = 0; j < n; ++j) {
+    if (!is_locked(j)) continue;
+    inertia.row(j).setZero();
+    inertia.col(j).setZero();
+    inertia(j, j) = 1.0;
+    out.row(j).setZero();
+  }
+  inertia.llt().solveInPlace(out);
+}
+
+}  // namespace faultline

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/balance/row_setting.hpp"
+#include "lib/robot/fast_dynamics.hpp"
+
+namespace faultline {
+
+/// Where the numbers that move a robot stand: base parameters; then, for each joint, viscous and Coulomb
+/// friction, gain of the logged torque (1 in health) and a force beside it (N m or N; 0 in health).
+struct MotionLayout {
+  int base = 0, joints = 0;
+
+  int viscous(int joint) const { return base + joint; }
+  int coulomb(int joint) const { return base + joints + joint; }
+  int gain(int joint) const { return base + 2 * joints + joint; }
+  int force(int joint) const { return base + 3 * joints + joint; }
+  int count() const { return base + 4 * joints; }
+  int learned() const { return gain(0); }  ///< those before it are the robot's own
+};
+
+/// The rigid body of a robot, prepared for the torque that each base parameter takes.
+class MotionBody {
+ public:
+  MotionBody() = default;
+  /// `friction_width` by joint, rad/s or m/s, of tanh(dq / width).
+  MotionBody(RigidColumns rigid, Eigen::VectorXd friction_width);
+
+  const RigidColumns& rigid() const { return rigid_; }
+  const Eigen::VectorXd& friction_width() const { return friction_width_; }
+  MotionLayout layout() const { return {rigid_.base(), rigid_.joints()}; }
+  /// Torque M ddq + h + G by base parameter, joints x base.
+  void torque_by_parameter(const JointVector<double>& q, const JointVector<double>& dq,
+                           const JointVector<double>& ddq, Eigen::Ref<Eigen::MatrixXd> out) const;
+
+ private:
+  RigidColumns rigid_;
+  Eigen::VectorXd friction_width_;
+  std::vector<FastDynamics> unit_;  ///< by base parameter, that one 1 and the others 0; parallel axes only
+};
+
+/// What moves the robot for a while: numbers as MotionLayout says, and joints that do not move.
+class MotionLaw {
+ public:
+  /// `body` must outlive it. Joints whose bit is set in `locked` (bit 0 the first) stand still.
+  MotionLaw(const MotionBody& body, const Eigen::VectorXd& numbers, unsigned locked = 0);
+
+  int joints() const { return dynamics_.joints(); }
+  bool is_locked(int joint) const { return (locked_ >> joint & 1u) != 0; }
+  const MotionBody& body() const { return *body_; }
+  /// Acceleration under the logged torque `tau`.
+  void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
+                    const JointVector<double>& tau, JointVector<double>& ddq) const;
+  /// How fast each joint's friction changes its velocity near rest, 1/s.
+  JointVector<double> friction_rate(const JointVector<double>& q) const;
+  /// Derivatives of the acceleration `ddq` at this state: joints x (2 joints + numbers), by q, dq and each
+  /// number.
+  void slopes(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
+              const JointVector<double>& ddq, Eigen::MatrixXd& out) const;
+
+ private:
+  const MotionBody* body_;
+  FastDynamics dynamics_;
+  JointVector<double> gain_, force_;
+  unsigned locked_ = 0;
+};
+
+}  // namespace faultline

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/one_step/one_step_model.hpp"
+
+#include "lib/balance/one_step/innovations.hpp"
+#include "lib/balance/smoothing.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kQuietForce = 1e-3;  // of a joint's usual torque: what a model of a machine lacks at rest
+constexpr double kModelLacks =
+    0.004;                          // of the torque and of each term of the model: what it lacks under load
+constexpr double kRestLacks = 0.3;  // of Coulomb friction: what a tanh of another width differs by
+constexpr double kUnknownTorque = 30.0;  // times the usual torque: where the torque was not logged
+
+}  // namespace
+
+VectorXd OneStepModel::numbers() const {
+  VectorXd out = VectorXd::Zero(layout().count());
+  out.head(theta.size()) = theta;
+  out.segment(layout().gain(0), joints()).setOnes();
+  return out;
+}
+
+MatrixXd OneStepModel::day_directions() const {
+  const MotionLayout at = layout();
+  const int n = at.joints;
+  MatrixXd out = MatrixXd::Zero(at.count(), at.base + 2 * n);
+  for (int p = 0; p < at.base; ++p) out(p, p) = theta[p];
+  for (int j = 0; j < n; ++j) {
+    out(at.viscous(j), at.base + j) = theta[at.viscous(j)];
+    out(at.coulomb(j), at.base + j) = theta[at.coulomb(j)];
+    out(at.force(j), at.base + n + j) = 1.0;
+  }
+  return out;
+}
+
+MatrixXd OneStepModel::force_std(const UniformLog& log, const Trajectory& motion) const {
+  const int n = joints(), base = layout().base;
+  MatrixXd out(n, log.rows() - 1), term(n, base);
+  for (int k = 0; k + 1 < log.rows(); ++k) {
+    const JointVector<double> ddq = (motion.col(k + 1) - motion.col(k)).tail(n) / setting.period_s;
+    body.torque_by_parameter(motion.col(k).head(n), motion.col(k).tail(n), ddq, term);
+    const VectorXd square = log.tau.row(k).transpose().cwiseAbs2() +
+                            (term * theta.head(base).asDiagonal()).rowwise().squaredNorm();
+    VectorXd rest(n);  // friction near rest has a shape of its own
+    for (int j = 0; j < n; ++j)
+      rest[j] = kRestLacks * theta[layout().coulomb(j)] *
+                share_near_rest(motion(n + j, k), motion(n + j, k + 1), body.friction_width()[j]);
+    out.col(k) = rest.cwiseAbs2();
+    out.col(k) += kQuietForce * kQuietForce * torque_rms.cwiseAbs2() + kModelLacks * kModelLacks * square;
+    out.col(k) = out.col(k).cwiseSqrt().eval();
+    if (log.lost[k] || (!setting.torque_is_held && log.lost[k + 1])) out.col(k) = kUnknownTorque * torque_rms;
+  }
+  return out;
+}
+
+MatrixXd OneStepModel::variance_of_readings(const UniformLog& log) const {
+  MatrixXd out = reading_variance.replicate(1, log.rows());
+  if (log.dq.rows() == 0) out.bottomRows(joints()).setConstant(kMissingReading);
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.lost[k]) out.col(k).setConstant(kMissingReading);
+  return out;
+}
+
+Trajectory readings(const UniformLog& log) {
+  const int n = log.joints();
+  Trajectory out(2 * n, log.rows());
+  out.topRows(n) = log.q.transpose();
+  if (log.dq.rows() > 0)
+    out.bottomRows(n) = log.dq.transpose();
+  else
+    for (int j = 0; j < n; ++j) out.row(n + j) = gradient(log.q.col(j), log.period_s).transpose();
+  return out;
+}
+
+}  // namespace faultline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/regress.hpp"
+
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows) {
+  NormalEquations out;
+  out.matrix.setZero(columns.cols(), columns.cols());
+  out.matrix.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  out.matrix.triangularView<Eigen::StrictlyUpper>() = out.matrix.transpose();
+  out.vector = columns.transpose() * rows;
+  out.square = rows.squaredNorm();
+  out.rows = static_cast<double>(rows.size());
+  return out;
+}
+
+Eigen::MatrixXd Regression::covariance() const {
+  return factor.solve(Eigen::MatrixXd::Identity(estimate.size(), estimate.size()));
+}
+
+Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision) {
+  Regression out;
+  Eigen::MatrixXd posterior = sums.matrix;
+  posterior.diagonal() += precision;
+  out.factor.compute(posterior);
+  out.estimate = out.factor.solve(sums.vector);
+  double log_determinant = 0.0;  // of half the ratio of the prior's and the posterior's precision
+  for (int i = 0; i < precision.size(); ++i)
+    log_determinant += 0.5 * elementary::log(precision[i]) - elementary::log(out.factor.matrixLLT()(i, i));
+  const double explained = out.estimate.dot(sums.vector);
+  out.left = sums.square - 2.0 * explained + out.estimate.dot(sums.matrix * out.estimate);
+  out.log_likelihood = -0.5 * (sums.square - explained) + log_determinant;
+  return out;
+}
+
+}  // namespace faultline

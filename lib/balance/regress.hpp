@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace faultline {
+
+/// Sums of a linear regression with white rows of unit variance: all that its estimate needs of the rows.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;  ///< X' X
+  Eigen::VectorXd vector;  ///< X' y
+  double square = 0.0;     ///< y' y
+  double rows = 0.0;
+};
+
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows);
+
+/// What a linear regression with a Gaussian prior of mean zero gives (Bishop 2006, section 3.5).
+struct Regression {
+  Eigen::VectorXd estimate;
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the posterior's inverse covariance
+  /// ln p(rows), the parameters integrated out, less rows / 2 ln(2 pi): the evidence for these columns.
+  double log_likelihood = 0.0;
+  double left = 0.0;  ///< squares left over, without the prior's
+
+  Eigen::MatrixXd covariance() const;
+};
+
+/// `precision` is the inverse prior variance of each parameter; all are above 0.
+Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision);
+
+}  // namespace faultline

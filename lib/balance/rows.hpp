@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/balance/row_setting.hpp"
+#include "lib/balance/uniform_log.hpp"
+
+namespace faultline {
+
+/// The torque balance of a log on a coarse grid (physics, section 11): the smoothed torque of each row and
+/// joint, and what each parameter of the robot adds to it. Row k stands for the motion within the kernel
+/// around time_s[k]; rows whose kernel leaves the log do not exist.
+struct BalanceRows {
+  Eigen::VectorXd time_s;
+  Eigen::VectorXi sample;       ///< by row: the sample before its middle
+  Eigen::MatrixXd torque;       ///< rows x joints, N m or N
+  Eigen::MatrixXd q, dq;        ///< rows x joints, smoothed; `dq` is that of the link, behind the gear spring
+  Eigen::MatrixXd step_square;  ///< rows x joints: sum of (weight of the kernel * step of the torque)^2
+  std::vector<Eigen::MatrixXd> column;  ///< by joint: rows x parameters (see ColumnLayout)
+  std::vector<bool> lost;               ///< by row: its kernel crosses samples that the log lacks
+
+  int rows() const { return static_cast<int>(time_s.size()); }
+  int joints() const { return static_cast<int>(torque.cols()); }
+};
+
+/// Rows of one log. `theta` are the parameters that the columns of springs need for the inertia matrix; while
+/// it is empty, these columns are zero. Throws Error(input) when the log is shorter than the kernels.
+BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
+                         const Eigen::VectorXd& theta);
+
+/// Torque that the robot `theta` leaves unexplained in each row (rows x joints), without the torque of the
+/// springs: the same as torque - column * theta, but without the columns, for trajectories that are tried.
+Eigen::MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
+                            const Eigen::VectorXd& theta);
+
+/// How far the samples that a row is made of lie from its middle at most, s.
+double reach_s(const RowSetting& setting);
+
+/// The chain that moves as `theta` says; its friction does not count.
+Chain<double> chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);
+
+/// Velocity of each sample (rows x joints): the positions' differences where these are more precise, the
+/// logged velocity where that one is.
+Eigen::MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting);
+
+}  // namespace faultline

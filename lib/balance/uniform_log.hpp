@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/log/log_source.hpp"
+
+namespace faultline {
+
+/// A log on a uniform grid, as filters need it. A sample that the log lacks or that has no value is
+/// interpolated and marked as lost.
+struct UniformLog {
+  double start_s = 0.0;   ///< time of the first row
+  double period_s = 0.0;  ///< between two rows
+  Eigen::MatrixXd q, dq,
+      tau;  ///< rows x joints; rad or m, rad/s or m/s, N m or N; `dq` is empty without a velocity
+  std::vector<bool> lost;  ///< by row: interpolated
+
+  int rows() const { return static_cast<int>(q.rows()); }
+  int joints() const { return static_cast<int>(q.cols()); }
+  double time_s(double row) const { return start_s + period_s * row; }
+};
+
+/// The whole log on the grid of `period_s` that begins with its first row. Each row goes to the grid point
+/// that its stamp lies in; of two rows at one point the first counts. Throws Error(input) when the log has
+/// fewer than two rows.
+UniformLog uniform_log(LogSource& log, double period_s);
+
+/// Standard deviation of the white noise in each column, from its fourth differences, robust against motion
+/// and steps.
+Eigen::VectorXd sample_noise(const Eigen::MatrixXd& values);
+
+}  // namespace faultline

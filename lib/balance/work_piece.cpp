@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/work_piece.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "lib/balance/smoothing.hpp"
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kMostSquare = 50.0;  // of one value: an outlier costs no more
+constexpr double kNoEvidence = 1e6;   // N m or N: a value with such a deviation is no evidence
+
+double cost(double residual, double std) {
+  const double z = residual / std;
+  return 0.5 * std::min(z * z, kMostSquare);
+}
+
+}  // namespace
+
+PiecePath piece_path(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& piece,
+                     const Eigen::MatrixXd& std) {
+  const int rows = static_cast<int>(residual.rows());
+  std::vector<std::array<char, 2>> from(rows);
+  std::array<double, 2> sum = {0.0, 0.0};
+  for (int k = 0; k < rows; ++k) {
+    std::array<double, 2> row = {0.0, 0.0};
+    for (int j = 0; j < residual.cols(); ++j) {
+      if (std(k, j) >= kNoEvidence) continue;
+      row[0] += cost(residual(k, j), std(k, j));
+      row[1] += cost(residual(k, j) - piece(k, j), std(k, j));
+    }
+    const std::array<double, 2> before = sum;
+    for (int level = 0; level < 2; ++level) {
+      const bool changes = before[1 - level] + kChangeOfPiece < before[level];
+      from[k][level] = static_cast<char>(changes ? 1 - level : level);
+      sum[level] = (changes ? before[1 - level] + kChangeOfPiece : before[level]) + row[level];
+    }
+  }
+  PiecePath path(rows);
+  char level = sum[0] <= sum[1] ? 0 : 1;
+  for (int k = rows - 1; k >= 0; --k) {
+    path[k] = level;
+    level = from[k][static_cast<int>(level)];
+  }
+  return path;
+}
+
+PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, double kernel_s) {
+  const int rows = static_cast<int>(path.size());
+  std::vector<int> changes;
+  for (int k = 0; k + 1 < rows; ++k)
+    if (path[k] != path[k + 1]) changes.push_back(k);
+  PieceRamps out;
+  out.level.setConstant(rows, rows > 0 ? path[0] : 0);
+  out.change.setZero(rows, static_cast<int>(changes.size()));
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    const double at = 0.5 * (time_s[changes[c]] + time_s[changes[c] + 1]);
+    const double step = path[changes[c] + 1] - path[changes[c]];
+    for (int k = 0; k < rows; ++k) {
+      const double x = (time_s[k] - at) / kernel_s;
+      out.level[k] += step * normal_cdf(x);
+      out.change(k, static_cast<int>(c)) =
+          step * elementary::exp(-0.5 * x * x) / (kernel_s * std::sqrt(2.0 * std::numbers::pi));
+    }
+  }
+  return out;
+}
+
+std::vector<bool> near_change(const PiecePath& path, int reach) {
+  const int rows = static_cast<int>(path.size());
+  std::vector<bool> out(rows, false);
+  for (int k = 0; k + 1 < rows; ++k)
+    if (path[k] != path[k + 1])
+      for (int i = std::max(0, k - reach + 1); i <= std::min(rows - 1, k + reach); ++i) out[i] = true;
+  return out;
+}
+
+}  // namespace faultline

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/coarse_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/balance/regress.hpp"
+#include "lib/balance/rows.hpp"
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/coarse/coarse_price.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
+constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
+constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory
+constexpr double kAbsurd = 1e6;           // derivative of a state by the one before: the integration diverged
+constexpr double kMostSizes = 4.0;        // prior standard deviations that a size may start from
+constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
+constexpr double kMostLoss = 1.05;
+constexpr double kMostPayload = 2.5;  // of the tip's mass
+
+/// What a guess makes of the log in one round.
+struct Setup {
+  VectorXd day, size;  ///< about which it is linear; `size` empty: not known yet
+  Trajectory about;
+};
+
+/// The pieces of one round that its regression needs.
+struct Linearised {
+  LinearSteps steps;
+  FilterInput input;
+  VectorXd precision, about;  ///< of the unknowns' prior, and the values that they are corrections to
+  bool finite = true;
+};
+
+bool is_reading(FaultKind kind) { return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift; }
+
+int first_sample(const CoarseLog& log, double onset_s) {
+  int k = 0;
+  while (k < log.samples() && log.time_s(k) < onset_s - 1e-9) ++k;
+  return k;
+}
+
+/// What a unit of a false reading adds to the readings.
+MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
+  MatrixXd out = MatrixXd::Zero(log.read.rows(), log.samples());
+  const int j = guess.joint - 1, n = log.joints();
+  for (int k = from; k < log.samples(); ++k) {
+    out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
+    if (guess.kind == FaultKind::sensor_drift) out(n + j, k) = 1.0;
+  }
+  return out;
+}
+
+/// Numbers in force with and without the fault on this day.
+VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDirections& fault,
+                      const VectorXd& size) {
+  VectorXd out = log.numbers + log.day * day;
+  if (fault.std.size() > 0 && size.size() > 0) out += fault.direction * size;
+  return out;
+}
+
+JointMatrix<double> inertia_at(const CoarseLog& log, int sample) {
+  const RigidColumns& rigid = log.model->body.rigid();
+  return inertia_matrix(chain_of(rigid, log.numbers.head(rigid.base())),
+                        JointVector<double>(log.about.col(sample).head(log.joints())));
+}
+
+/// Covariance of what a prediction lacks; a joint that locks takes its speed, and that of those it carries
+/// along, away at an unknown moment.
+MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
+                    double forgiven) {
+  const int n = log.joints(), j = guess.joint - 1;
+  MatrixXd std = log.force_std;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < steps.intervals; ++k)
+      std(i, k) = log.stop(i, k) > 0.0 ? kUnknownForce * log.model->torque_rms[i]
+                                       : std::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
+  if (guess.kind == FaultKind::unknown)
+    std.row(j)
+        .tail(steps.intervals - std::max(0, from - 1))
+        .setConstant(kUnknownForce * log.model->torque_rms[j]);
+  MatrixXd out = process_covariance(steps, log.model->layout(), std);
+  if (guess.kind != FaultKind::locked || from <= 0 || from >= log.samples()) return out;
+  auto block = out.middleCols((from - 1) * steps.states, steps.states);
+  const JointMatrix<double> inertia = inertia_at(log, from - 1);
+  const double rest = log.time_s(from) - guess.onset_s;  // for which a jump of a velocity acts
+  for (int i = 0; i < n; ++i) {
+    if (i == j || inertia(i, j) == 0.0) continue;
+    const auto speed = log.about.row(n + i);
+    const double jump = (speed.array() - speed.mean()).square().mean();
+    block(i, i) += rest * rest * jump;
+    block(i, n + i) += rest * jump;
+    block(n + i, i) += rest * jump;
+    block(n + i, n + i) += jump;
+  }
+  const double slip = 0.5 * log.period_s() * std::abs(log.about(n + j, from - 1)) + 1e-5;
+  block(j, j) += 4.0 * slip * slip;
+  return out;
+}
+
+/// The onset's own column: what a later onset changes in the interval that it lies in.
+void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const CoarseGuess& guess,
+                      const Trajectory& about, MatrixXd& column, int columns) {
+  const int k =
+      std::clamp(static_cast<int>(std::floor((guess.onset_s - log.log.start_s) / log.period_s() + 1e-9)), 0,
+                 log.samples() - 2);
+  MotionPlan later = plan;
+  later.begin_s += kOnsetNudge_s;
+  const VectorXd now = next_state(log.log, k, about, log.model->setting, plan);
+  const VectorXd then = next_state(log.log, k, about, log.model->setting, later);
+  column.col(k * columns + columns - 1) = (then - now) / kOnsetNudge_s;
+}
+
+Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
+                     const CoarseJudging& how) {
+  const OneStepModel& m = *log.model;
+  const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
+  const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
+  const bool reading = is_reading(guess.kind);
+  const int sizes = static_cast<int>(fault.std.size()), effects = static_cast<int>(log.day.cols());
+  const VectorXd usual = numbers_with(log, at.day, {}, {});
+  const MotionLaw healthy(m.body, usual);
+  const MotionLaw faulty(m.body, numbers_with(log, at.day, fault, reading ? VectorXd() : at.size),
+                         guess.kind == FaultKind::locked ? 1u << j : 0u);
+  const bool moves = sizes > 0 || guess.kind == FaultKind::locked;
+  MotionPlan plan{&healthy, moves ? &faulty : nullptr, guess.onset_s,
+                  guess.duration_s > 0.0 ? guess.onset_s + guess.duration_s : 1e300};
+  Linearised out;
+  const bool same = at.day.isZero(0.0) && at.about.cols() == log.about.cols() && at.about == log.about;
+  const bool known = same && log.healthy_steps.intervals > 0;
+  out.steps = linear_steps(log.log, at.about, m.setting, plan, known ? &log.healthy_steps : nullptr);
+  out.finite = out.steps.miss.allFinite() && out.steps.slope.allFinite() &&
+               out.steps.slope.cwiseAbs().maxCoeff() < kAbsurd;
+  if (!out.finite) return out;
+  FilterInput& in = out.input;
+  const int extra = (reading ? 1 : 0) + (how.move_onset ? 1 : 0), columns = effects + sizes + extra;
+  MatrixXd directions = MatrixXd::Zero(m.layout().count(), sizes + extra);
+  if (sizes > 0) directions.leftCols(sizes) = fault.direction;
+  in.column = out.steps.columns(log.day, directions);
+  if (how.move_onset) add_onset_column(log, plan, guess, at.about, in.column, columns);
+  in.process = process_of(log, guess, out.steps, from, how.forgiven);
+  in.variance = log.variance.colwise() + forgiven_variance(m, how.forgiven);
+  if (guess.kind == FaultKind::stuck_encoder) {
+    const JointMatrix<double> inertia = inertia_at(log, std::max(0, from - 1));
+    for (int i = 0; i < n; ++i) {
+      if (inertia(i, j) == 0.0) continue;  // what the joint moves cannot be foretold where it is not seen
+      in.variance.row(i).tail(log.samples() - from).setConstant(kMissingReading);
+      in.variance.row(n + i).tail(log.samples() - from).setConstant(kMissingReading);
+    }
+  }
+  in.reading = log.read - at.about;
+  out.precision.resize(columns);
+  out.about = VectorXd::Zero(columns);
+  out.precision.head(effects) = m.day_variance.cwiseInverse();
+  out.about.head(effects) = at.day;
+  if (sizes > 0) out.precision.segment(effects, sizes) = fault.std.cwiseAbs2().cwiseMax(1e-24).cwiseInverse();
+  if (reading) {
+    in.read_column = effects;
+    in.read = read_column(log, guess, from);
+    if (at.size.size() > 0) in.reading -= at.size[0] * in.read;
+    out.precision[effects] = std::pow(usual_reading_error(m, j), -2);
+  }
+  if (at.size.size() > 0) out.about.segment(effects, at.size.size()) = at.size;
+  if (how.move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());
+  return out;
+}
+
+/// The regression over the innovations, its prior about the values before.
+CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
+                            const Linearised& lin, const CoarseJudging& how) {
+  const Innovations filter = innovations(lin.steps, lin.input);
+  const int effects = static_cast<int>(log.day.cols()), columns = filter.columns;
+  const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
+  const MatrixXd x = keep.asDiagonal() * filter.white.rightCols(columns);
+  const VectorXd y = keep.cwiseProduct(filter.white.col(0));
+  // Unknowns are taken as values, not as corrections: their prior is about zero.
+  const Regression fit = regress(normal_equations(x, y + x * lin.about), lin.precision);
+  const VectorXd change = fit.estimate - lin.about;
+  CoarseExplanation out;
+  const VectorXd left = y - x * change;
+  out.left = Eigen::Map<const MatrixXd>(left.data(), filter.states, filter.samples);
+  out.variance = filter.variance;
+  const MatrixXd& usual = log.healthy.variance;
+  const bool healthy = guess.kind == FaultKind::none || usual.size() == 0;
+  out.log_ratio = MatrixXd::Zero(filter.states, filter.samples);
+  double missing = 0.0;
+  for (int k = 0; k < filter.samples; ++k)
+    for (int i = 0; i < filter.states; ++i) {
+      if (log.keep(i, k) == 0.0) continue;
+      const double v = out.variance(i, k);
+      if (std::isnan(v)) {
+        missing += 1.0;
+      } else if (!healthy) {
+        out.log_ratio(i, k) = elementary::log(v / (std::isnan(usual(i, k)) ? 1.0 : usual(i, k)));
+      }
+    }
+  out.log_likelihood = fit.log_likelihood - 0.5 * missing - 0.5 * out.log_ratio.sum();
+  out.day = fit.estimate.head(effects);
+  out.size = fit.estimate.segment(effects, columns - effects - (how.move_onset ? 1 : 0));
+  if (how.move_onset) out.onset_step_s = fit.estimate[columns - 1];
+  out.about = at.about + smoothed(lin.steps, filter, change);
+  return out;
+}
+
+VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
+  VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
+  if (is_reading(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
+  VectorXd out = size.cwiseMax(-kMostSizes * std).cwiseMin(kMostSizes * std);
+  if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLoss);
+  if (guess.kind == FaultKind::payload_change)
+    out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->tip_mass);
+  return out;
+}
+
+/// An explanation for what cannot be integrated.
+CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
+  CoarseExplanation out;
+  const auto sizes = fault_directions(*log.model, guess.kind, guess.joint).std.size();
+  out.log_likelihood = -kImpossibleAtCoarse;
+  out.day = VectorXd::Zero(log.day.cols());
+  out.size = VectorXd::Zero(sizes + (is_reading(guess.kind) ? 1 : 0));
+  out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
+  out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
+  out.about = log.about;
+  return out;
+}
+
+}  // namespace
+
+FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int joint) {
+  const MotionLayout at = m.layout();
+  const int j = joint - 1;
+  FaultDirections out;
+  const auto make = [&](int sizes) {
+    out.direction = MatrixXd::Zero(at.count(), sizes);
+    out.std.resize(sizes);
+  };
+  if (kind == FaultKind::torque_loss || kind == FaultKind::free_swinging) {
+    make(1);
+    out.direction(at.gain(j), 0) = -1.0;
+    out.std << 0.5;
+  } else if (kind == FaultKind::friction_increase) {
+    make(2);
+    out.direction(at.viscous(j), 0) = out.direction(at.coulomb(j), 1) = 1.0;
+    // Of the usual torque at 1 rad/s or m/s, and at any speed, where the robot has no friction of its own.
+    out.std << 3.0 * m.theta[at.viscous(j)] + 0.05 * m.torque_rms[j],
+        3.0 * m.theta[at.coulomb(j)] + 0.1 * m.torque_rms[j];
+  } else if (kind == FaultKind::payload_change) {
+    make(1);
+    out.direction.col(0).head(at.base) = m.payload;
+    out.std << 0.6 * m.tip_mass;
+  } else if (kind == FaultKind::collision) {
+    make(at.joints);
+    for (int i = 0; i < at.joints; ++i) out.direction(at.force(i), i) = 1.0;
+    out.std = m.torque_rms;
+  }
+  return out;
+}
+
+VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
+  VectorXd range(2 * m.joints());
+  range << m.q_high - m.q_low, m.top_speed;
+  return (forgiven * range).cwiseAbs2();
+}
+
+double forgiven_torque(double forgiven) { return kTorqueForState * forgiven; }
+
+double usual_reading_error(const OneStepModel& model, int joint) {
+  return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
+}
+
+CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
+  Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
+  const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
+  const int late = log.samples() - from;
+  const bool reading = is_reading(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
+  if (reading && at.size.size() > 0) at.about -= at.size[0] * read_column(log, guess, from);
+  CoarseExplanation best;
+  bool any = false;
+  for (int round = 0; round < how.rounds; ++round) {
+    if (locked) {
+      at.about.row(j).tail(late).setConstant(log.read.row(j).tail(late).mean());
+      at.about.row(n + j).tail(late).setZero();
+    }
+    const Linearised lin = linearise(log, guess, at, how);
+    if (!lin.finite) break;
+    CoarseExplanation now = regressed(log, guess, at, lin, how);
+    if (locked) now.about.row(n + j).tail(late).setZero();
+    const bool holds = now.mean_square() < kHolds;
+    at.about = holds ? now.about : log.about;
+    if (reading && !holds) at.about -= now.size[0] * read_column(log, guess, from);
+    at.day = now.day;
+    at.size = now.size.size() > 0 ? within_reason(log, guess, now.size) : now.size;
+    if (!any || now.log_likelihood > best.log_likelihood) best = std::move(now);
+    any = true;
+  }
+  if (!any) return impossible(log, guess);
+  best.log_likelihood -= coarse_price(log, guess, best, from);
+  return best;
+}
+
+}  // namespace faultline

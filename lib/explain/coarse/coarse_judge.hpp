@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lib/explain/coarse/coarse_log.hpp"
+#include "lib/fault/fault_kind.hpp"
+
+namespace faultline {
+
+/// A hypothesis about a log at a coarse rate. FaultKind::none is the healthy robot.
+struct CoarseGuess {
+  FaultKind kind = FaultKind::none;
+  int joint = 0;  ///< from 1
+  double onset_s = 1e9;
+  double duration_s = 0.0;  ///< 0: to the end of the log
+  Eigen::VectorXd start;    ///< sizes to begin with; empty: none
+};
+
+/// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
+/// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each
+/// joint; empty for kinds that move nothing.
+struct FaultDirections {
+  Eigen::MatrixXd direction;  ///< numbers x sizes
+  Eigen::VectorXd std;
+};
+
+FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
+/// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
+double usual_reading_error(const OneStepModel& model, int joint);
+
+struct CoarseJudging {
+  int rounds = 1;           ///< of integration and regression in turn
+  bool move_onset = false;  ///< the onset is a further unknown
+  double forgiven = 0.0;    ///< share of each state and torque that a wrong size or onset may miss
+};
+
+/// The log explained by a guess, integrated and linearised about the trajectory that it implies in turn; the
+/// best round counts.
+CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
+
+/// Variance to add to each reading (2 joints) and standard deviation to add to a joint's torque by its size,
+/// where a share `forgiven` of each joint's range, top speed and torque may be missed.
+Eigen::VectorXd forgiven_variance(const OneStepModel& model, double forgiven);
+double forgiven_torque(double forgiven);
+
+}  // namespace faultline

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/coarse_log.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/explain/coarse/coarse_judge.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kMuchDoubt = 1.0;  // of the usual torque and of the logged one: any of it may be missing
+constexpr int kSmoothings = 4;      // of the whole log: a force as large as the torque settles
+constexpr int kHealthyRounds = 2;
+constexpr double kFirstOnset_s = 0.5;
+constexpr int kFirstOnset = 6;          // samples
+constexpr double kOutside = 0.05;       // of the healthy range by which a joint must be outside
+constexpr double kWasFast = 0.15;       // of its greatest healthy speed, before it halts
+constexpr double kHaltsIn_s = 0.06;     // within which it halts
+constexpr double kStaysFor_s = 0.30;    // for which it stays
+constexpr int kFewestStays = 4;         // samples
+constexpr double kStillShare = 0.02;    // of the joint's usual speed in this log
+constexpr double kStillNoise = 1.5;     // standard deviations of a velocity's reading
+constexpr int kFewestRepeats = 3;       // samples: a position that repeats longer says nothing by it
+constexpr double kTellingNoise = 2e-5;  // rad or m: without noise a joint at rest repeats its code
+constexpr int kFewestSamples = 16;      // of a log that anything can be said of
+
+/// The trajectory smoothed under the healthy robot, any torque in doubt. The steps are linear about the force
+/// that the trajectory asks for, too: it may be as large as the torque.
+Trajectory smoothed_log(const CoarseLog& log) {
+  const OneStepModel& m = *log.model;
+  const int n = m.joints(), force = m.layout().force(0);
+  const MotionLaw law(m.body, log.numbers);
+  Trajectory about = log.read;
+  const auto torque = log.log.tau.topRows(log.samples() - 1).transpose();
+  const MatrixXd doubt =
+      (log.force_std.cwiseAbs2() + kMuchDoubt * kMuchDoubt * torque.cwiseAbs2()).colwise() +
+      kMuchDoubt * kMuchDoubt * m.torque_rms.cwiseAbs2();
+  MatrixXd missing = MatrixXd::Zero(n, log.samples() - 1);
+  FilterInput in;
+  in.column.resize(2 * n, 0);
+  in.variance = log.variance;
+  for (int round = 0; round < kSmoothings; ++round) {
+    LinearSteps steps = linear_steps(log.log, about, m.setting, {.usual = &law, .force = &missing});
+    if (!steps.miss.allFinite() || !steps.slope.allFinite())
+      throw Error(ErrorCode::input, "", "moves so that the robot cannot be integrated through it");
+    for (int k = 0; k < steps.intervals; ++k)
+      steps.miss.col(k) -= steps.number_of(k).middleCols(force, n) * missing.col(k);
+    in.process = process_covariance(steps, m.layout(), doubt.cwiseSqrt());
+    in.reading = log.read - about;
+    const Trajectory change = smoothed(steps, innovations(steps, in), VectorXd(0));
+    for (int k = 0; k < steps.intervals; ++k) {
+      const MatrixXd by_force = steps.number_of(k).middleCols(force, n);
+      const VectorXd off = change.col(k + 1) - steps.slope_of(k) * change.col(k) - steps.miss.col(k);
+      missing.col(k) = by_force.colPivHouseholderQr().solve(off);
+    }
+    about += change;
+  }
+  return about;
+}
+
+/// Whether joint `j` came in fast and stays, from sample k on within a stretch outside its range.
+bool halts_at(const CoarseLog& log, int j, double side, int k, double still) {
+  const int before = std::max(1, static_cast<int>(kHaltsIn_s / log.period_s()));
+  const int from = std::max(0, k - before);
+  const auto speed = log.about.row(log.joints() + j);
+  return speed[k] * side < still &&
+         (side * speed.segment(from, k - from + 1)).maxCoeff() > kWasFast * log.model->top_speed[j];
+}
+
+/// Marks the intervals from a halt to the end of the stretch `begin` .. `end` outside the range.
+void mark_stop(CoarseLog& log, int j, double side, int begin, int end) {
+  const auto speed = log.about.row(log.joints() + j);
+  const double still = kStillShare * std::sqrt(speed.squaredNorm() / log.samples()) +
+                       kStillNoise * std::sqrt(log.model->reading_variance[log.joints() + j]);
+  const int stays = std::max(kFewestStays, static_cast<int>(kStaysFor_s / log.period_s()));
+  int first = -1;
+  bool stayed = false;
+  for (int k = begin; k < end && !stayed; ++k) {
+    if (first < 0 && halts_at(log, j, side, k, still)) first = k;
+    if (first < 0) continue;  // it may bounce before it stays
+    stayed = k < end - stays && speed.segment(k, stays).cwiseAbs().mean() < 2.0 * still;
+  }
+  if (!stayed) return;
+  const int lead = std::max(2, static_cast<int>(kHaltsIn_s / log.period_s()));
+  const int from = std::max(0, first - lead), to = std::min(log.samples() - 1, end + 1);
+  log.stop.row(j).segment(from, to - from).setOnes();
+}
+
+/// Where an end stop holds a joint: outside the range of the healthy logs it halted abruptly and stays.
+void find_stops(CoarseLog& log) {
+  const OneStepModel& m = *log.model;
+  log.stop = MatrixXd::Zero(log.joints(), log.samples() - 1);
+  for (int j = 0; j < log.joints(); ++j) {
+    const double margin = kOutside * (m.q_high[j] - m.q_low[j]);
+    const auto side = [&](int k) {
+      const double q = log.about(j, k);
+      return q > m.q_high[j] + margin ? 1 : q < m.q_low[j] - margin ? -1 : 0;
+    };
+    for (int k = 0; k < log.samples();) {
+      int end = k + 1;
+      while (end < log.samples() && side(end) == side(k)) ++end;
+      if (side(k) != 0) mark_stop(log, j, side(k), k, end);
+      k = end;
+    }
+  }
+  log.keep = MatrixXd::Ones(log.read.rows(), log.samples());
+  log.keep.topRightCorner(log.joints(), log.samples() - 1) -= log.stop;
+  log.keep.bottomRightCorner(log.joints(), log.samples() - 1) -= log.stop;
+}
+
+}  // namespace
+
+int CoarseLog::first_onset() const {
+  return static_cast<int>(std::ceil(std::max(kFirstOnset_s, kFirstOnset * period_s()) / period_s()));
+}
+
+CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
+  if (log.rows() < kFewestSamples) throw Error(ErrorCode::input, "", "has too few rows to be explained");
+  CoarseLog out;
+  out.log = std::move(log);
+  out.model = &model;
+  out.numbers = model.numbers();
+  out.day = model.day_directions();
+  out.read = readings(out.log);
+  out.variance = model.variance_of_readings(out.log);
+  out.force_std = model.force_std(out.log, out.read);
+  out.about = smoothed_log(out);
+  out.force_std = model.force_std(out.log, out.about);
+  find_stops(out);
+  const MotionLaw law(model.body, out.numbers);
+  out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});
+  out.healthy = judge_coarse(out, {}, {.rounds = kHealthyRounds});
+  return out;
+}
+
+bool repeats_tell(const OneStepModel& model, int joint) {
+  return model.longest_repeat[joint] < kFewestRepeats &&
+         model.reading_variance[joint] > kTellingNoise * kTellingNoise;
+}
+
+}  // namespace faultline

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "lib/balance/one_step/innovations.hpp"
+#include "lib/balance/one_step/one_step_model.hpp"
+
+namespace faultline {
+
+/// A log explained at a coarse rate, as far as it goes on: what the filter and the regression leave of it.
+struct CoarseExplanation {
+  double log_likelihood = 0.0;  ///< marginal, up to what all hypotheses of the log share
+  Eigen::VectorXd day;          ///< effects of the day, see OneStepModel::day_variance
+  Eigen::VectorXd size;         ///< of the hypothesis
+  double onset_step_s = 0.0;    ///< by which the onset should move; only where it was asked for
+  Eigen::MatrixXd left;         ///< 2 joints x samples: innovations left over, in standard deviations
+  Eigen::MatrixXd variance;     ///< of each innovation; NaN where there was no reading
+  Eigen::MatrixXd log_ratio;    ///< ln of `variance` over that of the healthy robot; 0 where there is none
+  Trajectory about;             ///< smoothed
+
+  double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }
+};
+
+/// One log against one model at a coarse rate: what all hypotheses share.
+struct CoarseLog {
+  UniformLog log;
+  const OneStepModel* model = nullptr;
+  Eigen::VectorXd numbers;    ///< of the healthy robot
+  Eigen::MatrixXd day;        ///< directions of the day's effects in them
+  Trajectory read;            ///< what was measured
+  Trajectory about;           ///< smoothed, with much doubt about every torque
+  LinearSteps healthy_steps;  ///< about it
+  Eigen::MatrixXd variance;   ///< of the readings
+  Eigen::MatrixXd force_std;  ///< joints x intervals
+  Eigen::MatrixXd stop;       ///< joints x intervals: 1 where an end stop holds the joint
+  Eigen::MatrixXd keep;       ///< 2 joints x samples: 0 where an end stop makes the reading nobody's evidence
+  CoarseExplanation healthy;
+
+  int joints() const { return model->joints(); }
+  int samples() const { return log.rows(); }
+  double period_s() const { return log.period_s; }
+  double time_s(int k) const { return log.time_s(k); }
+  double end_s() const { return log.time_s(samples() - 1); }
+  int first_onset() const;  ///< sample before which no onset is looked for
+};
+
+/// The model must outlive it.
+CoarseLog coarse_log(UniformLog log, const OneStepModel& model);
+
+/// Whether repeated codes of a position say anything: in healthy logs it hardly repeats, for its noise.
+bool repeats_tell(const OneStepModel& model, int joint);
+
+}  // namespace faultline

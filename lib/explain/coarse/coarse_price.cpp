@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/coarse_price.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kNoSuchSize = 1e9;      // nats
+constexpr double kAboveAll = 2e4;        // nats for each share of the torque lost beyond 1.2
+constexpr double kCodesMove = 1e12;      // nats of a stuck encoder whose codes do not repeat
+constexpr double kSilentJoint = 3.0;     // nats of a joint that does not move or does not read
+constexpr double kUnreadSample = 0.7;    // nats a sample that a stuck encoder explains away
+constexpr double kForcedSample = 1.2;    // nats a sample that an unknown force explains
+constexpr double kRepeatedSample = 2.0;  // nats a repeated code of a joint that is said to be locked
+constexpr double kRepeats = 0.98;        // share of codes that repeat where an encoder is stuck
+constexpr int kMostRepeats = 500;        // samples that count
+
+/// Share of the samples from `from` on that repeat the position before.
+double share_repeated(const CoarseLog& log, int j, int from) {
+  const int first = std::min(from + 1, log.samples() - 2);
+  int same = 0;
+  for (int k = first + 1; k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
+  return log.samples() - from > 3 ? static_cast<double>(same) / (log.samples() - 1 - first) : 0.0;
+}
+
+double price_of_friction(const CoarseLog& log, int j, const CoarseExplanation& fit, int from) {
+  double power = 0.0;  // that the added friction takes
+  for (int k = from; k < log.samples(); ++k) {
+    const double v = log.about(log.joints() + j, k);
+    power += (fit.size[0] * v + fit.size[1] * elementary::tanh(v / log.model->body.friction_width()[j])) * v;
+  }
+  return log.samples() - from < 2 || power <= 0.0 ? kNoSuchSize : 0.0;
+}
+
+}  // namespace
+
+double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const CoarseExplanation& fit, int from) {
+  const int j = guess.joint - 1, late = log.samples() - from;
+  switch (guess.kind) {
+    case FaultKind::torque_loss:
+      return (fit.size[0] < 0.0 ? kNoSuchSize : 0.0) + kAboveAll * std::max(0.0, fit.size[0] - 1.2);
+    case FaultKind::payload_change:
+      return fit.size[0] < 0.0 ? kNoSuchSize : 0.0;
+    case FaultKind::friction_increase:
+      return price_of_friction(log, j, fit, from);
+    case FaultKind::stuck_encoder: {
+      if (share_repeated(log, j, from) < kRepeats) return kCodesMove;
+      const double kept = log.keep.row(j).tail(late).sum();
+      const double told = repeats_tell(*log.model, j) ? std::min(late, kMostRepeats) *
+                                                            elementary::log(1.0 / log.model->repeat_share[j])
+                                                      : 0.0;
+      return kSilentJoint + kUnreadSample * kept - told;
+    }
+    case FaultKind::locked:
+      return kSilentJoint + (share_repeated(log, j, from) > kRepeats && repeats_tell(*log.model, j)
+                                 ? kRepeatedSample * late
+                                 : 0.0);
+    case FaultKind::unknown:
+      return kSilentJoint + kForcedSample * late;
+    default:
+      return 0.0;
+  }
+}
+
+}  // namespace faultline

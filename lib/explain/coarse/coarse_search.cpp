@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/coarse_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::array<double, 3> kBlow_s = {0.05, 0.15, 0.4};  // lengths of a collision that are tried
+constexpr double kOnsetStep_s = 0.05;                         // between two onsets at least
+constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
+constexpr double kWorthASecond = 2.0;                         // nats
+constexpr double kStrikes = 10.0;  // mean square of one sample's innovations that no noise has
+constexpr std::size_t kOnsetsTried = 3;
+constexpr double kWrongWay = -9.0;  // nats of a loss or payload below 0
+
+/// Columns of one kind and joint.
+struct Group {
+  FaultKind kind = FaultKind::none;
+  int joint = 0;
+  double duration_s = 0.0;
+  std::vector<int> column;
+  VectorXd std;
+};
+
+/// All columns that are tried: those of numbers (numbers x columns), then readings.
+struct Catalogue {
+  MatrixXd direction;            ///< numbers x columns; zero for readings
+  std::vector<int> length;       ///< by column, intervals; 0: to the end of the log
+  std::vector<int> bias, drift;  ///< columns by joint
+  std::vector<Group> groups;
+};
+
+Catalogue catalogue(const CoarseLog& log) {
+  const OneStepModel& m = *log.model;
+  const int n = log.joints(), numbers = m.layout().count();
+  Catalogue out;
+  out.direction = MatrixXd::Zero(numbers, 8 * n + 1);
+  int next = 0;
+  const auto add = [&](FaultKind kind, int joint, double duration) {
+    const FaultDirections fault = fault_directions(m, kind, joint);
+    Group group{kind, joint, duration, {}, fault.std};
+    for (int i = 0; i < fault.std.size(); ++i) {
+      out.direction.col(next) = fault.direction.col(i);
+      out.length.push_back(duration > 0.0 ? static_cast<int>(std::lround(duration / log.period_s())) : 0);
+      group.column.push_back(next++);
+    }
+    out.groups.push_back(std::move(group));
+  };
+  for (int j = 1; j <= n; ++j) add(FaultKind::torque_loss, j, 0.0);
+  for (int j = 1; j <= n; ++j) add(FaultKind::friction_increase, j, 0.0);
+  add(FaultKind::payload_change, n, 0.0);
+  for (const double length : kBlow_s)
+    add(FaultKind::collision, n, std::max(1.0, std::round(length / log.period_s())) * log.period_s());
+  for (const FaultKind kind : {FaultKind::sensor_bias, FaultKind::sensor_drift})
+    for (int j = 1; j <= n; ++j) {
+      (kind == FaultKind::sensor_bias ? out.bias : out.drift).push_back(next);
+      out.length.push_back(0);
+      out.groups.push_back({kind, j, 0.0, {next++}, VectorXd::Constant(1, usual_reading_error(m, j - 1))});
+    }
+  return out;
+}
+
+/// The healthy filter of the search with the regression of the day's effects.
+struct Base {
+  Innovations filter;
+  MatrixXd day;         ///< white columns of the day: rows x effects
+  MatrixXd covariance;  ///< of its effects
+  VectorXd left;        ///< white rows left over
+};
+
+Base base_of(const CoarseLog& log) {
+  const OneStepModel& m = *log.model;
+  const int n = log.joints();
+  FilterInput in;
+  in.column = log.healthy_steps.columns(log.day, MatrixXd(log.day.rows(), 0));
+  MatrixXd std = log.force_std;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < std.cols(); ++k)
+      std(i, k) = log.stop(i, k) > 0.0
+                      ? 30.0 * m.torque_rms[i]
+                      : std::hypot(std(i, k), forgiven_torque(kForgiven) * log.log.tau(k, i));
+  in.process = process_covariance(log.healthy_steps, m.layout(), std);
+  in.reading = log.read - log.about;
+  in.variance = log.variance.colwise() + forgiven_variance(m, kForgiven);
+  Base out;
+  out.filter = innovations(log.healthy_steps, in);
+  const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
+  out.day = keep.asDiagonal() * out.filter.white.rightCols(log.day.cols());
+  const VectorXd y = keep.cwiseProduct(out.filter.white.col(0));
+  MatrixXd a = out.day.transpose() * out.day;
+  a.diagonal() += m.day_variance.cwiseInverse();
+  out.covariance = a.llt().solve(MatrixXd::Identity(a.rows(), a.cols()));
+  out.left = y - out.day * (out.covariance * (out.day.transpose() * y));
+  return out;
+}
+
+/// Sums of all columns from one onset on, the day's effects taken away.
+struct OnsetSums {
+  MatrixXd square;
+  VectorXd vector;
+};
+
+OnsetSums sums_from(const CoarseLog& log, const Base& base, const Catalogue& all, const MatrixXd& column,
+                    int from) {
+  const int width = static_cast<int>(all.length.size()), states = log.healthy_steps.states;
+  const int rows = states * (log.samples() - from);
+  MatrixXd pulse = MatrixXd::Zero(states, width * log.healthy_steps.intervals);
+  MatrixXd read = MatrixXd::Zero(states, width * log.samples());
+  for (int k = from; k < log.healthy_steps.intervals; ++k)
+    for (int c = 0; c < width; ++c)
+      if (all.length[c] == 0 || k < from + all.length[c])
+        pulse.col(k * width + c) = column.col(k * width + c);
+  for (int k = from; k < log.samples(); ++k)
+    for (int j = 0; j < log.joints(); ++j) {
+      read(j, k * width + all.bias[j]) = 1.0;
+      read(j, k * width + all.drift[j]) = (k - from) * log.period_s();
+      read(log.joints() + j, k * width + all.drift[j]) = 1.0;
+    }
+  const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
+  const MatrixXd x = keep.tail(rows).asDiagonal() *
+                     white_columns(log.healthy_steps, base.filter, pulse, read, width, from).bottomRows(rows);
+  const MatrixXd cross = x.transpose() * base.day.bottomRows(rows);
+  return {x.transpose() * x - cross * base.covariance * cross.transpose(),
+          x.transpose() * base.left.tail(rows)};
+}
+
+CoarseCandidate candidate(const CoarseLog& log, const Group& group, const OnsetSums& sums, int sample) {
+  MatrixXd a = sums.square(group.column, group.column);
+  const VectorXd u = sums.vector(group.column);
+  a.diagonal() += group.std.cwiseAbs2().cwiseInverse();
+  const Eigen::LLT<MatrixXd> factor(a);
+  CoarseCandidate out;
+  out.guess = {group.kind, group.joint, log.time_s(sample), group.duration_s, factor.solve(u)};
+  out.sample = sample;
+  out.score = 0.5 * u.dot(out.guess.start);
+  for (int i = 0; i < u.size(); ++i)
+    out.score -= elementary::log(factor.matrixLLT()(i, i)) + elementary::log(group.std[i]);
+  const bool positive = group.kind == FaultKind::torque_loss || group.kind == FaultKind::payload_change;
+  if (positive && out.guess.start[0] < 0.0) out.score = kWrongWay;
+  return out;
+}
+
+bool better(const CoarseCandidate& a, const CoarseCandidate& b) { return a.score > b.score; }
+
+/// The two best of a group that are apart.
+void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<CoarseCandidate>& out) {
+  std::stable_sort(group.begin(), group.end(), better);
+  const CoarseCandidate* first = nullptr;
+  for (const CoarseCandidate& c : group) {
+    if (first == nullptr) {
+      first = &c;
+      out.push_back(c);
+    } else if (c.score >= kWorthASecond && std::abs(c.sample - first->sample) >= apart) {
+      out.push_back(c);
+      return;
+    }
+  }
+}
+
+/// Onsets of the best candidates, before them the first sample that no noise explains.
+std::vector<int> common_samples(const CoarseLog& log, const Base& base,
+                                const std::vector<CoarseCandidate>& all, int step) {
+  std::vector<int> out;
+  for (const CoarseCandidate& c : all) {
+    const bool apart =
+        std::all_of(out.begin(), out.end(), [&](int k) { return std::abs(c.sample - k) > 2 * step; });
+    if (apart) out.push_back(c.sample);
+    if (out.size() == kOnsetsTried) break;
+  }
+  const int states = log.healthy_steps.states;
+  for (int k = log.first_onset(); k < log.samples(); ++k) {
+    if (base.left.segment(k * states, states).squaredNorm() <= kStrikes * states) continue;
+    const bool apart = std::all_of(out.begin(), out.end(), [&](int o) { return std::abs(k - 1 - o) > 1; });
+    if (apart) out.insert(out.begin(), std::max(log.first_onset(), k - 1));
+    break;
+  }
+  return out;
+}
+
+}  // namespace
+
+CoarseSearch search_coarse(const CoarseLog& log) {
+  const Catalogue all = catalogue(log);
+  const Base base = base_of(log);
+  const MatrixXd column = log.healthy_steps.columns(all.direction, MatrixXd(all.direction.rows(), 0));
+  const int step = std::max(1, static_cast<int>(std::lround(kOnsetStep_s / log.period_s())));
+  std::vector<std::vector<CoarseCandidate>> found(all.groups.size());
+  for (int k = log.first_onset(); k < log.samples() - 3; k += step) {
+    const OnsetSums sums = sums_from(log, base, all, column, k);
+    for (std::size_t g = 0; g < all.groups.size(); ++g)
+      found[g].push_back(candidate(log, all.groups[g], sums, k));
+  }
+  CoarseSearch out;
+  for (std::vector<CoarseCandidate>& group : found) keep_best(std::move(group), 4 * step, out.candidates);
+  std::stable_sort(out.candidates.begin(), out.candidates.end(), better);
+  out.onsets = common_samples(log, base, out.candidates, step);
+  return out;
+}
+
+}  // namespace faultline

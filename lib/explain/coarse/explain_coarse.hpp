@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/explain/coarse/coarse_log.hpp"
+#include "lib/explain/explain.hpp"
+
+namespace faultline {
+
+/// What a log at a coarse rate says: the best hypothesis of each kind and joint, best first.
+LogExplanation explain_coarse(const CoarseLog& log);
+
+/// When the evidence of `hypothesis` from its onset on passes `threshold` (nats).
+double coarse_alarm_time(const CoarseLog& log, const Hypothesis& hypothesis, double threshold);
+
+}  // namespace faultline

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "lib/explain/explain.hpp"
+
+namespace faultline {
+
+/// Evidence in nats that a hypothesis of each kind needs to be believed.
+struct EvidenceLimits {
+  std::array<double, kFaultKinds> nats{};
+
+  double of(FaultKind kind) const { return nats[static_cast<std::size_t>(kind)]; }
+};
+
+/// Limits from healthy logs, each explained by a model that was learned from the others: twice the evidence
+/// that any of them gave for a kind, at least that of any kind, at least kLeastEvidence.
+EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
+
+inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
+
+/// The fault of a log.
+struct ExplainedFault {
+  FaultLabel label;
+  double onset_s = 0.0;
+  double alarm_s = 0.0;   ///< earliest sample at which the evidence from the onset on passes the limit
+  double evidence = 0.0;  ///< nats
+  Eigen::VectorXd size;
+  std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
+};
+
+/// When the evidence of a hypothesis, and of a change of any form, passes a limit in nats. Without
+/// `of_free_form` an unknown fault has the onset and the alarm of the hypothesis that comes nearest.
+struct AlarmTimes {
+  std::function<double(const Hypothesis&, double)> of;
+  std::function<double(double)> of_free_form{};
+};
+
+/// Those of rows of 50 Hz and more.
+AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& explanation);
+
+/// The fault that explains the log best, or `unknown` where the best explanation leaves much more than noise.
+/// Empty when no hypothesis passes its limit.
+std::optional<ExplainedFault> decide_log(const LogExplanation& explanation, const EvidenceLimits& limits,
+                                         const AlarmTimes& alarms);
+
+}  // namespace faultline

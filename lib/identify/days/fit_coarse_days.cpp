@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/days/fit_coarse_days.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/balance/balance_model.hpp"
+#include "lib/balance/one_step/innovations.hpp"
+#include "lib/balance/regress.hpp"
+#include "lib/balance/rows.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/identify/days/coarse_start.hpp"
+#include "lib/identify/days/payload_columns.hpp"
+#include "lib/identify/physical.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
+constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
+constexpr int kDoubtRounds = 7;
+constexpr int kNoiseFrom = 2;           // round from which the readings' noise is learned
+constexpr double kLeastReading = 1e-5;  // rad, m, rad/s or m/s: rounding of what a log holds
+constexpr double kFree = 100.0;         // SI units: prior standard deviation of a parameter's step
+constexpr double kKeptInertia = 0.3;    // of the inertia before: what one step may leave of it
+constexpr int kStepHalvings = 8;        // of a step that leaves less
+constexpr int kInertiaRows = 40;        // of each log that the inertia is looked at in
+constexpr double kDayInertia = 1e-3;    // relative: how much masses differ by day at least
+constexpr double kDayFriction = 0.02;   // relative
+constexpr double kDayForce = 1e-3;      // of the usual torque
+constexpr double kSpeedQuantile = 0.995;
+
+/// The columns of a space that links have a part in: a rotor's inertia is not told at coarse rates.
+std::vector<int> of_links(const RigidColumns& rigid) {
+  std::vector<int> out;
+  for (int p = 0; p < rigid.base(); ++p)
+    if (!is_rotor(rigid, p)) out.push_back(p);
+  return out;
+}
+
+/// Ranges, speeds, torques and repeats of the healthy logs.
+void take_looks(const std::vector<UniformLog>& logs, OneStepModel& m) {
+  const int n = logs.front().joints();
+  m.q_low = VectorXd::Constant(n, 1e300);
+  m.q_high = -m.q_low;
+  m.top_speed = m.torque_rms = m.repeat_share = VectorXd::Zero(n);
+  m.longest_repeat = Eigen::VectorXi::Zero(n);
+  double rows = 0.0;
+  for (const UniformLog& log : logs) {
+    m.q_low = m.q_low.cwiseMin(log.q.colwise().minCoeff().transpose());
+    m.q_high = m.q_high.cwiseMax(log.q.colwise().maxCoeff().transpose());
+    m.torque_rms += log.tau.cwiseAbs2().colwise().sum().transpose();
+    rows += log.rows();
+    const Trajectory x = readings(log);
+    for (int j = 0; j < n; ++j) {
+      std::vector<double> speed;
+      for (int k = 0; k < log.rows(); ++k) speed.push_back(std::abs(x(n + j, k)));
+      m.top_speed[j] = std::max(m.top_speed[j], lower_quantile(std::move(speed), kSpeedQuantile));
+      int run = 0, same = 0;
+      for (int k = 1; k < log.rows(); ++k) {
+        run = log.q(k, j) == log.q(k - 1, j) ? run + 1 : 0;
+        same += run > 0;
+        m.longest_repeat[j] = std::max(m.longest_repeat[j], run);
+      }
+      m.repeat_share[j] += static_cast<double>(same) / (log.rows() - 1) / static_cast<double>(logs.size());
+    }
+  }
+  m.repeat_share = m.repeat_share.cwiseMax(1e-3).cwiseMin(0.999);
+  m.torque_rms = (m.torque_rms / rows).cwiseSqrt().cwiseMax(1e-9);
+}
+
+/// Noise of the readings before any robot is known: their fourth differences.
+VectorXd first_reading_variance(const std::vector<UniformLog>& logs) {
+  const int n = logs.front().joints();
+  VectorXd out(2 * n);
+  for (int i = 0; i < 2 * n; ++i) {
+    std::vector<double> std;
+    for (const UniformLog& log : logs) std.push_back(sample_noise(readings(log).row(i).transpose())[0]);
+    out[i] = std::pow(std::max(upper_median(std::move(std)), kLeastReading), 2);
+  }
+  return out;
+}
+
+/// Whether the inertia matrix keeps at least `kKeptInertia` of what it was in any direction, everywhere the
+/// logs were.
+bool keeps_inertia(const std::vector<UniformLog>& logs, const OneStepModel& m, const VectorXd& theta) {
+  const int base = m.layout().base;
+  const RigidColumns& rigid = m.body.rigid();
+  const Chain<double> before = chain_of(rigid, m.theta.head(base)), after = chain_of(rigid, theta.head(base));
+  for (const UniformLog& log : logs) {
+    const int step = std::max(1, log.rows() / kInertiaRows);
+    for (int k = 0; k < log.rows(); k += step) {
+      const JointVector<double> q = log.q.row(k).transpose();
+      const JointMatrix<double> rest = inertia_matrix(after, q) - kKeptInertia * inertia_matrix(before, q);
+      if (rest.llt().info() != Eigen::Success) return false;
+    }
+  }
+  return true;
+}
+
+/// The robot after a step, shortened until its inertia stays one.
+VectorXd stepped(const std::vector<UniformLog>& logs, const OneStepModel& m, const VectorXd& step) {
+  const int friction = 2 * m.joints();
+  double share = 1.0;
+  for (int k = 0; k <= kStepHalvings; ++k, share *= 0.5) {
+    VectorXd theta = m.theta + share * step;
+    theta.tail(friction) = theta.tail(friction).cwiseMax(0.0);
+    if (keeps_inertia(logs, m, theta)) return theta;
+  }
+  return m.theta;
+}
+
+/// One round over all logs: sums of the regression, trajectories smoothed anew, squares of what these leave.
+struct CoarseRound {
+  NormalEquations sums;
+  VectorXd square;  ///< by reading
+  double rows = 0.0;
+};
+
+void go_through(const UniformLog& log, const OneStepModel& m, double doubt, Trajectory& about,
+                CoarseRound& round) {
+  const MotionLaw law(m.body, m.numbers());
+  const LinearSteps steps = linear_steps(log, about, m.setting, {.usual = &law});
+  const MotionLayout at = m.layout();
+  FilterInput in;
+  in.column = steps.columns(MatrixXd::Identity(at.count(), at.learned()), MatrixXd(at.count(), 0));
+  const MatrixXd wide = (doubt * m.torque_rms).replicate(1, steps.intervals);
+  in.process =
+      process_covariance(steps, at, (m.force_std(log, about).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
+  in.reading = readings(log) - about;
+  in.variance = m.variance_of_readings(log);
+  const Innovations filter = innovations(steps, in);
+  const NormalEquations sums = normal_equations(filter.white.rightCols(at.learned()), filter.white.col(0));
+  round.sums.matrix += sums.matrix;
+  round.sums.vector += sums.vector;
+  MatrixXd variance;
+  about += smoothed(steps, filter, VectorXd::Zero(at.learned()), &variance);
+  round.square += ((readings(log) - about).cwiseAbs2() + variance.cwiseMax(0.0)).rowwise().sum();
+  round.rows += log.rows();
+}
+
+/// Kilograms that explain the last joint's torque best.
+double carried_by_last(const std::vector<UniformLog>& logs, const OneStepModel& m) {
+  const int n = m.joints(), base = m.layout().base;
+  double num = 0.0, den = 0.0;
+  MatrixXd torque(n, base);
+  for (const UniformLog& log : logs) {
+    const Trajectory x = readings(log);
+    for (int k = 0; k + 1 < log.rows(); ++k) {
+      const JointVector<double> ddq = (x.col(k + 1) - x.col(k)).tail(n) / log.period_s;
+      m.body.torque_by_parameter(x.col(k).head(n), x.col(k).tail(n), ddq, torque);
+      const double tip = torque.row(n - 1).dot(m.payload);
+      num += tip * torque.row(n - 1).dot(m.theta.head(base));
+      den += tip * tip;
+    }
+  }
+  return den > 0.0 ? std::abs(num / den) : 1.0;
+}
+
+/// The space with the lengths that base parameters and known facts settle: of a payload's place.
+ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, const std::vector<int>& kept,
+                                    const OneStepModel& m, const MatrixXd& covariance) {
+  BaseEstimate base;
+  const int count = space.count();
+  base.estimate = VectorXd::Zero(count);
+  base.covariance = 1e-12 * MatrixXd::Identity(count, count);
+  base.usable.assign(space.rigid(), false);
+  for (std::size_t a = 0; a < kept.size(); ++a) {
+    base.estimate[kept[a]] = m.theta[static_cast<Eigen::Index>(a)];
+    base.usable[kept[a]] = true;
+    for (std::size_t b = 0; b < kept.size(); ++b)
+      base.covariance(kept[a], kept[b]) =
+          covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  }
+  const PhysicalFit physical = physical_parameters(robot, space, std::span(&base, 1));
+  for (std::size_t i = 0; i < space.chain.length.size() && i < physical.lengths.size(); ++i)
+    if (std::isfinite(physical.lengths[i]) && physical.lengths[i] > 0.0)
+      space.chain.length[i] = physical.lengths[i];
+  return space;
+}
+
+std::vector<UniformLog> read_uniform(std::span<LogSource* const> logs) {
+  std::vector<double> periods;
+  for (LogSource* log : logs) {
+    log->rewind();
+    const Log all = read_all(*log);
+    for (int k = 1; k < all.rows(); ++k) periods.push_back(all.time[k] - all.time[k - 1]);
+  }
+  if (periods.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
+  const double period = std::round(upper_median(std::move(periods)) * 1e6) * 1e-6;
+  std::vector<UniformLog> out;
+  for (LogSource* log : logs) {
+    log->rewind();
+    out.push_back(uniform_log(*log, period));
+  }
+  return out;
+}
+
+}  // namespace
+
+OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& robot,
+                             const ParameterSpace& space, const CoarseFitOptions& options) {
+  const std::vector<UniformLog> logs = read_uniform(sources);
+  OneStepModel m;
+  RigidColumns rigid{space.chain, space.lift};
+  const std::vector<int> kept = of_links(rigid);
+  rigid.lift = space.lift(Eigen::all, kept).eval();
+  m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
+  m.setting.period_s = logs.front().period_s;
+  m.setting.torque_is_held = options.torque_is_held;
+  take_looks(logs, m);
+  m.reading_variance = first_reading_variance(logs);
+  m.theta = coarse_start(logs, m);
+  const MotionLayout at = m.layout();
+  std::vector<Trajectory> about;
+  for (const UniformLog& log : logs) about.push_back(readings(log));
+  const VectorXd precision = VectorXd::Constant(at.learned(), 1.0 / (kFree * kFree));
+  MatrixXd covariance;
+  for (int it = 0; it < options.rounds; ++it) {
+    const double doubt = it < kDoubtRounds ? kFirstDoubt * std::ldexp(1.0, -it) : 0.0;
+    CoarseRound round;
+    round.sums.matrix = MatrixXd::Zero(at.learned(), at.learned());
+    round.sums.vector = VectorXd::Zero(at.learned());
+    round.square = VectorXd::Zero(2 * at.joints);
+    for (std::size_t d = 0; d < logs.size(); ++d) go_through(logs[d], m, doubt, about[d], round);
+    const Regression fit = regress(round.sums, precision);
+    covariance = fit.covariance();
+    m.theta = stepped(logs, m, fit.estimate);
+    if (it >= kNoiseFrom)
+      m.reading_variance = (round.square / round.rows).cwiseMax(kLeastReading * kLeastReading);
+  }
+  m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, at.joints - 1);
+  m.tip_mass = carried_by_last(logs, m);
+  m.day_variance.resize(at.base + 2 * at.joints);
+  for (int p = 0; p < at.base; ++p)
+    m.day_variance[p] =
+        9.0 * covariance(p, p) / std::max(std::pow(m.theta[p], 2), 1e-12) + kDayInertia * kDayInertia;
+  m.day_variance.segment(at.base, at.joints).setConstant(kDayFriction * kDayFriction);
+  m.day_variance.tail(at.joints) = (kDayForce * m.torque_rms).cwiseAbs2();
+  return m;
+}
+
+}  // namespace faultline

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "lib/balance/one_step/one_step_model.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/log/log_source.hpp"
+
+namespace faultline {
+
+struct CoarseFitOptions {
+  int rounds = 12;  ///< of Gauss-Newton steps, smoothed trajectories and noise in turn
+  bool torque_is_held = false;
+};
+
+/// The robot and the noise of its readings from healthy logs of one coarse rate, without a derivative: the
+/// parameters that make the innovations of the one-step prediction smallest, about trajectories that are
+/// smoothed in turn, and the noise that the smoothed trajectories leave (expectation and maximisation).
+/// `robot` says which lengths are known, `space` gives base parameters.
+OneStepModel fit_coarse_days(std::span<LogSource* const> logs, const Robot& robot,
+                             const ParameterSpace& space, const CoarseFitOptions& options = {});
+
+}  // namespace faultline

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/days/fit_days.hpp"
+
+#include <cmath>
+
+#include "lib/core/error.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/identify/days/day_variance.hpp"
+#include "lib/identify/days/draft_rows.hpp"
+#include "lib/identify/days/healthy_looks.hpp"
+#include "lib/identify/days/mixed_effects.hpp"
+#include "lib/identify/days/payload_columns.hpp"
+#include "lib/identify/days/refine_terms.hpp"
+#include "lib/identify/days/work_pieces.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
+constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
+constexpr double kPeriodGrid = 1e-6;  // s to which the sample period is rounded
+// Rounds of the fit from which something more is looked for: what comes later needs what came before.
+constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
+constexpr int kWidthsAt[] = {3, 6};
+
+std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
+  std::vector<double> periods;
+  for (LogSource* log : logs) {
+    log->rewind();
+    const Log all = read_all(*log);
+    for (int k = 1; k < all.rows(); ++k) periods.push_back(all.time[k] - all.time[k - 1]);
+  }
+  if (periods.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
+  const double period = std::round(upper_median(std::move(periods)) / kPeriodGrid) * kPeriodGrid;
+  std::vector<UniformLog> out;
+  for (LogSource* log : logs) {
+    log->rewind();
+    out.push_back(uniform_log(*log, period));
+  }
+  return out;
+}
+
+/// Rows, setting and a first fit of the rigid robot.
+DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
+                     const DayFitOptions& options) {
+  std::vector<UniformLog> uniform = uniform_logs(logs);
+  DayDraft draft;
+  BalanceModel& m = draft.model;
+  m.rigid = {space.chain, space.lift};
+  m.payload = payload_columns(space);
+  const double usual = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
+  const double kernel = options.kernel_s > 0.0 ? options.kernel_s : usual;
+  m.setting = draft_setting(uniform, kernel, options.row_s > 0.0 ? options.row_s : kRowKernels * kernel);
+  m.setting.torque_is_held = options.torque_is_held;
+  m.setting = with_chosen_lag_and_widths(uniform, m.rigid, m.setting);
+  for (UniformLog& log : uniform) draft.days.push_back({.log = std::move(log)});
+  m = with_looks(draft.days, std::move(m));
+  draft = with_rows(std::move(draft));
+  std::vector<BalanceRows> rows;
+  for (const HealthyDay& day : draft.days) rows.push_back(day.rows);
+  draft.used = rigid_columns_used(m.rigid, m.layout());
+  draft.refused.assign(draft.used.size(), false);
+  m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
+  for (int j = 0; j < m.joints() && options.springs; ++j)
+    draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
+  return draft;
+}
+
+/// The draft with what is not linear, as far as this round may look for it, and rows to match.
+DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& options) {
+  if (round == kWidthsAt[0] || round == kWidthsAt[1]) draft = with_refined_widths(std::move(draft));
+  if (round == kRipplesAt && options.ripples) draft = with_ripples(std::move(draft));
+  if (round >= kSpringsFrom && options.springs) draft.model = with_compliance(std::move(draft.model));
+  draft = with_rotors(std::move(draft), round >= kRotorsFrom);
+  if (round <= kRowsUntil) draft = with_rows(std::move(draft));
+  return with_day_columns(std::move(draft));
+}
+
+}  // namespace
+
+BalanceModel fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
+                      const DayFitOptions& options) {
+  DayDraft draft = first_draft(logs, space, options);
+  Eigen::VectorXd between = first_day_variance(draft.model);
+  for (int round = 0; round < options.rounds; ++round) {
+    draft = with_terms_of_round(std::move(draft), round, options);
+    if (round == 0 && options.pieces) draft = with_first_piece(std::move(draft));
+    draft = with_piece_paths(std::move(draft), round < kFinePathsFrom);
+    draft = with_noise(std::move(draft), options.filter_order);
+    MixedEffects fit = fit_mixed_effects(std::move(draft), between);
+    draft = std::move(fit.draft);
+    between = variance_between_days(draft.model, fit.moments);
+  }
+  draft.model.day_variance = prior_of_a_day(draft.model, between);
+  return std::move(draft.model);
+}
+
+}  // namespace faultline

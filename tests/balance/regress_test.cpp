@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/regress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "lib/core/random.hpp"
+
+namespace faultline {
+namespace {
+
+struct Problem {
+  Eigen::MatrixXd columns = Eigen::MatrixXd(40, 3);
+  Eigen::VectorXd rows = Eigen::VectorXd(40), precision = Eigen::Vector3d(0.5, 2.0, 8.0);
+};
+
+Problem drawn_problem() {
+  Problem out;
+  Random random(7);
+  for (int k = 0; k < 40; ++k) {
+    for (int i = 0; i < 3; ++i) out.columns(k, i) = random.normal();
+    out.rows[k] = 0.7 * out.columns(k, 0) - 0.2 * out.columns(k, 2) + random.normal();
+  }
+  return out;
+}
+
+/// ln of the normal density of the rows, whose covariance is 1 + X P^-1 X', without rows / 2 ln(2 pi).
+double log_density(const Problem& p) {
+  const Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Identity(40, 40) +
+      p.columns * p.precision.cwiseInverse().asDiagonal() * p.columns.transpose();
+  return -0.5 * p.rows.dot(covariance.ldlt().solve(p.rows)) - 0.5 * std::log(covariance.determinant());
+}
+
+TEST(Regress, LikelihoodIsTheDensityOfTheRows) {
+  const Problem p = drawn_problem();
+  const Regression r = regress(normal_equations(p.columns, p.rows), p.precision);
+  EXPECT_NEAR(r.log_likelihood, log_density(p), 1e-9);
+}
+
+TEST(Regress, EstimateAndCovarianceAreThoseOfThePosterior) {
+  const Problem p = drawn_problem();
+  const Regression r = regress(normal_equations(p.columns, p.rows), p.precision);
+  Eigen::MatrixXd posterior = p.columns.transpose() * p.columns;
+  posterior.diagonal() += p.precision;
+  EXPECT_LT((r.estimate - posterior.inverse() * p.columns.transpose() * p.rows).norm(), 1e-12);
+  EXPECT_LT((r.covariance() - posterior.inverse()).norm(), 1e-12);
+  EXPECT_NEAR(r.left, (p.rows - p.columns * r.estimate).squaredNorm(), 1e-9);
+}
+
+TEST(Regress, AColumnThatExplainsNothingLowersTheLikelihood) {
+  const Problem p = drawn_problem();
+  Eigen::MatrixXd more(40, 4);
+  Random random(8);
+  more.leftCols(3) = p.columns;
+  for (int k = 0; k < 40; ++k) more(k, 3) = random.normal();
+  Eigen::VectorXd precision(4);
+  precision << p.precision, 0.01;
+  EXPECT_LT(regress(normal_equations(more, p.rows), precision).log_likelihood,
+            regress(normal_equations(p.columns, p.rows), p.precision).log_likelihood);
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// A robot in closed form, apart from the library's dynamics, is learned from three healthy days and
+// explained.
+#include "lib/explain/explain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/explain/decide_log.hpp"
+#include "lib/identify/days/fit_days.hpp"
+#include "lib/log/memory_source.hpp"
+#include "tests/identify/closed_form_scara.hpp"
+
+namespace faultline {
+namespace {
+
+using testing::ClosedFormRun;
+using testing::ClosedFormScara;
+using testing::simulate_closed_form;
+
+constexpr double kPeriod_s = 0.004;
+
+ClosedFormRun run_of(std::uint64_t seed) {
+  return {.duration_s = 8.0,
+          .period_s = kPeriod_s,
+          .reach = {0.8, 0.9, 0.1},
+          .q_noise = 2e-5,
+          .dq_noise = 2e-3,
+          .seed = seed};
+}
+
+/// A day: friction is a few per cent more or less.
+ClosedFormScara of_day(int day) {
+  ClosedFormScara out;
+  for (int j = 0; j < 3; ++j) out.fc[j] *= 1.0 + 0.04 * (day % 3 - 1);
+  return out;
+}
+
+const BalanceModel& model() {
+  static const BalanceModel learned = [] {
+    std::vector<MemorySource> days;
+    for (int day = 0; day < 3; ++day)
+      days.emplace_back(simulate_closed_form(of_day(day), run_of(day + 1)), "day");
+    std::vector<LogSource*> logs;
+    for (MemorySource& day : days) logs.push_back(&day);
+    Robot robot = preset_robot("RRP");
+    robot.chain.length = {1.0, 0.8, 0.0};
+    DayFitOptions options;
+    options.torque_is_held = true;
+    return fit_days(logs, parameter_space(robot), options);
+  }();
+  return learned;
+}
+
+LogFit fit_of(Log log) {
+  MemorySource source(std::move(log));
+  return {uniform_log(source, kPeriod_s), model()};
+}
+
+std::optional<ExplainedFault> decided(const LogFit& fit) {
+  const LogExplanation e = explain_log(fit);
+  return decide_log(e, evidence_limits({}), alarm_times(fit, e));
+}
+
+EvidenceLimits limits() { return evidence_limits({}); }
+
+TEST(FitDays, GivesTheRobotOfTheClosedForm) {
+  const ClosedFormScara truth;
+  const ColumnLayout layout = model().layout();
+  const std::vector<double> base = {truth.a(), truth.b(), truth.c(), truth.m3};
+  for (int p = 0; p < 4; ++p) EXPECT_NEAR(model().theta[p] / base[p], 1.0, 0.01) << p;
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_NEAR(model().theta[layout.viscous(j)] / truth.fv[j], 1.0, 0.1) << j;
+    EXPECT_NEAR(model().theta[layout.coulomb(j)] / truth.fc[j], 1.0, 0.1) << j;
+  }
+}
+
+TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
+  const DayLayout day = day_layout(model().rigid);
+  const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(9)));
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(fit.healthy().day[day.friction(j)], 0.04, 0.03) << j;
+}
+
+TEST(ExplainLog, AHealthyDayGivesNoEvidence) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(11)));
+  const LogExplanation e = explain_log(fit);
+  EXPECT_LT(e.best.front().gain, 20.0) << to_string(e.best.front().kind);
+  EXPECT_LT(e.healthy_square, 1.5);
+  EXPECT_FALSE(decide_log(e, limits(), alarm_times(fit, e)));
+}
+
+TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
+  Log log = simulate_closed_form(of_day(0), run_of(12));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 4.0) log.tau[1][k] /= 0.7;  // 30 % of it do not reach the joint
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(fault->onset_s, 4.0, 0.03);
+  EXPECT_NEAR(fault->size[0], 0.3, 0.03);
+  EXPECT_GE(fault->alarm_s, fault->onset_s);
+  EXPECT_LT(fault->alarm_s, 5.0);
+}
+
+TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
+  Log log = simulate_closed_form(of_day(0), run_of(13));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 3.0) log.q[1][k] += 0.05;
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_NEAR(fault->size[0], 0.05, 0.003);
+  EXPECT_NEAR(fault->onset_s, 3.0, 0.01);
+}
+
+TEST(ExplainLog, AForceOfAMomentIsACollision) {
+  Log log = simulate_closed_form(of_day(0), run_of(14));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 5.0 && log.time[k] < 5.1) log.tau[1][k] -= 4.0;
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_NEAR(fault->onset_s, 5.0, 0.03);
+}
+
+TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
+  Log log = simulate_closed_form(of_day(0), run_of(15));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 4.0) log.tau[1][k] += 4.0 * std::sin(9.0 * log.time[k]) * std::sin(23.0 * log.time[k]);
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label.kind, FaultKind::unknown);
+  EXPECT_NEAR(fault->onset_s, 4.0, 0.15);
+}
+
+TEST(ExplainLog, TheSameLogGivesTheSameBytes) {
+  const Log log = simulate_closed_form(of_day(2), run_of(16));
+  const LogExplanation a = explain_log(fit_of(log)), b = explain_log(fit_of(log));
+  ASSERT_EQ(a.best.size(), b.best.size());
+  for (std::size_t k = 0; k < a.best.size(); ++k) EXPECT_EQ(a.best[k].gain, b.best[k].gain);
+}
+
+}  // namespace
+}  // namespace faultline
