@@ -55,6 +55,7 @@ void AtomicFile::fail(const char* doing) {
 }
 
 void AtomicFile::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // its data may be null, which fwrite does not take
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size() && !reader_has_left())
     fail("written");
 }

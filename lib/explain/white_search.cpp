@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
 constexpr int kImpulse = 2000;     // rows of the filter's response that its variance is summed over
-constexpr int kFirstOnset = 6;     // rows
+constexpr int kFirstOnsetRow = 6;  // rows
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 /// Variance of a process whose innovations are one, from its autoregression.
@@ -32,7 +32,7 @@ double process_variance(const VectorXd& filter) {
 }
 
 /// Normal equations of columns that are switched on at a row, effects of the day not yet taken away.
-struct OnsetSums {
+struct SwitchedSums {
   MatrixXd square, cross;
   VectorXd vector;
 
@@ -52,7 +52,7 @@ struct OnsetSums {
   }
 };
 
-OnsetSums no_rows(const WhiteSearch& s, const StackedColumns& columns) {
+SwitchedSums no_rows(const WhiteSearch& s, const StackedColumns& columns) {
   const Eigen::Index k = columns.cols();
   return {MatrixXd::Zero(k, k), MatrixXd::Zero(k, s.covariance.rows()), VectorXd::Zero(k)};
 }
@@ -88,7 +88,7 @@ VectorXd onset_gains(const WhiteSearch& s, const FaultColumns& columns) {
   VectorXd out(s.fit.count());
   double log_prior = 0.0;
   for (const double variance : columns.variance) log_prior += 0.5 * elementary::log(variance);
-  OnsetSums sums = no_rows(s, columns.column);
+  SwitchedSums sums = no_rows(s, columns.column);
   for (int t = s.fit.count() - 1; t >= 0; --t) {
     sums.add_row(s, columns.column, t);
     MatrixXd inner = sums.without_day(s);
@@ -103,7 +103,7 @@ VectorXd onset_gains(const WhiteSearch& s, const FaultColumns& columns) {
 
 VectorXd onset_gains_of_size(const WhiteSearch& s, const StackedColumns& columns, const MatrixXd& size) {
   VectorXd out(s.fit.count());
-  OnsetSums sums = no_rows(s, columns);
+  SwitchedSums sums = no_rows(s, columns);
   for (int t = s.fit.count() - 1; t >= 0; --t) {
     sums.add_row(s, columns, t);
     const VectorXd of_onset = size.row(t).transpose();
@@ -114,7 +114,7 @@ VectorXd onset_gains_of_size(const WhiteSearch& s, const StackedColumns& columns
 
 std::vector<Candidate> peaks(const LogFit& fit, Candidate candidate, VectorXd score, int most) {
   const double row_s = fit.model().setting.row_s();
-  const int first = std::max(kFirstOnset, static_cast<int>(kLead_s / row_s)), last = fit.count() - kTail;
+  const int first = std::max(kFirstOnsetRow, static_cast<int>(kLead_s / row_s)), last = fit.count() - kTail;
   const int apart = std::max(1, static_cast<int>(kApart_s / row_s));
   for (int k = 0; k < fit.count(); ++k)
     if (k < first || k >= last || !(score[k] > kNothing)) score[k] = kNothing;

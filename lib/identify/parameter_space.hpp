@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/identify/extra/extra_term.hpp"
 #include "lib/balance/regressor.hpp"
+#include "lib/identify/extra/extra_term.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "lib/balance/regressor.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/balance/regressor.hpp"
 #include "lib/log/memory_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 

@@ -8,6 +8,7 @@
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/coarse/coarse_price.hpp"
+#include "lib/explain/coarse/false_reading.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -38,25 +39,6 @@ struct Linearised {
   VectorXd precision, about;  ///< of the unknowns' prior, and the values that they are corrections to
   bool finite = true;
 };
-
-bool is_reading(FaultKind kind) { return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift; }
-
-int first_sample(const CoarseLog& log, double onset_s) {
-  int k = 0;
-  while (k < log.samples() && log.time_s(k) < onset_s - 1e-9) ++k;
-  return k;
-}
-
-/// What a unit of a false reading adds to the readings.
-MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
-  MatrixXd out = MatrixXd::Zero(log.read.rows(), log.samples());
-  const int j = guess.joint - 1, n = log.joints();
-  for (int k = from; k < log.samples(); ++k) {
-    out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
-    if (guess.kind == FaultKind::sensor_drift) out(n + j, k) = 1.0;
-  }
-  return out;
-}
 
 /// Numbers in force with and without the fault on this day.
 VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDirections& fault,

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/false_reading.hpp"
+
+namespace faultline {
+
+bool is_reading(FaultKind kind) { return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift; }
+
+int first_sample(const CoarseLog& log, double onset_s) {
+  int k = 0;
+  while (k < log.samples() && log.time_s(k) < onset_s - 1e-9) ++k;
+  return k;
+}
+
+Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(log.read.rows(), log.samples());
+  const int j = guess.joint - 1, n = log.joints();
+  for (int k = from; k < log.samples(); ++k) {
+    out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
+    if (guess.kind == FaultKind::sensor_drift) out(n + j, k) = 1.0;
+  }
+  return out;
+}
+
+}  // namespace faultline

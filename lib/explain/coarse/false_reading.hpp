@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/explain/coarse/coarse_judge.hpp"
+
+namespace faultline {
+
+/// Whether a fault makes a position read wrong and moves nothing.
+bool is_reading(FaultKind kind);
+
+/// The first sample at or after a time, s.
+int first_sample(const CoarseLog& log, double onset_s);
+
+/// What a unit of the false reading of `guess` adds to the readings (2 joints x samples) from sample `from`
+/// on.
+Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from);
+
+}  // namespace faultline
