@@ -98,7 +98,7 @@ RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& sett
         if (!counts(log, k)) continue;
         const Terms x = variance_terms(*log.rows, setting, k, j);
         const double y = std::min(log.torque(k, j) * log.torque(k, j), kRare * median);
-        const double weight = 1.0 / std::pow(2.25 * median, 2);
+        const double weight = 1.0 / Eigen::numext::abs2(2.25 * median);
         a += weight * x * x.transpose();
         b += weight * y * x;
       }

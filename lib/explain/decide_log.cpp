@@ -13,13 +13,13 @@ constexpr double kMuchLeft = 3.0;       // mean square from which the best expla
 constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;   // of the best evidence
 
-bool passes(const Hypothesis& h, const EvidenceLimits& limits) {
+bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
   if (h.kind == FaultKind::torque_loss && h.size[0] < kLeastLoss) return false;
   return h.gain > limits.of(h.kind);
 }
 
 /// Whether the best explanation leaves so much that the fault is none of the kinds.
-bool is_unknown(const Hypothesis& best, const LogExplanation& e) {
+bool is_unknown(const FaultHypothesis& best, const LogExplanation& e) {
   if (e.slips && best.kind == FaultKind::sensor_bias) return true;
   if (best.kind == FaultKind::stuck_encoder) return false;
   const double left = best.fit.mean_square();
@@ -32,7 +32,7 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   EvidenceLimits out;
   double most = kLeastEvidence;
   for (const LogExplanation& e : healthy)
-    for (const Hypothesis& h : e.best) {
+    for (const FaultHypothesis& h : e.best) {
       double& nats = out.nats[static_cast<std::size_t>(h.kind)];
       nats = std::max(nats, kBeyondHealthy * h.gain);
       most = std::max(most, h.gain);
@@ -42,14 +42,14 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
 }
 
 AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& e) {
-  return {[&fit](const Hypothesis& h, double limit) { return alarm_time(fit, h, limit); },
+  return {[&fit](const FaultHypothesis& h, double limit) { return alarm_time(fit, h, limit); },
           [&fit, &e](double limit) { return alarm_time(fit, e.free_form, limit); }};
 }
 
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
                                          const AlarmTimes& alarms) {
   const auto best =
-      std::find_if(e.best.begin(), e.best.end(), [&](const Hypothesis& h) { return passes(h, limits); });
+      std::find_if(e.best.begin(), e.best.end(), [&](const FaultHypothesis& h) { return passes(h, limits); });
   if (best == e.best.end()) return std::nullopt;
   ExplainedFault out;
   out.evidence = best->gain;

@@ -36,7 +36,7 @@ struct ExplainedFault {
 /// When the evidence of a hypothesis, and of a change of any form, passes a limit in nats. Without
 /// `of_free_form` an unknown fault has the onset and the alarm of the hypothesis that comes nearest.
 struct AlarmTimes {
-  std::function<double(const Hypothesis&, double)> of;
+  std::function<double(const FaultHypothesis&, double)> of;
   std::function<double(double)> of_free_form{};
 };
 

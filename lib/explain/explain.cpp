@@ -28,10 +28,10 @@ constexpr std::size_t kRefined = 5;     // hypotheses
 struct Bench {
   const LogFit& fit;
   std::vector<LinearFault> linear;
-  std::vector<Hypothesis> judged;
+  std::vector<FaultHypothesis> judged;
 
-  const Hypothesis* go(FaultKind kind, int joint, double onset_s, double start = 0.0) {
-    std::optional<Hypothesis> h = judge(fit, linear, kind, joint, onset_s, start);
+  const FaultHypothesis* go(FaultKind kind, int joint, double onset_s, double start = 0.0) {
+    std::optional<FaultHypothesis> h = judge(fit, linear, kind, joint, onset_s, start);
     if (!h) return nullptr;
     judged.push_back(std::move(*h));
     return &judged.back();
@@ -107,23 +107,24 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
 }
 
 /// The best of each kind and joint, best first.
-std::vector<Hypothesis> ranked(const std::vector<Hypothesis>& all) {
-  std::vector<Hypothesis> out;
-  for (const Hypothesis& h : all) {
-    auto known = std::find_if(out.begin(), out.end(),
-                              [&](const Hypothesis& o) { return o.kind == h.kind && o.joint == h.joint; });
+std::vector<FaultHypothesis> ranked(const std::vector<FaultHypothesis>& all) {
+  std::vector<FaultHypothesis> out;
+  for (const FaultHypothesis& h : all) {
+    auto known = std::find_if(out.begin(), out.end(), [&](const FaultHypothesis& o) {
+      return o.kind == h.kind && o.joint == h.joint;
+    });
     if (known == out.end())
       out.push_back(h);
     else if (h.gain > known->gain)
       *known = h;
   }
   std::stable_sort(out.begin(), out.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.gain > b.gain; });
+                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
   return out;
 }
 
 /// Moves the onset of a hypothesis while it explains more, by halved steps.
-void refine(Hypothesis best, Bench& bench) {
+void refine(FaultHypothesis best, Bench& bench) {
   const LogFit& fit = bench.fit;
   const double row_s = fit.model().setting.row_s();
   const int first = std::max(6, static_cast<int>(kLead_s / row_s));
@@ -132,7 +133,7 @@ void refine(Hypothesis best, Bench& bench) {
   const auto try_at = [&](double t) {
     if (t < earliest || t >= latest) return false;
     const double start = best.kind == FaultKind::sensor_drift ? best.size[0] : 0.0;
-    const Hypothesis* h = bench.go(best.kind, best.joint, t, start);
+    const FaultHypothesis* h = bench.go(best.kind, best.joint, t, start);
     if (h == nullptr || h->gain <= best.gain) return false;
     best = *h;
     return true;
@@ -144,10 +145,10 @@ void refine(Hypothesis best, Bench& bench) {
 }
 
 /// Whether one encoder jumped more than once by about as much.
-bool slips(const std::vector<Hypothesis>& best, const std::vector<Hypothesis>& all) {
+bool slips(const std::vector<FaultHypothesis>& best, const std::vector<FaultHypothesis>& all) {
   if (best.empty() || best.front().kind != FaultKind::sensor_bias) return false;
-  const Hypothesis& b = best.front();
-  return std::any_of(all.begin(), all.end(), [&](const Hypothesis& h) {
+  const FaultHypothesis& b = best.front();
+  return std::any_of(all.begin(), all.end(), [&](const FaultHypothesis& h) {
     return h.kind == FaultKind::sensor_bias && h.joint == b.joint && std::abs(h.onset_s - b.onset_s) > 0.2 &&
            h.gain > 0.02 * b.gain && std::abs(h.size[0]) > 0.4 * std::abs(b.size[0]);
   });
@@ -204,14 +205,14 @@ LogExplanation explain_log(const LogFit& fit) {
   LogExplanation out;
   out.free_form = free_form(fit);
   judge_candidates(search(fit, bench.linear), out.free_form, bench);
-  std::vector<Hypothesis> top = ranked(bench.judged);
+  std::vector<FaultHypothesis> top = ranked(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
-  for (const Hypothesis& h : top)
+  for (const FaultHypothesis& h : top)
     if (h.gain >= kWorthRefining && h.kind != FaultKind::stuck_encoder && h.kind != FaultKind::sensor_bias)
       refine(h, bench);
   out.best = ranked(bench.judged);
   if (!out.best.empty()) {
-    const Hypothesis first = out.best.front();
+    const FaultHypothesis first = out.best.front();
     if (first.kind == FaultKind::locked) bench.go(FaultKind::stuck_encoder, first.joint, first.onset_s);
     if (first.kind == FaultKind::stuck_encoder) bench.go(FaultKind::locked, first.joint, first.onset_s);
     out.best = ranked(bench.judged);
@@ -235,7 +236,7 @@ double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
   return fit.time_s()[fit.count() - 1] + edge;
 }
 
-double alarm_time(const LogFit& fit, const Hypothesis& h, double threshold) {
+double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold) {
   Stacked y = fit.residual() - fit.day_torque(h.fit.day);
   if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
   const Stacked without = fit.whitened(y);

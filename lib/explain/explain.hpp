@@ -15,7 +15,7 @@ struct FreeForm {
 
 /// What one log says: the best hypothesis of each kind and joint, best first.
 struct LogExplanation {
-  std::vector<Hypothesis> best;
+  std::vector<FaultHypothesis> best;
   double healthy_square = 1.0;  ///< mean square of what the healthy robot leaves, in standard deviations
   FreeForm free_form;
   bool slips = false;  ///< an encoder that jumps again and again: no single offset
@@ -28,6 +28,6 @@ double alarm_time(const LogFit& fit, const FreeForm& change, double threshold);
 
 /// When the evidence of `hypothesis` from its onset on passes `threshold`; the effects of the day are those
 /// of the whole log.
-double alarm_time(const LogFit& fit, const Hypothesis& hypothesis, double threshold);
+double alarm_time(const LogFit& fit, const FaultHypothesis& hypothesis, double threshold);
 
 }  // namespace faultline

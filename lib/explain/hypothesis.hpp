@@ -9,7 +9,7 @@
 namespace faultline {
 
 /// A fault that may explain a log, judged exactly.
-struct Hypothesis {
+struct FaultHypothesis {
   FaultKind kind = FaultKind::none;
   int joint = 0;  ///< from 1
   double onset_s = 0.0;

@@ -45,9 +45,9 @@ double price_of_size(const LogFit& fit, FaultKind kind, int j, double onset_s, c
   return rows < 3 || power <= 0.0 ? kImpossible : 0.0;
 }
 
-Hypothesis hypothesis(const LogFit& fit, FaultKind kind, int joint, double onset_s, Explanation explanation,
-                      double price) {
-  Hypothesis out;
+FaultHypothesis hypothesis(const LogFit& fit, FaultKind kind, int joint, double onset_s,
+                           Explanation explanation, double price) {
+  FaultHypothesis out;
   out.kind = kind;
   out.joint = joint;
   out.onset_s = onset_s;
@@ -57,7 +57,7 @@ Hypothesis hypothesis(const LogFit& fit, FaultKind kind, int joint, double onset
   return out;
 }
 
-Hypothesis judge_linear(const LogFit& fit, const LinearFault& fault, double onset_s) {
+FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, double onset_s) {
   const FaultColumns columns = from_onset(fault.columns, fit.soft_step(onset_s));
   Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, onset_s);
   const double price = price_of_size(fit, fault.kind, fault.joint - 1, onset_s, e.size);
@@ -66,9 +66,9 @@ Hypothesis judge_linear(const LogFit& fit, const LinearFault& fault, double onse
                     price);
 }
 
-Hypothesis judge_collision(const LogFit& fit, double onset_s) {
+FaultHypothesis judge_collision(const LogFit& fit, double onset_s) {
   const int rows = fit.count(), n = fit.joints();
-  Hypothesis best;
+  FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
   for (const double duration : {.03, .06, .12, .25, .5}) {
     const VectorXd pulse = fit.soft_step(onset_s) - fit.soft_step(onset_s + duration);
@@ -79,8 +79,8 @@ Hypothesis judge_collision(const LogFit& fit, double onset_s) {
     }
     std::vector<VectorXd> starts;
     if (fit.has_piece()) starts.push_back(VectorXd::Zero(n));
-    Hypothesis h = hypothesis(fit, FaultKind::collision, n, onset_s,
-                              fit.explain_with_piece(fit.residual(), columns, starts, onset_s), 0.0);
+    FaultHypothesis h = hypothesis(fit, FaultKind::collision, n, onset_s,
+                                   fit.explain_with_piece(fit.residual(), columns, starts, onset_s), 0.0);
     h.duration_s = duration;
     (h.size.cwiseAbs2().cwiseQuotient(columns.variance)).maxCoeff(&h.joint);
     ++h.joint;
@@ -107,20 +107,20 @@ UniformLog corrected(const UniformLog& log, FaultKind kind, int j, double onset_
 
 /// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
 /// about the size before.
-Hypothesis judge_reading(const LogFit& fit, FaultKind kind, int joint, double onset_s, double start) {
+FaultHypothesis judge_reading(const LogFit& fit, FaultKind kind, int joint, double onset_s, double start) {
   const int j = joint - 1;
   const bool slide = fit.model().rigid.chain.geometry[j].kind == AxisKind::prismatic,
              bias = kind == FaultKind::sensor_bias;
   const double usual = bias ? (slide ? 0.02 : 0.1) : (slide ? 0.03 : 0.1);
   const double step = (bias ? 1e-3 : 2e-3) * (slide ? 0.2 : 1.0);
-  Hypothesis best;
+  FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
   double size = start;
   for (int round = 0; round < (bias ? 2 : 3); ++round) {
     const Stacked at = fit.residual_of(corrected(fit.log(), kind, j, onset_s, size));
     const Stacked next = fit.residual_of(corrected(fit.log(), kind, j, onset_s, size + step));
     FaultColumns columns{StackedColumns((at - next) / step),
-                         VectorXd::Constant(1, std::pow(0.3 * size, 2) + 1e-10)};
+                         VectorXd::Constant(1, Eigen::numext::abs2(0.3 * size) + 1e-10)};
     std::vector<VectorXd> starts;
     if (fit.has_piece()) starts.push_back(VectorXd::Zero(1));
     Explanation e = fit.explain_with_piece(at, columns, starts, onset_s);
@@ -128,7 +128,7 @@ Hypothesis judge_reading(const LogFit& fit, FaultKind kind, int joint, double on
     const double price =
         0.5 * size * size / (usual * usual) + elementary::log(usual / std::sqrt(columns.variance[0]));
     const double change = e.size[0];
-    Hypothesis h = hypothesis(fit, kind, joint, onset_s, std::move(e), price);
+    FaultHypothesis h = hypothesis(fit, kind, joint, onset_s, std::move(e), price);
     h.size = VectorXd::Constant(1, size + change);
     if (h.gain > best.gain) best = std::move(h);
     size += std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
@@ -165,7 +165,7 @@ std::pair<int, double> repeats_after(const LogFit& fit, int j, double onset_s) {
 }
 
 /// Hypotheses by which rows of a joint say nothing from the onset on.
-std::optional<Hypothesis> judge_silent(const LogFit& fit, FaultKind kind, int joint, double onset_s) {
+std::optional<FaultHypothesis> judge_silent(const LogFit& fit, FaultKind kind, int joint, double onset_s) {
   const BalanceModel& m = fit.model();
   const int j = joint - 1, rows = fit.count();
   const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
@@ -201,8 +201,8 @@ std::optional<Hypothesis> judge_silent(const LogFit& fit, FaultKind kind, int jo
 
 }  // namespace
 
-std::optional<Hypothesis> judge(const LogFit& fit, const std::vector<LinearFault>& linear, FaultKind kind,
-                                int joint, double onset_s, double start) {
+std::optional<FaultHypothesis> judge(const LogFit& fit, const std::vector<LinearFault>& linear,
+                                     FaultKind kind, int joint, double onset_s, double start) {
   switch (kind) {
     case FaultKind::free_swinging:
       return judge(fit, linear, FaultKind::torque_loss, joint, onset_s, start);

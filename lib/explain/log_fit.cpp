@@ -139,7 +139,7 @@ Explanation LogFit::explain(const Stacked& residual, const FaultColumns& columns
     x.conservativeResize(Eigen::NoChange, k + changes);
     for (int c = 0; c < changes; ++c) x.col(k + c) = piece_torque(ramps.change.col(c));
     variance.conservativeResize(k + changes);
-    variance.tail(changes).setConstant(std::pow(kChangeDoubt_rows * model_.setting.row_s(), 2));
+    variance.tail(changes).setConstant(Eigen::numext::abs2(kChangeDoubt_rows * model_.setting.row_s()));
   }
   const int effects = static_cast<int>(day_precision_.size()), sizes = static_cast<int>(x.cols());
   Stacked z = whitened(y);

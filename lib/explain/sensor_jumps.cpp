@@ -88,7 +88,7 @@ bool repeats_say_something(const BalanceModel& model, int j) {
   return model.longest_repeat[j] < kManyRepeats;
 }
 
-std::optional<RepeatedCodes> repeated_to_the_end(const LogFit& fit, int j) {
+std::optional<RepeatsToTheEnd> repeated_to_the_end(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   int since = log.rows() - 1;
   while (since > 0 && log.q(since - 1, j) == log.q(since, j)) --since;
@@ -97,7 +97,7 @@ std::optional<RepeatedCodes> repeated_to_the_end(const LogFit& fit, int j) {
   const double least =
       repeats_say_something(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / log.period_s;
   if (samples < least) return std::nullopt;
-  return RepeatedCodes{log.time_s(since), samples};
+  return RepeatsToTheEnd{log.time_s(since), samples};
 }
 
 }  // namespace faultline

@@ -20,11 +20,11 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 bool repeats_say_something(const BalanceModel& model, int joint);
 
 /// A position that repeats one code to the end of the log.
-struct RepeatedCodes {
+struct RepeatsToTheEnd {
   double onset_s = 0.0;
   int samples = 0;
 };
 
-std::optional<RepeatedCodes> repeated_to_the_end(const LogFit& fit, int joint);
+std::optional<RepeatsToTheEnd> repeated_to_the_end(const LogFit& fit, int joint);
 
 }  // namespace faultline

@@ -63,7 +63,7 @@ struct FineCore {
     LogExplanation what = explain_log(*fit);
     const FreeForm change = what.free_form;
     return {std::move(what),
-            {[fit](const Hypothesis& h, double limit) { return alarm_time(*fit, h, limit); },
+            {[fit](const FaultHypothesis& h, double limit) { return alarm_time(*fit, h, limit); },
              [fit, change](double limit) { return alarm_time(*fit, change, limit); }}};
   }
 };
@@ -82,7 +82,7 @@ struct CoarseCore {
     log.rewind();
     const auto fit = std::make_shared<CoarseLog>(coarse_log(uniform_log(log, model.setting.period_s), model));
     return {explain_coarse(*fit),
-            {[fit](const Hypothesis& h, double limit) { return coarse_alarm_time(*fit, h, limit); }}};
+            {[fit](const FaultHypothesis& h, double limit) { return coarse_alarm_time(*fit, h, limit); }}};
   }
 };
 

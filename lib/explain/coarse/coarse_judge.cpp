@@ -62,8 +62,9 @@ MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const Linear
   MatrixXd std = log.force_std;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < steps.intervals; ++k)
-      std(i, k) = log.stop(i, k) > 0.0 ? kUnknownForce * log.model->torque_rms[i]
-                                       : std::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
+      std(i, k) = log.stop(i, k) > 0.0
+                      ? kUnknownForce * log.model->torque_rms[i]
+                      : elementary::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
   if (guess.kind == FaultKind::unknown)
     std.row(j)
         .tail(steps.intervals - std::max(0, from - 1))
@@ -147,7 +148,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
     in.read_column = effects;
     in.read = read_column(log, guess, from);
     if (at.size.size() > 0) in.reading -= at.size[0] * in.read;
-    out.precision[effects] = std::pow(usual_reading_error(m, j), -2);
+    out.precision[effects] = 1.0 / Eigen::numext::abs2(usual_reading_error(m, j));
   }
   if (at.size.size() > 0) out.about.segment(effects, at.size.size()) = at.size;
   if (how.move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());

@@ -87,7 +87,7 @@ Base base_of(const CoarseLog& log) {
     for (int k = 0; k < std.cols(); ++k)
       std(i, k) = log.stop(i, k) > 0.0
                       ? 30.0 * m.torque_rms[i]
-                      : std::hypot(std(i, k), forgiven_torque(kForgiven) * log.log.tau(k, i));
+                      : elementary::hypot(std(i, k), forgiven_torque(kForgiven) * log.log.tau(k, i));
   in.process = process_covariance(log.healthy_steps, m.layout(), std);
   in.reading = log.read - log.about;
   in.variance = log.variance.colwise() + forgiven_variance(m, kForgiven);

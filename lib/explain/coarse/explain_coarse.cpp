@@ -230,8 +230,8 @@ std::vector<Judged> to_refine(const std::vector<Judged>& all) {
   return out;
 }
 
-Hypothesis hypothesis_of(const CoarseLog& log, const Judged& judged) {
-  Hypothesis out;
+FaultHypothesis hypothesis_of(const CoarseLog& log, const Judged& judged) {
+  FaultHypothesis out;
   out.kind = judged.kind;
   out.joint = judged.guess.joint;
   out.onset_s = judged.guess.onset_s;
@@ -268,7 +268,7 @@ LogExplanation explain_coarse(const CoarseLog& log) {
   return out;
 }
 
-double coarse_alarm_time(const CoarseLog& log, const Hypothesis& hypothesis, double threshold) {
+double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis, double threshold) {
   int onset = 0;
   while (onset < log.samples() && log.time_s(onset) < hypothesis.onset_s) ++onset;
   double sum = 0.0;

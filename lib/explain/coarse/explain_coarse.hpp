@@ -10,6 +10,6 @@ namespace faultline {
 LogExplanation explain_coarse(const CoarseLog& log);
 
 /// When the evidence of `hypothesis` from its onset on passes `threshold` (nats).
-double coarse_alarm_time(const CoarseLog& log, const Hypothesis& hypothesis, double threshold);
+double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis, double threshold);
 
 }  // namespace faultline

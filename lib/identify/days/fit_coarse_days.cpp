@@ -82,7 +82,7 @@ VectorXd first_reading_variance(const std::vector<UniformLog>& logs) {
   for (int i = 0; i < 2 * n; ++i) {
     std::vector<double> std;
     for (const UniformLog& log : logs) std.push_back(sample_noise(readings(log).row(i).transpose())[0]);
-    out[i] = std::pow(std::max(upper_median(std::move(std)), kLeastReading), 2);
+    out[i] = Eigen::numext::abs2(std::max(upper_median(std::move(std)), kLeastReading));
   }
   return out;
 }
@@ -240,7 +240,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.day_variance.resize(at.base + 2 * at.joints);
   for (int p = 0; p < at.base; ++p)
     m.day_variance[p] =
-        9.0 * covariance(p, p) / std::max(std::pow(m.theta[p], 2), 1e-12) + kDayInertia * kDayInertia;
+        9.0 * covariance(p, p) / std::max(Eigen::numext::abs2(m.theta[p]), 1e-12) + kDayInertia * kDayInertia;
   m.day_variance.segment(at.base, at.joints).setConstant(kDayFriction * kDayFriction);
   m.day_variance.tail(at.joints) = (kDayForce * m.torque_rms).cwiseAbs2();
   return m;

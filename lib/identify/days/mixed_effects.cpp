@@ -57,7 +57,8 @@ DayDraft with_noise(DayDraft draft, int order) {
     day.std = row_std(day.rows, m.setting, m.noise, VectorXd::Ones(m.joints()));
     for (int k = 0; k < day.rows.rows() && m.piece_kg > 0.0; ++k)
       if (left[d].not_counted[k])
-        day.std.row(k) = (day.std.row(k).array().square() + std::pow(m.piece_kg * kPieceForce, 2)).sqrt();
+        day.std.row(k) =
+            (day.std.row(k).array().square() + Eigen::numext::abs2(m.piece_kg * kPieceForce)).sqrt();
     left[d].std = day.std;
   }
   m.noise = with_filter(left, order, std::move(m.noise));
