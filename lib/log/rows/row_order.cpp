@@ -116,7 +116,8 @@ RowOrder::Behind RowOrder::behind(const Row& row) const {
   out.is_same = out.is_repeated && is_same_row((later - 1)->at, row.at);
   out.is_far = usual > 0.0 && behind_s > kLeap * usual;
   const bool covered = is_first || static_cast<double>(rows_later) * usual >= kCovered * behind_s;
-  const bool is_hole = few || is_first || later->time - (later - 1)->time >= kHole * usual;
+  const bool is_last = later == order_.end();  // the newest row was not kept
+  const bool is_hole = few || is_first || is_last || later->time - (later - 1)->time >= kHole * usual;
   const bool is_in_run = runs_.size() < 2 || row.time > runs_[runs_.size() - 2].end_s;
   out.fits =
       !out.is_repeated && is_in_run && rows_later < kOrderWindowRows && is_hole && !(out.is_far && covered);
