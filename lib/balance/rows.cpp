@@ -152,6 +152,20 @@ std::vector<bool> crossing_lost(const std::vector<bool>& lost, const CoarseGrid&
                   " s, which is shorter than the kernel that smooths it; record longer logs");
 }
 
+/// What rows and residuals of one log share.
+struct RowFrame {
+  VectorXd kernel;
+  CoarseGrid grid;
+  Intervals at;
+};
+
+RowFrame row_frame(const UniformLog& log, const RowSetting& setting) {
+  const VectorXd kernel = gaussian_kernel(setting.kernel_s, setting.period_s);
+  const CoarseGrid grid = coarse_grid(log.rows(), setting, kernel);
+  if (grid.count < 2) too_short(log, setting);
+  return {kernel, grid, intervals(log, setting)};
+}
+
 }  // namespace
 
 double reach_s(const RowSetting& setting) {
@@ -184,10 +198,7 @@ MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting) {
 
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const VectorXd& theta) {
-  const VectorXd kernel = gaussian_kernel(setting.kernel_s, setting.period_s);
-  const CoarseGrid grid = coarse_grid(log.rows(), setting, kernel);
-  if (grid.count < 2) too_short(log, setting);
-  const Intervals at = intervals(log, setting);
+  const auto [kernel, grid, at] = row_frame(log, setting);
   const ColumnLayout layout = layout_of(rigid, setting);
   const int n = rigid.joints();
   std::vector<MatrixXd> fine(n, MatrixXd::Zero(log.rows() - 1, layout.count()));
@@ -222,10 +233,7 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
 
 MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                      const VectorXd& theta) {
-  const VectorXd kernel = gaussian_kernel(setting.kernel_s, setting.period_s);
-  const CoarseGrid grid = coarse_grid(log.rows(), setting, kernel);
-  if (grid.count < 2) too_short(log, setting);
-  const Intervals at = intervals(log, setting);
+  const auto [kernel, grid, at] = row_frame(log, setting);
   const ColumnLayout layout = layout_of(rigid, setting);
   const int n = rigid.joints(), links = n * kLinkParameters;
   const VectorXd numbers = rigid.lift * theta.head(rigid.base());

@@ -10,6 +10,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kPeriodGrid_s = 1e-6;  // to which a sample period is rounded
 constexpr double kEarliest =
     0.3;  // of a period by which a stamp may be late and still belong to its grid point
 constexpr double kNormalMad = 0.6745;       // median of |x| of a standard normal x
@@ -38,10 +39,7 @@ void interpolate(const std::vector<bool>& lost, Eigen::Ref<Eigen::VectorXd> valu
   for (int i = before + 1; i < rows && before >= 0; ++i) values[i] = values[before];
 }
 
-}  // namespace
-
-UniformLog uniform_log(LogSource& log, double period_s) {
-  const Log all = read_all(log);
+UniformLog on_grid(const Log& all, const std::string& path, double period_s) {
   std::vector<std::pair<int, int>> kept;  // grid point, row
   double start = 0.0;
   for (int row = 0; row < all.rows(); ++row) {
@@ -51,8 +49,7 @@ UniformLog uniform_log(LogSource& log, double period_s) {
     if (kept.empty() || point > kept.back().first) kept.emplace_back(point, row);
   }
   if (kept.size() < 2)
-    throw Error(ErrorCode::input, log.identity().path,
-                "has fewer than two rows with all values; nothing can be said of it");
+    throw Error(ErrorCode::input, path, "has fewer than two rows with all values; nothing can be said of it");
   UniformLog out;
   out.start_s = start;
   out.period_s = period_s;
@@ -73,6 +70,39 @@ UniformLog uniform_log(LogSource& log, double period_s) {
     interpolate(out.lost, out.q.col(j));
     interpolate(out.lost, out.tau.col(j));
     if (out.dq.rows() > 0) interpolate(out.lost, out.dq.col(j));
+  }
+  return out;
+}
+
+}  // namespace
+
+UniformLog uniform_log(LogSource& log, double period_s) {
+  return on_grid(read_all(log), log.identity().path, period_s);
+}
+
+std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
+  std::vector<Log> read;
+  std::vector<double> steps;
+  for (LogSource* log : logs) {
+    log->rewind();
+    read.push_back(read_all(*log));
+    const std::vector<double>& time = read.back().time;
+    for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
+  }
+  if (steps.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
+  const double period = std::round(upper_median(std::move(steps)) / kPeriodGrid_s) * kPeriodGrid_s;
+  std::vector<UniformLog> out;
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    out.push_back(on_grid(read[k], logs[k]->identity().path, period));
+  return out;
+}
+
+Eigen::VectorXd joint_medians(const std::vector<Eigen::VectorXd>& by_log) {
+  Eigen::VectorXd out(by_log.front().size());
+  for (int j = 0; j < out.size(); ++j) {
+    std::vector<double> values;
+    for (const Eigen::VectorXd& of_log : by_log) values.push_back(of_log[j]);
+    out[j] = upper_median(std::move(values));
   }
   return out;
 }

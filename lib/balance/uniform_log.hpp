@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "lib/log/log_source.hpp"
@@ -26,6 +27,13 @@ struct UniformLog {
 /// that its stamp lies in; of two rows at one point the first counts. Throws Error(input) when the log has
 /// fewer than two rows.
 UniformLog uniform_log(LogSource& log, double period_s);
+
+/// The whole of each log, from its start, on grids of one period: the median step of all logs, to the
+/// microsecond. Throws Error(input) when no log has two rows.
+std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs);
+
+/// Median over the logs of a value of each joint, such as its noise; `by_log` is not empty.
+Eigen::VectorXd joint_medians(const std::vector<Eigen::VectorXd>& by_log);
 
 /// Standard deviation of the white noise in each column, from its fourth differences, robust against motion
 /// and steps.

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::streamsize kBlock = 1 << 16;
 
-/// Whether a write failed because the reader of a pipe has seen enough, as head has: that is no failure, and
-/// what comes after is lost on nobody.
+/// Whether a write failed because the reader closed the pipe early, as `head` does. This is no failure:
+/// nobody reads the rest of the output.
 bool reader_has_left() { return errno == EPIPE; }
 
 }  // namespace

@@ -17,8 +17,8 @@ double calibrated(const Decision& decision, const ConfidenceCalibration& calibra
   return calibration.of(confidence_source(decision.decided_by), decision.confidence);
 }
 
-/// What has no name for the want of evidence alone, and by its likeliest kind is below the least size of
-/// that, is named so: too small to be told from other faults, it is too small to matter as well.
+/// An unknown fault whose evidence is too thin to decide gets its likeliest kind when its size is below the
+/// least size of that kind. The finding then counts as a small change.
 Decision named_if_small(const Decision& decision, const DecisionBasis& basis, const Model& model) {
   if (decision.decided_by != DecidedBy::abstained || decision.label.kind != FaultKind::unknown)
     return decision;

@@ -119,9 +119,9 @@ Trajectory smoothed(const LinearSteps& steps, const Innovations& filter, const V
     StateMatrix before = filter.before_covariance.middleCols((k + 1) * states, states);
     before.diagonal().array() += kLeastProcess;
     const StateMatrix gain = before.ldlt().solve((steps.slope_of(k) * after).eval()).transpose();
-    const StateVector foretold = filter.before.middleCols((k + 1) * wide, wide) * mix;
+    const StateVector predicted = filter.before.middleCols((k + 1) * wide, wide) * mix;
     out.col(k) = filter.after.middleCols(k * wide, wide) * mix;
-    out.col(k) += gain * (out.col(k + 1) - foretold);
+    out.col(k) += gain * (out.col(k + 1) - predicted);
     if (variance == nullptr) continue;
     before.diagonal().array() -= kLeastProcess;
     p = (after + gain * (p - before) * gain.transpose()).eval();

@@ -25,10 +25,11 @@ struct FilterInput {
   int columns(int intervals) const { return static_cast<int>(column.cols()) / intervals; }
 };
 
-/// What the filter makes of it. The gains do not depend on the data, so that data and columns stay linear.
+/// Output of the Kalman filter. The gains do not depend on the data, so the filter is linear in data and
+/// columns.
 struct Innovations {
   int states = 0, columns = 0, samples = 0;
-  /// (states * samples) x (1 + columns): readings that were not foretold, in standard deviations: of the
+  /// (states * samples) x (1 + columns): innovations of the readings in standard deviations: of the
   /// data, then what each column takes away from them. White with variance 1 when the model holds.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> white;
   Eigen::MatrixXd variance;       ///< states x samples: of each innovation; NaN where there is no reading

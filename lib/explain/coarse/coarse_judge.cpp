@@ -26,7 +26,7 @@ constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a
 constexpr double kMostLoss = 1.05;
 constexpr double kMostPayload = 2.5;  // of the tip's mass
 
-/// What a guess makes of the log in one round.
+/// Values about which one round linearises a hypothesis.
 struct Setup {
   VectorXd day, size;  ///< about which it is linear; `size` empty: not known yet
   Trajectory about;
@@ -133,7 +133,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   if (guess.kind == FaultKind::stuck_encoder) {
     const JointMatrix<double> inertia = inertia_at(log, std::max(0, from - 1));
     for (int i = 0; i < n; ++i) {
-      if (inertia(i, j) == 0.0) continue;  // what the joint moves cannot be foretold where it is not seen
+      if (inertia(i, j) == 0.0) continue;  // without its reading, the motion of the joint cannot be predicted
       in.variance.row(i).tail(log.samples() - from).setConstant(kMissingReading);
       in.variance.row(n + i).tail(log.samples() - from).setConstant(kMissingReading);
     }

@@ -36,7 +36,8 @@ struct CoarseLog {
   Eigen::MatrixXd variance;   ///< of the readings
   Eigen::MatrixXd force_std;  ///< joints x intervals
   Eigen::MatrixXd stop;       ///< joints x intervals: 1 where an end stop holds the joint
-  Eigen::MatrixXd keep;       ///< 2 joints x samples: 0 where an end stop makes the reading nobody's evidence
+  Eigen::MatrixXd keep;  ///< 2 joints x samples: 0 where an end stop holds the joint: the reading counts for
+                         ///< no hypothesis
   CoarseExplanation healthy;
 
   int joints() const { return model->joints(); }

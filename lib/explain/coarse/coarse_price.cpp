@@ -50,10 +50,11 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
     case FaultKind::stuck_encoder: {
       if (share_repeated(log, j, from) < kRepeats) return kCodesMove;
       const double kept = log.keep.row(j).tail(late).sum();
-      const double told = repeats_tell(*log.model, j) ? std::min(late, kMostRepeats) *
-                                                            elementary::log(1.0 / log.model->repeat_share[j])
-                                                      : 0.0;
-      return kSilentJoint + kUnreadSample * kept - told;
+      const double evidence =
+          repeats_tell(*log.model, j)
+              ? std::min(late, kMostRepeats) * elementary::log(1.0 / log.model->repeat_share[j])
+              : 0.0;
+      return kSilentJoint + kUnreadSample * kept - evidence;
     }
     case FaultKind::locked:
       return kSilentJoint + (share_repeated(log, j, from) > kRepeats && repeats_tell(*log.model, j)

@@ -23,16 +23,6 @@ constexpr double kSlightRidge = 1e-9;
 constexpr std::array kLags{-1, 0, 1, 2};
 constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};
 
-VectorXd column_medians(const std::vector<VectorXd>& values) {
-  VectorXd out(values.front().size());
-  for (int j = 0; j < out.size(); ++j) {
-    std::vector<double> all;
-    for (const VectorXd& v : values) all.push_back(v[j]);
-    out[j] = upper_median(std::move(all));
-  }
-  return out;
-}
-
 /// Whether the logged velocity is the difference of the positions: then it is no second measurement.
 bool holds_no_velocity(const UniformLog& log) {
   std::vector<double> time(log.rows());
@@ -91,7 +81,7 @@ RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, d
     dq.push_back(sample_noise(log.dq));
     out.velocity_is_difference = out.velocity_is_difference && holds_no_velocity(log);
   }
-  const VectorXd q_noise = column_medians(q), dq_noise = column_medians(dq);
+  const VectorXd q_noise = joint_medians(q), dq_noise = joint_medians(dq);
   for (int j = 0; j < n; ++j)
     out.fusion[j] =
         elementary::exp(-std::min(dq_noise[j] / std::max(q_noise[j], 1e-9) * out.period_s, kMostDecay));

@@ -9,7 +9,6 @@
 #include "lib/balance/one_step/innovations.hpp"
 #include "lib/balance/regress.hpp"
 #include "lib/balance/rows.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/coarse_start.hpp"
 #include "lib/identify/days/payload_columns.hpp"
@@ -185,28 +184,11 @@ ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, co
   return space;
 }
 
-std::vector<UniformLog> read_uniform(std::span<LogSource* const> logs) {
-  std::vector<double> periods;
-  for (LogSource* log : logs) {
-    log->rewind();
-    const Log all = read_all(*log);
-    for (int k = 1; k < all.rows(); ++k) periods.push_back(all.time[k] - all.time[k - 1]);
-  }
-  if (periods.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
-  const double period = std::round(upper_median(std::move(periods)) * 1e6) * 1e-6;
-  std::vector<UniformLog> out;
-  for (LogSource* log : logs) {
-    log->rewind();
-    out.push_back(uniform_log(*log, period));
-  }
-  return out;
-}
-
 }  // namespace
 
 OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& robot,
                              const ParameterSpace& space, const CoarseFitOptions& options) {
-  const std::vector<UniformLog> logs = read_uniform(sources);
+  const std::vector<UniformLog> logs = uniform_logs(sources);
   OneStepModel m;
   RigidColumns rigid{space.chain, space.lift};
   const std::vector<int> kept = of_links(rigid);

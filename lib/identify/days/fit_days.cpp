@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_days.hpp"
 
-#include <cmath>
-
-#include "lib/core/error.hpp"
-#include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_variance.hpp"
 #include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/days/healthy_looks.hpp"
@@ -17,28 +13,10 @@ namespace faultline {
 namespace {
 
 constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
-constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
-constexpr double kPeriodGrid = 1e-6;  // s to which the sample period is rounded
+constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
 // Rounds of the fit from which something more is looked for: what comes later needs what came before.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};
-
-std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
-  std::vector<double> periods;
-  for (LogSource* log : logs) {
-    log->rewind();
-    const Log all = read_all(*log);
-    for (int k = 1; k < all.rows(); ++k) periods.push_back(all.time[k] - all.time[k - 1]);
-  }
-  if (periods.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
-  const double period = std::round(upper_median(std::move(periods)) / kPeriodGrid) * kPeriodGrid;
-  std::vector<UniformLog> out;
-  for (LogSource* log : logs) {
-    log->rewind();
-    out.push_back(uniform_log(*log, period));
-  }
-  return out;
-}
 
 /// Rows, setting and a first fit of the rigid robot.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,

@@ -14,17 +14,6 @@ using Eigen::VectorXd;
 constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
 constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
 
-/// Median of each joint over the days.
-VectorXd medians_over(const std::vector<VectorXd>& days) {
-  VectorXd out(days.front().size());
-  for (int j = 0; j < out.size(); ++j) {
-    std::vector<double> values;
-    for (const VectorXd& day : days) values.push_back(day[j]);
-    out[j] = upper_median(std::move(values));
-  }
-  return out;
-}
-
 }  // namespace
 
 BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
@@ -58,8 +47,8 @@ BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
   }
   m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
   m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
-  m.q_noise = medians_over(q);
-  m.dq_noise = medians_over(dq);
+  m.q_noise = joint_medians(q);
+  m.dq_noise = joint_medians(dq);
   return m;
 }
 
