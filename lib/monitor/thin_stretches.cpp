@@ -70,7 +70,10 @@ void ThinStretches::take_row(const Log& rows, int row, const std::vector<LogRun>
 }
 
 void ThinStretches::begin_run(double time_s) {
-  for (Course& course : courses_) course = Course{.judged_s = time_s};
+  for (Course& course : courses_) {
+    course = Course();
+    course.judged_s = time_s;
+  }
   run_start_s_ = last_s_ = time_s;
 }
 
