@@ -4,16 +4,25 @@
 #include <cmath>
 
 #include "lib/balance/regressor.hpp"
+#include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kAlong = 0.9;  // cosine between a slide and gravity
 
+/// Derivative of tanh(speed / width) by ln(width).
+Eigen::VectorXd by_width(const Eigen::VectorXd& speed, double width) {
+  return speed.unaryExpr([width](double v) {
+    const double saturated = elementary::tanh(v / width);
+    return -v / width * (1.0 - saturated * saturated);
+  });
+}
+
 }  // namespace
 
-std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const ColumnLayout& layout,
-                                         const Eigen::VectorXd& theta) {
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetting& setting,
+                                         const ColumnLayout& layout, const Eigen::VectorXd& theta) {
   const DayLayout day{layout.base, layout.joints};
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(rows.rows(), -1.0, 1.0);
   std::vector<Eigen::MatrixXd> out(layout.joints, Eigen::MatrixXd::Zero(rows.rows(), day.count()));
@@ -26,6 +35,8 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const ColumnLa
     out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
     out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
     out[j].col(day.offset(j)).setOnes();
+    out[j].col(day.friction_width(j)) =
+        theta[layout.coulomb(j)] * by_width(rows.dq.col(j), setting.friction_width[j]);
   }
   return out;
 }

@@ -32,7 +32,8 @@ struct BalanceModel {
 };
 
 /// Where the effects of a day stand: relative change of each base parameter; then, for each joint, relative
-/// friction, its relative slope over the log, gain and offset of the torque.
+/// friction, its relative slope over the log, gain and offset of the torque, relative width of the friction's
+/// step at rest.
 struct DayLayout {
   int base = 0, joints = 0;
 
@@ -41,14 +42,15 @@ struct DayLayout {
   int friction_slope(int joint) const { return base + joints + joint; }
   int gain(int joint) const { return base + 2 * joints + joint; }
   int offset(int joint) const { return base + 3 * joints + joint; }
-  int count() const { return base + 4 * joints; }
+  int friction_width(int joint) const { return base + 4 * joints + joint; }
+  int count() const { return base + 5 * joints; }
 };
 
 inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }
 
 /// Columns of the effects of a day, by joint: rows x effects.
-std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const ColumnLayout& layout,
-                                         const Eigen::VectorXd& theta);
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetting& setting,
+                                         const ColumnLayout& layout, const Eigen::VectorXd& theta);
 
 /// Torque of the robot `theta` in each row: rows x joints.
 Eigen::MatrixXd torque_of(const BalanceRows& rows, const Eigen::VectorXd& theta);

@@ -8,22 +8,12 @@ namespace {
 
 constexpr double kBeyondHealthy = 2.0;  // times the evidence of healthy logs
 constexpr double kLeastLoss = 0.08;     // share of the torque: less is the gain of another day
-constexpr double kUnexplained = 0.3;    // share of what the healthy robot leaves, and
-constexpr double kMuchLeft = 3.0;       // mean square from which the best explanation is none
 constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;   // of the best evidence
 
 bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
   if (h.kind == FaultKind::torque_loss && h.size[0] < kLeastLoss) return false;
   return h.gain > limits.of(h.kind);
-}
-
-/// Whether the best explanation leaves so much that the fault is none of the kinds.
-bool is_unknown(const FaultHypothesis& best, const LogExplanation& e) {
-  if (e.slips && best.kind == FaultKind::sensor_bias) return true;
-  if (best.kind == FaultKind::stuck_encoder) return false;
-  const double left = best.fit.mean_square();
-  return left > kMuchLeft && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
 }
 
 }  // namespace
@@ -46,26 +36,53 @@ AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& e) {
           [&fit, &e](double limit) { return alarm_time(fit, e.free_form, limit); }};
 }
 
+std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
+                                         const AlarmTimes& alarms, std::size_t most) {
+  std::vector<ExplainedFault> out;
+  for (auto best = e.best.begin(); best != e.best.end() && out.size() < most; ++best) {
+    if (!passes(*best, limits)) continue;
+    ExplainedFault& fault = out.emplace_back();
+    fault.claim = *best;
+    fault.evidence = best->gain;
+    fault.left = best->fit.mean_square();
+    const double scale = std::max(1.0, fault.left);
+    for (auto h = best + 1; h != e.best.end(); ++h)
+      if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
+        fault.could_also_be.push_back({h->kind, h->joint});
+    fault.alarm_s = alarms.of(*best, limits.of(best->kind));
+  }
+  return out;
+}
+
+ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, const EvidenceLimits& limits,
+                          const AlarmTimes& alarms) {
+  ExplainedFault out = named;
+  out.claim.kind = FaultKind::unknown;
+  out.claim.size = {};
+  out.could_also_be.insert(out.could_also_be.begin(), named.label());
+  if (!alarms.of_free_form) return out;
+  out.claim.onset_s = e.free_form.onset_s;
+  out.claim.end_s = e.free_form.end_s;
+  out.alarm_s = alarms.of_free_form(limits.of(named.claim.kind));
+  return out;
+}
+
+EvidenceLimits scaled(EvidenceLimits limits, double factor) {
+  for (double& nats : limits.nats) nats *= factor;
+  return limits;
+}
+
+bool leaves_much(const ExplainedFault& named, double without) {
+  if (named.claim.kind == FaultKind::stuck_encoder) return false;
+  return named.left > kMuchLeft && named.left - 1.0 > kUnexplained * (without - 1.0);
+}
+
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
                                          const AlarmTimes& alarms) {
-  const auto best =
-      std::find_if(e.best.begin(), e.best.end(), [&](const FaultHypothesis& h) { return passes(h, limits); });
-  if (best == e.best.end()) return std::nullopt;
-  ExplainedFault out;
-  out.evidence = best->gain;
-  out.size = best->size;
-  const double scale = std::max(1.0, best->fit.mean_square());
-  const bool unknown = is_unknown(*best, e);
-  if (unknown) out.could_also_be.push_back({best->kind, best->joint});
-  for (auto h = best + 1; h != e.best.end(); ++h)
-    if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
-      out.could_also_be.push_back({h->kind, h->joint});
-  const double limit = limits.of(best->kind);
-  const bool any_form = unknown && alarms.of_free_form && !(e.slips && best->kind == FaultKind::sensor_bias);
-  out.label = unknown ? FaultLabel{FaultKind::unknown, best->joint} : FaultLabel{best->kind, best->joint};
-  out.onset_s = any_form ? e.free_form.onset_s : best->onset_s;
-  out.alarm_s = any_form ? alarms.of_free_form(limit) : alarms.of(*best, limit);
-  return out;
+  const std::vector<ExplainedFault> named = named_faults(e, limits, alarms, 1);
+  if (named.empty()) return std::nullopt;
+  if (!leaves_much(named.front(), e.healthy_square)) return named.front();
+  return as_unknown(named.front(), e, limits, alarms);
 }
 
 }  // namespace faultline

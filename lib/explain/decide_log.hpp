@@ -21,16 +21,22 @@ struct EvidenceLimits {
 /// that any of them gave for a kind, at least that of any kind, at least kLeastEvidence.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
+inline constexpr double kMuchLeft = 3.0;         ///< mean square from which an explanation may be none
+inline constexpr double kUnexplained = 0.3;      ///< and share of what the log leaves without it
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
+
+/// All limits times `factor`.
+EvidenceLimits scaled(EvidenceLimits limits, double factor);
 
 /// The fault of a log.
 struct ExplainedFault {
-  FaultLabel label;
-  double onset_s = 0.0;
+  FaultClaim claim;
   double alarm_s = 0.0;   ///< earliest sample at which the evidence from the onset on passes the limit
   double evidence = 0.0;  ///< nats
-  Eigen::VectorXd size;
+  double left = 1.0;      ///< mean square of what the explanation leaves, in standard deviations
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
+
+  FaultLabel label() const { return {claim.kind, claim.joint}; }
 };
 
 /// When the evidence of a hypothesis, and of a change of any form, passes a limit in nats. Without
@@ -42,6 +48,19 @@ struct AlarmTimes {
 
 /// Those of rows of 50 Hz and more.
 AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& explanation);
+
+/// The hypotheses that explain the log best and pass their limits, with their names: at most `most`, best
+/// first.
+std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, const EvidenceLimits& limits,
+                                         const AlarmTimes& alarms, std::size_t most);
+
+/// A fault of no kind, which `named` comes nearest to.
+ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation,
+                          const EvidenceLimits& limits, const AlarmTimes& alarms);
+
+/// Whether named faults explain so little that the fault is none of the kinds: `named` is the last of them,
+/// `without` the mean square that the log leaves without any of them.
+bool leaves_much(const ExplainedFault& named, double without);
 
 /// The fault that explains the log best, or `unknown` where the best explanation leaves much more than noise.
 /// Empty when no hypothesis passes its limit.

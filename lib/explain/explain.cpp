@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "lib/explain/judge.hpp"
+#include "lib/explain/refine.hpp"
 #include "lib/explain/search.hpp"
 #include "lib/explain/sensor_jumps.hpp"
 
@@ -16,27 +16,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFreeRowCost =
-    1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
-constexpr int kRowsOfChange = 6;  // on each side of a change of the work piece: kernel and filter
 constexpr double kSameOnset_s = 0.08;
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6;
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
-
-/// Judges hypotheses of one log and keeps them all.
-struct Bench {
-  const LogFit& fit;
-  std::vector<LinearFault> linear;
-  std::vector<FaultHypothesis> judged;
-
-  const FaultHypothesis* go(FaultKind kind, int joint, double onset_s, double start = 0.0) {
-    std::optional<FaultHypothesis> h = judge(fit, linear, kind, joint, onset_s, start);
-    if (!h) return nullptr;
-    judged.push_back(std::move(*h));
-    return &judged.back();
-  }
-};
 
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
   std::vector<Candidate> out;
@@ -72,24 +55,36 @@ std::set<double> onsets_of(const std::vector<Candidate>& own, const std::vector<
   return out;
 }
 
-void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change, Bench& bench) {
+/// Onsets at which every kind is tried: those that stand out, and when the healthy robot ceases to explain.
+std::vector<double> onsets_to_try(const std::vector<Candidate>& all, const FreeForm& change, double row_s) {
+  std::vector<double> out = common_onsets(all);
+  for (const double rows : {-1.0, -0.5, 0.0}) out.insert(out.begin(), change.onset_s + rows * row_s);
+  return out;
+}
+
+void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<double>& common,
+                        JudgedHypotheses& bench) {
   const LogFit& fit = bench.fit;
-  std::vector<double> common = common_onsets(all);
-  const double row_s = fit.model().setting.row_s();
-  for (const double rows : {-1.0, -0.5, 0.0}) common.insert(common.begin(), change.onset_s + rows * row_s);
   std::vector<double> changes;  // of the work piece
   for (int k = 0; k + 1 < static_cast<int>(fit.healthy().path.size()); ++k)
     if (fit.healthy().path[k] != fit.healthy().path[k + 1]) changes.push_back(fit.time_s()[k + 1]);
-  for (std::size_t f = 0; f < bench.linear.size(); ++f) {
-    const FaultKind kind = bench.linear[f].kind;
-    const int joint = bench.linear[f].joint;
-    std::set<double> onsets = onsets_of(of(all, kind, joint), common, kOnsetsForAll);
-    if (joint == fit.joints()) onsets.insert(changes.begin(), changes.end());
-    for (const double t : onsets) bench.go(kind, joint, t);
+  for (const LinearFault& fault : fit.linear()) {
+    const std::vector<Candidate> own = of(all, fault.kind, fault.joint);
+    std::set<double> onsets = onsets_of(own, common, kOnsetsForAll);
+    if (fault.joint == fit.joints()) onsets.insert(changes.begin(), changes.end());
+    for (const double t : onsets) bench.go({fault.kind, fault.joint, t});
+    for (const Candidate& c : own)
+      if (c.end_s < kNeverEnds) bench.go_from(c);
   }
+}
+
+void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change, JudgedHypotheses& bench) {
+  const LogFit& fit = bench.fit;
+  const std::vector<double> common = onsets_to_try(all, change, fit.model().setting.row_s());
+  judge_linear_kinds(all, common, bench);
   std::vector<Candidate> blows = of(all, FaultKind::collision, fit.joints());
   if (blows.size() > 4) blows.resize(4);
-  for (const double t : onsets_of(blows, common, 5)) bench.go(FaultKind::collision, fit.joints(), t);
+  for (const double t : onsets_of(blows, common, 5)) bench.go({FaultKind::collision, fit.joints(), t});
   for (int joint = 1; joint <= fit.joints(); ++joint) {
     const bool slide = fit.model().rigid.chain.geometry[joint - 1].kind == AxisKind::prismatic;
     std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
@@ -97,12 +92,13 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
     for (std::size_t k = 0; k < std::min<std::size_t>(4, common.size()); ++k)
       for (const double sign : {-1.0, 1.0})
         drifts.push_back({FaultKind::sensor_drift, joint, common[k], 0.0, sign * (slide ? 0.01 : 0.03)});
-    for (const Candidate& c : drifts) bench.go(c.kind, joint, c.onset_s, c.start);
-    for (const Candidate& c : of(all, FaultKind::sensor_bias, joint))
-      bench.go(c.kind, joint, c.onset_s, c.start);
-    for (const double t : onsets_of(of(all, FaultKind::locked, joint), common, kOnsetsForAll))
-      bench.go(FaultKind::locked, joint, t);
-    for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go(c.kind, joint, c.onset_s);
+    for (const Candidate& c : drifts) bench.go_from(c);
+    for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go_from(c);
+    const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
+    for (const double t : onsets_of(locks, common, kOnsetsForAll)) bench.go({FaultKind::locked, joint, t});
+    for (const Candidate& c : locks)
+      if (c.end_s < kNeverEnds) bench.go_from(c);
+    for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go_from(c);
   }
 }
 
@@ -123,117 +119,29 @@ std::vector<FaultHypothesis> ranked(const std::vector<FaultHypothesis>& all) {
   return out;
 }
 
-/// Moves the onset of a hypothesis while it explains more, by halved steps.
-void refine(FaultHypothesis best, Bench& bench) {
-  const LogFit& fit = bench.fit;
-  const double row_s = fit.model().setting.row_s();
-  const int first = std::max(6, static_cast<int>(kLead_s / row_s));
-  const double earliest = fit.time_s()[std::min(first, fit.count() - 1)],
-               latest = fit.time_s()[std::max(0, fit.count() - 3)];
-  const auto try_at = [&](double t) {
-    if (t < earliest || t >= latest) return false;
-    const double start = best.kind == FaultKind::sensor_drift ? best.size[0] : 0.0;
-    const FaultHypothesis* h = bench.go(best.kind, best.joint, t, start);
-    if (h == nullptr || h->gain <= best.gain) return false;
-    best = *h;
-    return true;
-  };
-  const double at = best.onset_s;
-  for (const double d : {-.04, -.03, -.02, -.01, -.005, .005, .01, .02, .03, .04}) try_at(at + d);
-  for (double step = 0.16; step > 0.3 * row_s;)
-    if (!try_at(best.onset_s - step) && !try_at(best.onset_s + step)) step /= 2.0;
-}
-
-/// Whether one encoder jumped more than once by about as much.
-bool slips(const std::vector<FaultHypothesis>& best, const std::vector<FaultHypothesis>& all) {
-  if (best.empty() || best.front().kind != FaultKind::sensor_bias) return false;
-  const FaultHypothesis& b = best.front();
-  return std::any_of(all.begin(), all.end(), [&](const FaultHypothesis& h) {
-    return h.kind == FaultKind::sensor_bias && h.joint == b.joint && std::abs(h.onset_s - b.onset_s) > 0.2 &&
-           h.gain > 0.02 * b.gain && std::abs(h.size[0]) > 0.4 * std::abs(b.size[0]);
-  });
-}
-
-/// The moment up to which rows are explained, where each row after it costs kFreeRowCost: effects of the day
-/// are those of the rows before, from cumulative normal equations.
-FreeForm free_form(const LogFit& fit) {
-  const int rows = fit.count(), n = fit.joints();
-  const int effects = static_cast<int>(fit.model().day_variance.size());
-  Stacked torque = fit.residual();
-  if (fit.has_piece())  // as seen before a fault could bend the effects of the day
-    torque -=
-        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
-  Stacked white = fit.whitened(torque);
-  const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
-  for (int k = 0; k < static_cast<int>(changes.size()); ++k)  // the time of a change is not known to a row
-    for (int j = 0; j < n && changes[k]; ++j) white[j * rows + k] = 0.0;
-  NormalEquations sums{MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
-  const VectorXd precision = fit.model().day_variance.cwiseInverse();
-  const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
-  double least = std::numeric_limits<double>::infinity();
-  int best = first;
-  VectorXd day = VectorXd::Zero(effects);
-  for (int k = 0; k + kTail < rows; ++k) {
-    for (int j = 0; j < n; ++j) {
-      const double y = white[j * rows + k];
-      if (!changes.empty() && changes[k]) continue;
-      const VectorXd w = fit.white_day().row(j * rows + k).transpose();
-      sums.matrix += w * w.transpose();
-      sums.vector += y * w;
-      sums.square += y * y;
-    }
-    if (k < first) continue;
-    const Regression before = regress(sums, precision);
-    const double cost =
-        0.5 * (sums.square - before.estimate.dot(sums.vector)) + kFreeRowCost * n * (rows - 1 - k);
-    if (cost >= least) continue;
-    least = cost;
-    best = k;
-    day = before.estimate;
-  }
-  FreeForm out;
-  out.onset_s = fit.time_s()[std::min(best + 1, rows - 1)];
-  out.left = white - fit.white_day() * day;
-  return out;
-}
-
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit) {
-  Bench bench{fit, linear_faults(fit), {}};
+  JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(1024);
   LogExplanation out;
   out.free_form = free_form(fit);
-  judge_candidates(search(fit, bench.linear), out.free_form, bench);
+  judge_candidates(search(fit), out.free_form, bench);
   std::vector<FaultHypothesis> top = ranked(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
   for (const FaultHypothesis& h : top)
-    if (h.gain >= kWorthRefining && h.kind != FaultKind::stuck_encoder && h.kind != FaultKind::sensor_bias)
-      refine(h, bench);
+    if (h.gain >= kWorthRefining) refine(h, bench);
   out.best = ranked(bench.judged);
   if (!out.best.empty()) {
-    const FaultHypothesis first = out.best.front();
-    if (first.kind == FaultKind::locked) bench.go(FaultKind::stuck_encoder, first.joint, first.onset_s);
-    if (first.kind == FaultKind::stuck_encoder) bench.go(FaultKind::locked, first.joint, first.onset_s);
-    out.best = ranked(bench.judged);
+    FaultClaim other = out.best.front();
+    if (other.kind == FaultKind::locked || other.kind == FaultKind::stuck_encoder) {
+      other.kind = other.kind == FaultKind::locked ? FaultKind::stuck_encoder : FaultKind::locked;
+      bench.go(other);
+      out.best = ranked(bench.judged);
+    }
   }
   out.healthy_square = fit.healthy().mean_square();
-  out.slips = slips(out.best, bench.judged);
   return out;
-}
-
-double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
-  const double edge = reach_s(fit.model().setting);
-  double sum = 0.0;
-  for (int k = 0; k < fit.count(); ++k) {
-    if (fit.time_s()[k] < change.onset_s - edge) continue;
-    for (int j = 0; j < fit.joints(); ++j) {
-      const double z = change.left[j * fit.count() + k];
-      sum += 0.5 * z * z - 0.5;
-    }
-    if (sum > threshold) return std::max(fit.time_s()[k] + edge, change.onset_s);
-  }
-  return fit.time_s()[fit.count() - 1] + edge;
 }
 
 double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold) {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lib/balance/smoothing.hpp"
-#include "lib/explain/end_stop.hpp"
+#include "lib/explain/row_deviation.hpp"
 
 namespace faultline {
 namespace {
@@ -14,31 +14,38 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kModelShare = 0.004;  // of each model term: what a model of a machine lacks
-constexpr double kLeastLoud = 0.3, kMostLoud = 4.0;
-constexpr double kChangeDoubt_rows = 0.6;  // standard deviation of the time of a change of the work piece
 constexpr double kSaysNothing = 1e9;
+constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
+constexpr double kFormShare = 0.05;    // of a known fault's torque: what its columns lack of its true form
+constexpr double kEdgeShare = 0.5;     // the same where it begins or ends
+constexpr double kReadingDoubt = 0.1;  // of a false reading's size that is left when it is mended
 constexpr double kGravity = 9.81;
 constexpr int kMostPaths = 4;   // rounds of path and effects in turn
 constexpr int kBeforeRows = 5;  // effects before an onset are estimated anew for each so many rows
 
-VectorXd loudness_of(const UniformLog& log, const BalanceModel& model) {
-  const bool by_position = model.setting.velocity_is_difference || log.dq.rows() == 0;
-  const VectorXd now = sample_noise(by_position ? log.q : log.dq);
-  const VectorXd& usual = by_position ? model.q_noise : model.dq_noise;
-  VectorXd out(now.size());
-  for (int j = 0; j < out.size(); ++j)
-    out[j] = std::clamp(usual[j] > 0.0 ? now[j] / usual[j] : 1.0, kLeastLoud, kMostLoud);
-  return out;
+/// What the size of a false reading that is mended still changes.
+FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
+  const double doubt = kReadingDoubt * std::abs(claim.size[0]);
+  claim.size[0] = doubt;
+  return {StackedColumns((fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim))) / doubt),
+          VectorXd::Constant(1, doubt * doubt)};
 }
 
-/// Squares of the terms of the model, each a column times its parameter, inertia, gravity and friction.
-MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, const VectorXd& theta) {
-  MatrixXd out(rows.rows(), rows.joints());
-  const int rigid = layout.rigid();
-  for (int j = 0; j < rows.joints(); ++j)
-    out.col(j) = (rows.column[j].leftCols(rigid) * theta.head(rigid).asDiagonal()).rowwise().squaredNorm();
-  return out;
+/// Columns of a linear fault as if it lasted from the first row to the last.
+FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
+  for (const LinearFault& fault : fit.linear())
+    if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint) return fault.columns;
+  return force_columns(fit.rows());
+}
+
+/// X' X without some rows of X.
+MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const StackedMask& dropped) {
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < dropped.size(); ++i)
+    if (dropped[i]) rows.push_back(static_cast<int>(i));
+  const MatrixXd lost = columns(rows, Eigen::all);
+  square -= lost.transpose() * lost;
+  return square;
 }
 
 }  // namespace
@@ -50,17 +57,12 @@ double Explanation::mean_square() const {
   return count > 0.0 ? sum / count : 1.0;
 }
 
-MatrixXd unstacked(const Stacked& values, int joints) {
-  return Eigen::Map<const MatrixXd>(values.data(), values.size() / joints, joints);
-}
-
-Stacked stacked(const MatrixXd& values) { return Eigen::Map<const VectorXd>(values.data(), values.size()); }
-
-LogFit::LogFit(UniformLog log, const BalanceModel& model)
-    : log_(std::move(log)),
+LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known)
+    : known_(std::move(known)),
+      log_(without_false_readings(std::move(log), known_)),
       model_(model),
       rows_(balance_rows(log_, model.setting, model.rigid, model.theta)),
-      loudness_(loudness_of(log_, model)) {
+      loudness_(row_loudness(log_, model)) {
   const ColumnLayout layout = model.layout();
   tip_ = payload_torque(rows_, model.payload, joints() - 1);
   residual_ = stacked(rows_.torque - torque_of(rows_, model.theta));
@@ -69,18 +71,57 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model)
     spring.col(j) = rows_.column[j].middleCols(layout.spring(0), joints()) *
                     model.theta.segment(layout.spring(0), joints());
   spring_ = stacked(spring);
-  std_ = row_std(rows_, model.setting, model.noise, loudness_);
-  const MatrixXd stop = stop_std(rows_, model);
-  std_ = (std_.array().square() + stop.array().square() +
-          kModelShare * kModelShare * squared_terms(rows_, layout, model.theta).array())
+  known_torque_ = Stacked::Zero(residual_.size());
+  std_ = row_deviation(rows_, model, loudness_);
+  linear_ = linear_faults(rows_, model);
+  effect_column_ = day_columns(rows_, model.setting, layout, model.theta);
+  effect_variance_ = model.day_variance;
+  for (const FaultClaim& claim : known_) {
+    if (silences(claim.kind)) {
+      const StackedMask rows = silent_rows(rows_, model, claim);
+      const VectorXd edge =
+          fault_edges(rows_, model.setting, claim);  // the jolt of a halt reaches every joint
+      silent_.resize(rows.size(), false);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        silent_[i] = silent_[i] || rows[i] || edge[static_cast<Eigen::Index>(i) % count()] > 0.0;
+    } else if (reads_wrong(claim.kind)) {
+      add_fault(reading_column(*this, claim), claim);
+    } else {
+      add_fault(between(columns_of(*this, claim), claim.onset_s, claim.end_s), claim);
+    }
+  }
+  for (std::size_t i = 0; i < silent_.size(); ++i)
+    if (silent_[i]) std_.data()[i] *= kSilent;
+  StackedColumns effects(count() * joints(), effect_variance_.size());
+  for (int j = 0; j < joints(); ++j) effects.middleRows(j * count(), count()) = effect_column_[j];
+  effect_white_ = whitened(effects);
+  effect_square_ = effect_white_.transpose() * effect_white_;
+  settle_healthy();
+}
+
+/// A known fault is an effect whose size is estimated, and what its columns lack of its true form is noise.
+void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
+  const Stacked torque = columns.column * claim.size;
+  if (!reads_wrong(claim.kind)) {
+    known_torque_ += torque;
+    residual_ -= torque;
+  }
+  const MatrixXd edge = fault_edges(rows_, model_.setting, claim);
+  std_ = (std_.array().square() +
+          unstacked(torque, joints()).array().square() *
+              (kFormShare * kFormShare + kEdgeShare * kEdgeShare * edge.replicate(1, joints()).array()))
              .sqrt();
-  day_column_ = faultline::day_columns(rows_, layout, model.theta);
-  const int effects = static_cast<int>(model.day_variance.size());
-  StackedColumns day(count() * joints(), effects);
-  for (int j = 0; j < joints(); ++j) day.middleRows(j * count(), count()) = day_column_[j];
-  day_white_ = whitened(day);
-  day_square_ = day_white_.transpose() * day_white_;
-  day_precision_ = model.day_variance.cwiseInverse();
+  const Eigen::Index effects = effect_variance_.size();
+  effect_variance_.conservativeResize(effects + columns.sizes());
+  effect_variance_.tail(columns.sizes()) = columns.variance;
+  for (int j = 0; j < joints(); ++j) {
+    effect_column_[j].conservativeResize(Eigen::NoChange, effect_variance_.size());
+    effect_column_[j].rightCols(columns.sizes()) = columns.column.middleRows(j * count(), count());
+  }
+}
+
+/// The log explained without a further fault; a work piece's path and the effects are estimated in turn.
+void LogFit::settle_healthy() {
   if (!has_piece()) {
     healthy_ = explain(residual_, {}, {});
     return;
@@ -97,15 +138,31 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model)
   }
 }
 
+bool LogFit::is_silent(int joint, double time_s) const {
+  return std::any_of(known_.begin(), known_.end(), [&](const FaultClaim& claim) {
+    return silences(claim.kind) && (claim.joint == joint || claim.kind == FaultKind::unknown) &&
+           time_s >= claim.onset_s && time_s < claim.end_s;
+  });
+}
+
+FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double end_s) const {
+  return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
+}
+
 Stacked LogFit::residual_of(const UniformLog& moved) const {
-  return stacked(faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta)) - spring_;
+  return stacked(faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta)) - spring_ -
+         known_torque_;
 }
 
 StackedColumns LogFit::whitened(const StackedColumns& columns) const {
   StackedColumns out(columns.rows(), columns.cols());
-  for (int j = 0; j < joints(); ++j)
-    out.middleRows(j * count(), count()) =
-        whiten(columns.middleRows(j * count(), count()), std_.col(j), model_.noise.joint[j]);
+  for (int j = 0; j < joints(); ++j) {
+    const auto of_joint = columns.middleRows(j * count(), count());
+    if (of_joint.isZero(0.0))
+      out.middleRows(j * count(), count()).setZero();
+    else
+      out.middleRows(j * count(), count()) = whiten(of_joint, std_.col(j), model_.noise.joint[j]);
+  }
   return out;
 }
 
@@ -113,7 +170,7 @@ Stacked LogFit::whitened(const Stacked& torque) const { return whitened(StackedC
 
 Stacked LogFit::day_torque(const VectorXd& day) const {
   Stacked out(count() * joints());
-  for (int j = 0; j < joints(); ++j) out.segment(j * count(), count()) = day_column_[j] * day;
+  for (int j = 0; j < joints(); ++j) out.segment(j * count(), count()) = effect_column_[j] * day;
   return out;
 }
 
@@ -135,49 +192,48 @@ Explanation LogFit::explain(const Stacked& residual, const FaultColumns& columns
     out.piece_level = ramps.level;
     y -= piece_torque(ramps.level);
     changes = static_cast<int>(ramps.change.cols());
-    const int k = static_cast<int>(x.cols());
-    x.conservativeResize(Eigen::NoChange, k + changes);
-    for (int c = 0; c < changes; ++c) x.col(k + c) = piece_torque(ramps.change.col(c));
-    variance.conservativeResize(k + changes);
-    variance.tail(changes).setConstant(Eigen::numext::abs2(kChangeDoubt_rows * model_.setting.row_s()));
+    const FaultColumns piece = piece_columns(rows_, model_.setting, model_.piece_kg * tip_, ramps.change);
+    x.conservativeResize(Eigen::NoChange, x.cols() + piece.sizes());
+    x.rightCols(piece.sizes()) = piece.column;
+    variance.conservativeResize(x.cols());
+    variance.tail(piece.sizes()) = piece.variance;
   }
-  const int effects = static_cast<int>(day_precision_.size()), sizes = static_cast<int>(x.cols());
+  const int effects = static_cast<int>(effect_variance_.size()), sizes = static_cast<int>(x.cols());
   Stacked z = whitened(y);
   StackedColumns xw = whitened(x);
+  int lost = 0;
+  for (std::size_t i = 0; i < dropped.size(); ++i) {
+    if (!dropped[i]) continue;
+    z[static_cast<Eigen::Index>(i)] = 0.0;
+    xw.row(static_cast<Eigen::Index>(i)).setZero();
+    ++lost;
+  }
   NormalEquations sums;
   sums.matrix.resize(effects + sizes, effects + sizes);
   sums.vector.resize(effects + sizes);
-  double lost = 0.0;
-  if (dropped.empty()) {
-    sums.matrix.topLeftCorner(effects, effects) = day_square_;
-    sums.vector.head(effects) = day_white_.transpose() * z;
-    sums.matrix.topRightCorner(effects, sizes) = day_white_.transpose() * xw;
-    sums.square = z.squaredNorm();
-    sums.vector.tail(sizes) = xw.transpose() * z;
-    sums.matrix.bottomRightCorner(sizes, sizes) = xw.transpose() * xw;
-  } else {
-    VectorXd keep(z.size());
-    for (Eigen::Index i = 0; i < z.size(); ++i) keep[i] = dropped[i] ? 0.0 : 1.0;
-    lost = static_cast<double>(keep.size()) - keep.sum();
-    const StackedColumns day = keep.asDiagonal() * day_white_;
-    const StackedColumns kept = keep.asDiagonal() * xw;
-    sums.matrix.topLeftCorner(effects, effects) = day.transpose() * day_white_;
-    sums.vector.head(effects) = day.transpose() * z;
-    sums.matrix.topRightCorner(effects, sizes) = day.transpose() * xw;
-    sums.square = z.cwiseProduct(keep).squaredNorm();
-    sums.vector.tail(sizes) = kept.transpose() * z;
-    sums.matrix.bottomRightCorner(sizes, sizes) = kept.transpose() * xw;
-  }
+  sums.matrix.topLeftCorner(effects, effects) =
+      lost > 0 ? without_rows(effect_square_, effect_white_, dropped) : effect_square_;
+  sums.vector.head(effects) = effect_white_.transpose() * z;
+  sums.matrix.topRightCorner(effects, sizes) = effect_white_.transpose() * xw;
+  sums.square = z.squaredNorm();
+  sums.vector.tail(sizes) = xw.transpose() * z;
+  sums.matrix.bottomRightCorner(sizes, sizes) = xw.transpose() * xw;
   sums.matrix.bottomLeftCorner(sizes, effects) = sums.matrix.topRightCorner(effects, sizes).transpose();
   VectorXd precision(effects + sizes);
-  precision << day_precision_, variance.cwiseInverse();
+  precision << effect_variance_.cwiseInverse(), variance.cwiseInverse();
   const Regression fit = regress(sums, precision);
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, columns.sizes());
+  out.size_std.resize(columns.sizes());
+  for (int k = 0; k < columns.sizes(); ++k)
+    out.size_std[k] = std::sqrt(fit.factor.solve(VectorXd::Unit(effects + sizes, effects + k))[effects + k]);
   out.log_likelihood = fit.log_likelihood - 0.5 * lost - kChangeOfPiece * changes;
-  out.left = z - day_white_ * out.day - xw * fit.estimate.tail(sizes);
+  out.left = z - effect_white_ * out.day - xw * fit.estimate.tail(sizes);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (dropped[i]) out.left[static_cast<Eigen::Index>(i)] = std::numeric_limits<double>::quiet_NaN();
+    if (dropped[i]) out.left[static_cast<Eigen::Index>(i)] = kNaN;
+  for (std::size_t i = 0; i < silent_.size(); ++i)
+    if (silent_[i]) out.left[static_cast<Eigen::Index>(i)] = kNaN;
   return out;
 }
 
@@ -235,11 +291,6 @@ VectorXd LogFit::day_before(double time) const {
   VectorXd day = explain(residual_, {}, first_path_, dropped).day;
   before_.emplace_back(key, day);
   return day;
-}
-
-VectorXd LogFit::soft_step(double onset_s) const {
-  const double width = std::max(model_.setting.kernel_s, 0.3 * model_.setting.row_s());
-  return time_s().unaryExpr([&](double t) { return normal_cdf((t - onset_s) / width); });
 }
 
 }  // namespace faultline

@@ -9,29 +9,16 @@
 #include "lib/balance/regress.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
+#include "lib/explain/fault_columns.hpp"
 
 namespace faultline {
-
-/// A value of every row and joint of a log, joint after joint: joint * rows + row.
-using Stacked = Eigen::VectorXd;
-/// Columns of such values.
-using StackedColumns = Eigen::MatrixXd;
-/// Rows that count for nothing, stacked.
-using StackedMask = std::vector<bool>;
-
-/// Columns of a hypothesis with the prior variance of their sizes.
-struct FaultColumns {
-  StackedColumns column;  ///< (joints * rows) x sizes
-  Eigen::VectorXd variance;
-
-  int sizes() const { return static_cast<int>(column.cols()); }
-};
 
 /// How well a log is explained by the robot, the day's effects and the columns of a hypothesis.
 struct Explanation {
   double log_likelihood = 0.0;  ///< marginal: effects, sizes and changes of the work piece integrated out
-  Eigen::VectorXd day;          ///< effects of the day
+  Eigen::VectorXd day;          ///< effects: those of the day, then sizes of known faults
   Eigen::VectorXd size;         ///< of the hypothesis' columns
+  Eigen::VectorXd size_std;     ///< standard deviation of each
   Stacked left;                 ///< whitened rows left over; NaN where rows do not count
   PiecePath path;               ///< of the work piece; empty without one
   Eigen::VectorXd piece_level;  ///< the path, smoothed
@@ -42,10 +29,16 @@ struct Explanation {
 /// One log against one model: what all hypotheses share.
 class LogFit {
  public:
-  /// Throws Error(input) when the log is shorter than the kernels. The model must outlive it.
-  LogFit(UniformLog log, const BalanceModel& model);
+  /// `known` are faults that the log is known to hold: their sizes are estimated beside the effects of the
+  /// day, false readings are mended, rows that say nothing do not count. Throws Error(input) when the log is
+  /// shorter than the kernels. The model must outlive it.
+  LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {});
 
+  /// Without the false readings that are known.
   const UniformLog& log() const { return log_; }
+  const std::vector<FaultClaim>& known() const { return known_; }
+  /// Whether a known fault leaves nothing to be said of joint `joint` (from 1) at a time.
+  bool is_silent(int joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
   const BalanceRows& rows() const { return rows_; }
   int count() const { return rows_.rows(); }
@@ -54,13 +47,17 @@ class LogFit {
   const Eigen::VectorXd& loudness() const { return loudness_; }
   /// Standard deviation of each row, rows x joints.
   const Eigen::MatrixXd& std() const { return std_; }
-  /// Torque that the robot leaves unexplained, without effects of the day.
+  /// Torque that robot and known faults leave unexplained, without effects.
   const Stacked& residual() const { return residual_; }
   /// The same of another trajectory of this log.
   Stacked residual_of(const UniformLog& moved) const;
-  const std::vector<Eigen::MatrixXd>& day_columns() const { return day_column_; }
-  /// Columns of the effects of a day, whitened and stacked.
-  const StackedColumns& white_day() const { return day_white_; }
+  const std::vector<LinearFault>& linear() const { return linear_; }
+  /// Effects that every hypothesis has: those of the day (DayLayout), then the sizes of the known faults. By
+  /// joint: rows x effects.
+  const std::vector<Eigen::MatrixXd>& effect_columns() const { return effect_column_; }
+  /// The same, whitened and stacked.
+  const StackedColumns& white_effects() const { return effect_white_; }
+  const Eigen::VectorXd& effect_variance() const { return effect_variance_; }
   const Eigen::MatrixXd& tip_torque() const { return tip_; }
   const Explanation& healthy() const { return healthy_; }
   /// Path of the work piece before anything was known of the day.
@@ -79,34 +76,36 @@ class LogFit {
   Explanation explain_with_piece(const Stacked& residual, const FaultColumns& columns,
                                  const std::vector<Eigen::VectorXd>& starts, double onset_s,
                                  const StackedMask& dropped = {}) const;
-  /// Torque of the effects of a day.
+  /// Torque of the effects.
   Stacked day_torque(const Eigen::VectorXd& day) const;
   Stacked piece_torque(const Eigen::VectorXd& level) const;
   /// Effects of the day as the rows before `time_s` show them.
   Eigen::VectorXd day_before(double time_s) const;
-  /// Step at `onset_s`, smoothed as the rows are.
-  Eigen::VectorXd soft_step(double onset_s) const;
+  /// Columns of a fault while it lasts.
+  FaultColumns between(const FaultColumns& columns, double onset_s, double end_s) const;
 
  private:
+  void add_fault(const FaultColumns& columns, const FaultClaim& claim);
+  void settle_healthy();
   PiecePath path_of(const Stacked& left, const StackedMask& dropped, bool wide) const;
 
+  std::vector<FaultClaim> known_;
   UniformLog log_;
   const BalanceModel& model_;
   BalanceRows rows_;
   Eigen::VectorXd loudness_;
   Eigen::MatrixXd std_, tip_;
   Stacked residual_, spring_;
-  std::vector<Eigen::MatrixXd> day_column_;
-  StackedColumns day_white_;
-  Eigen::MatrixXd day_square_;
-  Eigen::VectorXd day_precision_;
+  Stacked known_torque_;  ///< of the faults that are known, as large as their claims say
+  std::vector<LinearFault> linear_;
+  StackedMask silent_;  ///< empty where no row is
+  std::vector<Eigen::MatrixXd> effect_column_;
+  StackedColumns effect_white_;
+  Eigen::MatrixXd effect_square_;
+  Eigen::VectorXd effect_variance_;
   PiecePath first_path_;
   Explanation healthy_;
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;
 };
-
-/// Rows x joints from a stacked value, and back.
-Eigen::MatrixXd unstacked(const Stacked& values, int joints);
-Stacked stacked(const Eigen::MatrixXd& values);
 
 }  // namespace faultline

@@ -17,15 +17,34 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array kBlows_s{.02, .05, .1, .25};  // lengths of a collision
+constexpr std::array kLengths_s{.3, 1., 3.};       // of faults that end
+constexpr double kEndsScore = 10.0;                // nats by which an end must explain more in the search
 constexpr double kRest_s = 0.15;       // at the end of a log that a joint which stands still is measured by
 constexpr double kSurelyStands = 8.0;  // standard deviations
 constexpr double kSpringDoubt = 0.3;   // of a spring's way
+constexpr double kTakenBack = 0.3;     // of a jump by which the one back may differ
 constexpr double kLeastTolerance = 1e-5;                 // rad or m
 constexpr double kLeastNoise = 1e-6;                     // rad or m
 constexpr double kJumpScore = 10.0, kRepeatScore = 1e3;  // nats: such onsets are judged first
 
 void append(std::vector<Candidate> more, std::vector<Candidate>& out) {
   out.insert(out.end(), more.begin(), more.end());
+}
+
+/// Onsets of a fault that stays, and of one that ends after a while where that explains much more.
+std::vector<Candidate> search_linear(const WhiteSearch& s, const LinearFault& fault) {
+  std::vector<int> lengths = {0};
+  for (const double length_s : kLengths_s)
+    lengths.push_back(std::max(2, static_cast<int>(length_s / s.fit.model().setting.row_s())));
+  const std::vector<VectorXd> gains = onset_gains(s, fault.columns, lengths);
+  std::vector<Candidate> out = peaks(s.fit, {fault.kind, fault.joint}, gains[0], 2);
+  const double stays = out.empty() ? 0.0 : out.front().score;
+  for (std::size_t l = 0; l < std::size(kLengths_s); ++l)
+    for (Candidate c : peaks(s.fit, {fault.kind, fault.joint}, gains[l + 1], 1)) {
+      c.end_s = c.onset_s + kLengths_s[l];
+      if (c.score > stays + kEndsScore && c.end_s < s.fit.time_s()[s.fit.count() - 1]) out.push_back(c);
+    }
+  return out;
 }
 
 /// An unknown force of some length on any joint.
@@ -77,71 +96,40 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   return out;
 }
 
-}  // namespace
-
-std::vector<LinearFault> linear_faults(const LogFit& fit) {
-  const BalanceModel& m = fit.model();
-  const ColumnLayout layout = m.layout();
-  const int rows = fit.count(), n = fit.joints();
-  std::vector<LinearFault> out;
-  for (int j = 0; j < n; ++j) {
-    LinearFault loss{
-        FaultKind::torque_loss, j + 1, {StackedColumns::Zero(rows * n, 1), VectorXd::Constant(1, 0.25)}, {}};
-    loss.columns.column.col(0).segment(j * rows, rows) = fit.rows().torque.col(j);
-    if (fit.has_piece() && carries_weight(m.rigid, j))
-      for (const double size : {.4, .7, 1.}) loss.starts.push_back(VectorXd::Constant(1, size));
-    out.push_back(std::move(loss));
+/// Jumps of a position: those that stay, and those that another one takes back.
+std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
+  const std::vector<SensorJump> jumps = sensor_jumps(fit, j);
+  std::vector<Candidate> out;
+  for (const SensorJump& jump : jumps) {
+    out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size});
+    const SensorJump* back = nullptr;  // the next one that takes it back
+    for (const SensorJump& other : jumps)
+      if (other.onset_s > jump.onset_s &&
+          std::abs(other.size + jump.size) < kTakenBack * std::abs(jump.size) &&
+          (back == nullptr || other.onset_s < back->onset_s))
+        back = &other;
+    if (back != nullptr)
+      out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size, back->onset_s});
   }
-  for (int j = 0; j < n; ++j) {
-    const double fv = m.theta[layout.viscous(j)], fc = m.theta[layout.coulomb(j)];
-    LinearFault friction{
-        FaultKind::friction_increase, j + 1, {StackedColumns::Zero(rows * n, 2), VectorXd(2)}, {}};
-    friction.columns.column.col(0).segment(j * rows, rows) = fit.rows().column[j].col(layout.viscous(j));
-    friction.columns.column.col(1).segment(j * rows, rows) = fit.rows().column[j].col(layout.coulomb(j));
-    friction.columns.variance << 9.0 * fv * fv + 1e-6, 9.0 * fc * fc + 1e-6;
-    if (fit.has_piece() && carries_weight(m.rigid, j)) {
-      friction.starts.push_back(Eigen::Vector2d(fv, 1.5 * fc));
-      friction.starts.push_back(Eigen::Vector2d(2.0 * fv, 3.0 * fc));
-    }
-    out.push_back(std::move(friction));
-  }
-  const double mass = carried_mass(fit);
-  LinearFault payload{FaultKind::payload_change,
-                      n,
-                      {stacked(fit.tip_torque()), VectorXd::Constant(1, 0.36 * mass * mass)},
-                      {}};
-  if (fit.has_piece())
-    for (const double share : {.25, .6, 1.}) payload.starts.push_back(VectorXd::Constant(1, share * mass));
-  out.push_back(std::move(payload));
   return out;
 }
 
-double carried_mass(const LogFit& fit) {
-  const Eigen::MatrixXd torque = torque_of(fit.rows(), fit.model().theta);
-  double num = 0.0, den = 0.0;
-  for (int j = fit.joints() - 1; j < fit.joints(); ++j) {
-    num += torque.col(j).dot(fit.tip_torque().col(j));
-    den += fit.tip_torque().col(j).squaredNorm();
-  }
-  return den > 0.0 ? std::abs(num / den) : 1.0;
-}
+}  // namespace
 
-std::vector<Candidate> search(const LogFit& fit, const std::vector<LinearFault>& linear) {
+std::vector<Candidate> search(const LogFit& fit) {
   const WhiteSearch s = white_search(fit);
   std::vector<Candidate> out;
-  for (const LinearFault& fault : linear)
-    append(peaks(fit, {fault.kind, fault.joint}, onset_gains(s, fault.columns), 2), out);
+  for (const LinearFault& fault : fit.linear()) append(search_linear(s, fault), out);
   for (int j = 0; j < fit.joints(); ++j) append(search_drift(s, j), out);
   append(search_collision(s), out);
   for (int j = 0; j < fit.joints(); ++j) {
     append(search_standstill(fit, j), out);
-    for (const SensorJump& jump : sensor_jumps(fit, j))
-      out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size});
-    if (const auto run = repeated_to_the_end(fit, j)) {
-      out.push_back({FaultKind::stuck_encoder, j + 1, run->onset_s, kRepeatScore, 0.0});
-      out.push_back({FaultKind::locked, j + 1, run->onset_s, kRepeatScore, 0.0});
-    }
+    append(search_jumps(fit, j), out);
+    for (const RepeatedCode& run : repeated_codes(fit, j))
+      for (const FaultKind kind : {FaultKind::stuck_encoder, FaultKind::locked})
+        out.push_back({kind, j + 1, run.onset_s, kRepeatScore, 0.0, run.end_s});
   }
+  std::erase_if(out, [&](const Candidate& c) { return fit.is_silent(c.joint, c.onset_s); });
   return out;
 }
 

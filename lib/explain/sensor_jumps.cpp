@@ -14,11 +14,12 @@ using Eigen::VectorXd;
 
 constexpr double kLeastStep = 6.0;  // standard deviations
 constexpr int kApart = 15;          // samples between two jumps
-constexpr int kMost = 3;            // jumps of one joint
+constexpr int kMost = 6;            // jumps of one joint
 constexpr int kAround = 14;         // samples on each side that a step is measured over
 constexpr double kFewWaves = 0.3;   // decay of the fusion below which the velocity says nothing of steps
 constexpr double kHighRate_s = 0.005;
-constexpr int kManyRepeats = 12;  // samples: a healthy position that repeats longer says nothing by it
+constexpr std::size_t kMostRuns = 3;  // of repeated codes
+constexpr int kManyRepeats = 12;      // samples: a healthy position that repeats longer says nothing by it
 
 /// How much each sample is off a smooth motion, and by which size.
 VectorXd off_motion(const LogFit& fit, int j) {
@@ -88,16 +89,25 @@ bool repeats_say_something(const BalanceModel& model, int j) {
   return model.longest_repeat[j] < kManyRepeats;
 }
 
-std::optional<RepeatsToTheEnd> repeated_to_the_end(const LogFit& fit, int j) {
+std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
-  int since = log.rows() - 1;
-  while (since > 0 && log.q(since - 1, j) == log.q(since, j)) --since;
-  const int samples = log.rows() - 1 - since;
   const BalanceModel& m = fit.model();
   const double least =
       repeats_say_something(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / log.period_s;
-  if (samples < least) return std::nullopt;
-  return RepeatsToTheEnd{log.time_s(since), samples};
+  std::vector<std::pair<int, RepeatedCode>> runs;  // with their samples
+  for (int first = 0; first < log.rows();) {
+    int next = first + 1;
+    while (next < log.rows() && log.q(next, j) == log.q(first, j)) ++next;
+    const bool to_the_end = next == log.rows();
+    if (next - 1 - first >= least)
+      runs.push_back({next - first, {log.time_s(first), to_the_end ? kNeverEnds : log.time_s(next)}});
+    first = next;
+  }
+  std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<RepeatedCode> out;
+  for (const auto& [samples, run] : runs)
+    if (out.size() < kMostRuns) out.push_back(run);
+  return out;
 }
 
 }  // namespace faultline

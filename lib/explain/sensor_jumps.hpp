@@ -19,12 +19,13 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 /// Whether repeated codes of a position say anything: in healthy logs it repeats for a few samples only.
 bool repeats_say_something(const BalanceModel& model, int joint);
 
-/// A position that repeats one code to the end of the log.
-struct RepeatsToTheEnd {
+/// A position that repeats one code for longer than healthy logs show.
+struct RepeatedCode {
   double onset_s = 0.0;
-  int samples = 0;
+  double end_s = kNeverEnds;
 };
 
-std::optional<RepeatsToTheEnd> repeated_to_the_end(const LogFit& fit, int joint);
+/// The longest of them, by their length.
+std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int joint);
 
 }  // namespace faultline

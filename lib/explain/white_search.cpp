@@ -31,7 +31,7 @@ double process_variance(const VectorXd& filter) {
   return sum;
 }
 
-/// Normal equations of columns that are switched on at a row, effects of the day not yet taken away.
+/// Normal equations of columns over some rows; with the effects not yet taken away.
 struct SwitchedSums {
   MatrixXd square, cross;
   VectorXd vector;
@@ -44,17 +44,26 @@ struct SwitchedSums {
       const double std = s.fit.std()(t, j), weight = s.precision[j] / (std * std);
       square += weight * x.transpose() * x;
       vector += weight * s.left[j * rows + t] * x.transpose();
-      cross += weight * x.transpose() * s.fit.day_columns()[j].row(t);
+      cross += weight * x.transpose() * s.effects[j].row(t);
     }
   }
-  MatrixXd without_day(const WhiteSearch& s) const {
-    return square - cross * s.covariance * cross.transpose();
-  }
+  MatrixXd without_effects() const { return square - cross * cross.transpose(); }
 };
 
 SwitchedSums no_rows(const WhiteSearch& s, const StackedColumns& columns) {
   const Eigen::Index k = columns.cols();
-  return {MatrixXd::Zero(k, k), MatrixXd::Zero(k, s.covariance.rows()), VectorXd::Zero(k)};
+  return {MatrixXd::Zero(k, k), MatrixXd::Zero(k, s.effects.front().cols()), VectorXd::Zero(k)};
+}
+
+/// Nats by which columns explain more, their sizes and the effects integrated out.
+double gain_of(const SwitchedSums& sums, const VectorXd& variance) {
+  MatrixXd inner = sums.without_effects();
+  inner.diagonal() += variance.cwiseInverse();
+  const Eigen::LLT<MatrixXd> factor(inner);
+  double volume = 0.0;
+  for (int i = 0; i < variance.size(); ++i)
+    volume += elementary::log(factor.matrixLLT()(i, i)) + 0.5 * elementary::log(variance[i]);
+  return 0.5 * sums.vector.dot(factor.solve(sums.vector)) - volume;
 }
 
 }  // namespace
@@ -67,7 +76,7 @@ VectorXd WhiteSearch::weighted(int joint) const {
 WhiteSearch white_search(const LogFit& fit) {
   const BalanceModel& m = fit.model();
   WhiteSearch out{fit, VectorXd(fit.joints()), {}, {}};
-  MatrixXd a = m.day_variance.cwiseInverse().asDiagonal();
+  MatrixXd a = fit.effect_variance().cwiseInverse().asDiagonal();
   VectorXd b = VectorXd::Zero(a.rows());
   Stacked y = fit.residual();
   if (fit.has_piece()) y -= fit.piece_torque(fit.healthy().piece_level);
@@ -75,29 +84,33 @@ WhiteSearch white_search(const LogFit& fit) {
     const JointNoise& noise = m.noise.joint[j];
     out.precision[j] = 1.0 / (noise.innovation * noise.innovation * process_variance(noise.filter));
     const VectorXd inverse = fit.std().col(j).cwiseInverse();
-    const MatrixXd w = inverse.asDiagonal() * fit.day_columns()[j];
+    const MatrixXd w = inverse.asDiagonal() * fit.effect_columns()[j];
     a += out.precision[j] * w.transpose() * w;
     b += out.precision[j] * w.transpose() * y.segment(j * fit.count(), fit.count()).cwiseProduct(inverse);
   }
-  out.covariance = a.ldlt().solve(MatrixXd::Identity(a.rows(), a.cols()));
-  out.left = y - fit.day_torque(out.covariance * b);
+  const Eigen::LLT<MatrixXd> factor(a);
+  out.left = y - fit.day_torque(factor.solve(b));
+  for (int j = 0; j < fit.joints(); ++j)
+    out.effects.push_back(factor.matrixL().solve(fit.effect_columns()[j].transpose()).transpose());
   return out;
 }
 
-VectorXd onset_gains(const WhiteSearch& s, const FaultColumns& columns) {
-  VectorXd out(s.fit.count());
-  double log_prior = 0.0;
-  for (const double variance : columns.variance) log_prior += 0.5 * elementary::log(variance);
-  SwitchedSums sums = no_rows(s, columns.column);
-  for (int t = s.fit.count() - 1; t >= 0; --t) {
-    sums.add_row(s, columns.column, t);
-    MatrixXd inner = sums.without_day(s);
-    inner.diagonal() += columns.variance.cwiseInverse();
-    const Eigen::LLT<MatrixXd> factor(inner);
-    double log_posterior = 0.0;
-    for (int i = 0; i < columns.sizes(); ++i) log_posterior += elementary::log(factor.matrixLLT()(i, i));
-    out[t] = 0.5 * sums.vector.dot(factor.solve(sums.vector)) - log_posterior - log_prior;
+std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& columns,
+                                  const std::vector<int>& lengths) {
+  const int rows = s.fit.count();
+  std::vector<VectorXd> out(lengths.size(), VectorXd(rows));
+  std::vector<SwitchedSums> from(rows + 1, no_rows(s, columns.column));  // by row: it and all later rows
+  for (int t = rows - 1; t >= 0; --t) {
+    from[t] = from[t + 1];
+    from[t].add_row(s, columns.column, t);
   }
+  for (std::size_t l = 0; l < lengths.size(); ++l)
+    for (int t = 0; t < rows; ++t) {
+      const int end = lengths[l] > 0 ? std::min(t + lengths[l], rows) : rows;
+      const SwitchedSums within{from[t].square - from[end].square, from[t].cross - from[end].cross,
+                                from[t].vector - from[end].vector};
+      out[l][t] = gain_of(within, columns.variance);
+    }
   return out;
 }
 
@@ -107,7 +120,7 @@ VectorXd onset_gains_of_size(const WhiteSearch& s, const StackedColumns& columns
   for (int t = s.fit.count() - 1; t >= 0; --t) {
     sums.add_row(s, columns, t);
     const VectorXd of_onset = size.row(t).transpose();
-    out[t] = of_onset.dot(sums.vector) - 0.5 * of_onset.dot(sums.without_day(s) * of_onset);
+    out[t] = of_onset.dot(sums.vector) - 0.5 * of_onset.dot(sums.without_effects() * of_onset);
   }
   return out;
 }

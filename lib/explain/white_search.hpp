@@ -8,7 +8,7 @@
 namespace faultline {
 
 inline constexpr double kLead_s = 0.5;  ///< at the start of a log, in which no onset is looked for
-inline constexpr int kTail = 5;         ///< rows at the end in which none is looked for
+inline constexpr int kTail = 2;         ///< rows at the end in which none is looked for
 
 /// An onset worth judging for one kind and joint.
 struct Candidate {
@@ -17,15 +17,16 @@ struct Candidate {
   double onset_s = 0.0;
   double score = 0.0;  ///< nats under white noise: for the choice of onsets only
   double start = 0.0;  ///< size of a sensor fault to begin with
+  double end_s = kNeverEnds;
 };
 
 /// What the search keeps of the healthy explanation: white noise of the healthy size. A hard edge of an onset
 /// would be blown up by the whitening.
 struct WhiteSearch {
   const LogFit& fit;
-  Eigen::VectorXd precision;   ///< by joint, of a row over its standard deviation
-  Eigen::MatrixXd covariance;  ///< of the effects of the day
-  Stacked left;                ///< torque left over, effects of the day taken away
+  Eigen::VectorXd precision;             ///< by joint, of a row over its standard deviation
+  std::vector<Eigen::MatrixXd> effects;  ///< by joint, rows x effects: columns whose sizes have unit variance
+  Stacked left;                          ///< torque left over, effects taken away
 
   /// Torque of joint `joint` (from 0) left over, times its precision in each row.
   Eigen::VectorXd weighted(int joint) const;
@@ -33,8 +34,10 @@ struct WhiteSearch {
 
 WhiteSearch white_search(const LogFit& fit);
 
-/// Evidence for columns that are switched on at each row, from cumulative normal equations: nats by row.
-Eigen::VectorXd onset_gains(const WhiteSearch& search, const FaultColumns& columns);
+/// Evidence for columns that are switched on at each row for `length` rows (0: to the end), from cumulative
+/// normal equations: nats by row, one vector for each length.
+std::vector<Eigen::VectorXd> onset_gains(const WhiteSearch& search, const FaultColumns& columns,
+                                         const std::vector<int>& lengths);
 /// The same where the sizes are known: `size` has those of each onset (rows x sizes).
 Eigen::VectorXd onset_gains_of_size(const WhiteSearch& search, const StackedColumns& columns,
                                     const Eigen::MatrixXd& size);

@@ -19,6 +19,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/decide_log.hpp"
+#include "lib/explain/explain_faults.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/identify/days/fit_days.hpp"
 #include "lib/identify/identify.hpp"
@@ -29,7 +30,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kDayEnds_s = 86400.0;  // for a fault that does not end: JSON has no infinity
+
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The whole log on the grid of the model.
+UniformLog whole(LogSource& log, double period_s) {
+  log.rewind();
+  return uniform_log(log, period_s);
+}
 
 struct Bench {
   OpenLogOptions reading;
@@ -44,12 +53,6 @@ struct Bench {
   }
 };
 
-/// A log explained, with its alarms.
-struct Explained {
-  LogExplanation what;
-  AlarmTimes alarms;
-};
-
 /// From 50 Hz on: rows of the torque balance.
 struct FineCore {
   using Model = BalanceModel;
@@ -57,14 +60,12 @@ struct FineCore {
   DayFitOptions options;
 
   Model learn(const std::vector<LogSource*>& logs) const { return fit_days(logs, space, options); }
-  static Explained explain(LogSource& log, const Model& model) {
-    log.rewind();
-    const auto fit = std::make_shared<LogFit>(uniform_log(log, model.setting.period_s), model);
-    LogExplanation what = explain_log(*fit);
-    const FreeForm change = what.free_form;
-    return {std::move(what),
-            {[fit](const FaultHypothesis& h, double limit) { return alarm_time(*fit, h, limit); },
-             [fit, change](double limit) { return alarm_time(*fit, change, limit); }}};
+  static LogExplanation explain(LogSource& log, const Model& model) {
+    return explain_log({whole(log, model.setting.period_s), model});
+  }
+  static std::vector<ExplainedFault> faults(LogSource& log, const Model& model,
+                                            const EvidenceLimits& limits) {
+    return explain_faults(whole(log, model.setting.period_s), model, limits);
   }
 };
 
@@ -78,11 +79,18 @@ struct CoarseCore {
   Model learn(const std::vector<LogSource*>& logs) const {
     return fit_coarse_days(logs, robot, space, options);
   }
-  static Explained explain(LogSource& log, const Model& model) {
-    log.rewind();
-    const auto fit = std::make_shared<CoarseLog>(coarse_log(uniform_log(log, model.setting.period_s), model));
-    return {explain_coarse(*fit),
-            {[fit](const FaultHypothesis& h, double limit) { return coarse_alarm_time(*fit, h, limit); }}};
+  static LogExplanation explain(LogSource& log, const Model& model) {
+    return explain_coarse(coarse_log(whole(log, model.setting.period_s), model));
+  }
+  /// One fault at most.
+  static std::vector<ExplainedFault> faults(LogSource& log, const Model& model,
+                                            const EvidenceLimits& limits) {
+    const CoarseLog read = coarse_log(whole(log, model.setting.period_s), model);
+    const auto alarm = [&](const FaultHypothesis& h, double limit) {
+      return coarse_alarm_time(read, h, limit);
+    };
+    const std::optional<ExplainedFault> fault = decide_log(explain_coarse(read), limits, {alarm});
+    return fault ? std::vector<ExplainedFault>{*fault} : std::vector<ExplainedFault>{};
   }
 };
 
@@ -105,20 +113,24 @@ void judge_log(const Bench& bench, const std::string& path, const typename Core:
                const EvidenceLimits& limits) {
   const double from = processor_s();
   const std::unique_ptr<LogSource> log = open_log(path, bench.reading);
-  const Explained e = Core::explain(*log, model);
-  const std::optional<ExplainedFault> fault = decide_log(e.what, limits, e.alarms);
-  Json report = {{"verdict", fault ? "faulty" : "healthy"}, {"faults", Json::array()}};
-  if (fault)
-    report["faults"].push_back({{"kind", to_string(fault->label.kind)},
-                                {"joint", fault->label.joint},
-                                {"onset_s", fault->onset_s},
-                                {"alarm_s", fault->alarm_s},
-                                {"evidence", fault->evidence},
-                                {"could_also_be", labels_of(fault->could_also_be)}});
+  const std::vector<ExplainedFault> faults = Core::faults(*log, model, limits);
+  Json report = {{"verdict", faults.empty() ? "healthy" : "faulty"}, {"faults", Json::array()}};
+  std::string said;
+  for (const ExplainedFault& fault : faults) {
+    const FaultClaim& claim = fault.claim;
+    report["faults"].push_back({{"kind", to_string(claim.kind)},
+                                {"joint", claim.joint},
+                                {"onset_s", claim.onset_s},
+                                {"alarm_s", fault.alarm_s},
+                                {"end_s", std::min(claim.end_s, kDayEnds_s)},
+                                {"evidence", fault.evidence},
+                                {"could_also_be", labels_of(fault.could_also_be)}});
+    said += fmt::format("  {} {} {:.3f} to {:.3f} s: {:.0f} nats", to_string(claim.kind), claim.joint,
+                        claim.onset_s, claim.end_s, fault.evidence);
+  }
   const std::string name = std::filesystem::path(path).filename().string();
   std::ofstream(bench.out / "reports" / (name + ".json")) << report.dump(1) << "\n";
-  fmt::print("{} {} left {:.2f}{}, {:.2f} s\n", name, fault ? to_string(fault->label.kind) : "healthy",
-             e.what.healthy_square, best_of(e.what), processor_s() - from);
+  fmt::print("{} {}{}, {:.2f} s\n", name, faults.empty() ? "healthy" : "faulty", said, processor_s() - from);
   std::fflush(stdout);
 }
 
@@ -131,7 +143,7 @@ void learn_and_explain(const Bench& bench, const Core& core, double from,
   std::vector<LogExplanation> left_out;
   for (std::size_t k = 0; k < bench.healthy.size(); ++k) {
     const typename Core::Model others = core.learn(bench.all_but(k));
-    left_out.push_back(Core::explain(*bench.healthy[k], others).what);
+    left_out.push_back(Core::explain(*bench.healthy[k], others));
     fmt::print("{} left out: left {:.2f}{}\n", bench.healthy[k]->identity().path,
                left_out.back().healthy_square, best_of(left_out.back()));
   }

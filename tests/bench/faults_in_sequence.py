@@ -33,7 +33,20 @@ PAIRS = [
     (("free_swinging", 3, 0.0, ""), ("locked", 2)),
 ]
 TWICE = [("torque_loss", 1, 0.5), ("friction_increase", 2, 4.0), ("sensor_bias", 1, 0.03)]
-AT_ONCE = [(("torque_loss", 3, 0.3), ("locked", 1)), (("sensor_bias", 3, 0.006), ("free_swinging", 2))]
+AT_ONCE = [
+    (("torque_loss", 3, 0.3, ""), ("locked", 1, 0.0, "")),
+    (("sensor_bias", 3, 0.006, ""), ("free_swinging", 2, 0.0, "")),
+    (("torque_loss", 2, 0.4, ""), ("friction_increase", 1, 5.0, "viscous = 1.5")),
+    (("payload_change", 3, 1.0, ""), ("friction_increase", 1, 5.0, "viscous = 1.5")),
+    (("torque_loss", 2, 0.4, ""), ("sensor_drift", 1, 0.05, "")),
+    (("torque_loss", 1, 0.4, ""), ("torque_loss", 2, 0.5, "")),
+    (("sensor_bias", 2, 0.03, ""), ("friction_increase", 3, 9.0, "viscous = 1.5")),
+    (("friction_increase", 1, 5.0, "viscous = 1.5"), ("friction_increase", 2, 3.0, "viscous = 1.5")),
+    (("torque_loss", 1, 0.4, ""), ("stuck_encoder", 3, 0.0, "")),
+    (("torque_loss", 2, 0.5, ""), ("locked", 3, 0.0, "")),
+    (("friction_increase", 1, 5.0, "viscous = 1.5"), ("free_swinging", 2, 0.0, "")),
+    (("payload_change", 3, 1.0, ""), ("torque_loss", 1, 0.4, "")),
+]
 
 
 def event(kind, joint, onset_s, size=0.0, more=""):
@@ -54,9 +67,9 @@ def cases():
         text = event(kind, joint, FIRST_S, size, length) + event(kind, joint, SECOND_S, size, length)
         expected = [(kind, joint, at, at + LENGTH_S) for at in (FIRST_S, SECOND_S)]
         out.append((f"twice_{i + 1}", expected, text))
-    for i, ((kind, joint, size), (grave, at)) in enumerate(AT_ONCE):
-        text = event(kind, joint, SECOND_S, size) + event(grave, at, SECOND_S)
-        out.append((f"at_once_{i + 1}", [(kind, joint, SECOND_S, None), (grave, at, SECOND_S, None)], text))
+    for i, pair in enumerate(AT_ONCE):
+        text = "".join(event(kind, joint, SECOND_S, size, more) for kind, joint, size, more in pair)
+        out.append((f"at_once_{i + 1}", [(kind, joint, SECOND_S, None) for kind, joint, _, _ in pair], text))
     return out
 
 

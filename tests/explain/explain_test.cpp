@@ -8,55 +8,17 @@
 #include <cmath>
 
 #include "lib/explain/decide_log.hpp"
-#include "lib/identify/days/fit_days.hpp"
-#include "lib/log/memory_source.hpp"
-#include "tests/identify/closed_form_scara.hpp"
+#include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
 namespace {
 
-using testing::ClosedFormRun;
 using testing::ClosedFormScara;
+using testing::fit_of;
+using testing::of_day;
+using testing::run_of;
+using testing::scara_model;
 using testing::simulate_closed_form;
-
-constexpr double kPeriod_s = 0.004;
-
-ClosedFormRun run_of(std::uint64_t seed) {
-  return {.duration_s = 8.0,
-          .period_s = kPeriod_s,
-          .reach = {0.8, 0.9, 0.1},
-          .q_noise = 2e-5,
-          .dq_noise = 2e-3,
-          .seed = seed};
-}
-
-/// A day: friction is a few per cent more or less.
-ClosedFormScara of_day(int day) {
-  ClosedFormScara out;
-  for (int j = 0; j < 3; ++j) out.fc[j] *= 1.0 + 0.04 * (day % 3 - 1);
-  return out;
-}
-
-const BalanceModel& model() {
-  static const BalanceModel learned = [] {
-    std::vector<MemorySource> days;
-    for (int day = 0; day < 3; ++day)
-      days.emplace_back(simulate_closed_form(of_day(day), run_of(day + 1)), "day");
-    std::vector<LogSource*> logs;
-    for (MemorySource& day : days) logs.push_back(&day);
-    Robot robot = preset_robot("RRP");
-    robot.chain.length = {1.0, 0.8, 0.0};
-    DayFitOptions options;
-    options.torque_is_held = true;
-    return fit_days(logs, parameter_space(robot), options);
-  }();
-  return learned;
-}
-
-LogFit fit_of(Log log) {
-  MemorySource source(std::move(log));
-  return {uniform_log(source, kPeriod_s), model()};
-}
 
 std::optional<ExplainedFault> decided(const LogFit& fit) {
   const LogExplanation e = explain_log(fit);
@@ -67,17 +29,17 @@ EvidenceLimits limits() { return evidence_limits({}); }
 
 TEST(FitDays, GivesTheRobotOfTheClosedForm) {
   const ClosedFormScara truth;
-  const ColumnLayout layout = model().layout();
+  const ColumnLayout layout = scara_model().layout();
   const std::vector<double> base = {truth.a(), truth.b(), truth.c(), truth.m3};
-  for (int p = 0; p < 4; ++p) EXPECT_NEAR(model().theta[p] / base[p], 1.0, 0.01) << p;
+  for (int p = 0; p < 4; ++p) EXPECT_NEAR(scara_model().theta[p] / base[p], 1.0, 0.01) << p;
   for (int j = 0; j < 3; ++j) {
-    EXPECT_NEAR(model().theta[layout.viscous(j)] / truth.fv[j], 1.0, 0.1) << j;
-    EXPECT_NEAR(model().theta[layout.coulomb(j)] / truth.fc[j], 1.0, 0.1) << j;
+    EXPECT_NEAR(scara_model().theta[layout.viscous(j)] / truth.fv[j], 1.0, 0.1) << j;
+    EXPECT_NEAR(scara_model().theta[layout.coulomb(j)] / truth.fc[j], 1.0, 0.1) << j;
   }
 }
 
 TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
-  const DayLayout day = day_layout(model().rigid);
+  const DayLayout day = day_layout(scara_model().rigid);
   const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(9)));
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(fit.healthy().day[day.friction(j)], 0.04, 0.03) << j;
 }
@@ -97,10 +59,10 @@ TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::torque_loss, 2}));
-  EXPECT_NEAR(fault->onset_s, 4.0, 0.03);
-  EXPECT_NEAR(fault->size[0], 0.3, 0.03);
-  EXPECT_GE(fault->alarm_s, fault->onset_s);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.03);
+  EXPECT_NEAR(fault->claim.size[0], 0.3, 0.03);
+  EXPECT_GE(fault->alarm_s, fault->claim.onset_s);
   EXPECT_LT(fault->alarm_s, 5.0);
 }
 
@@ -111,9 +73,9 @@ TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::sensor_bias, 2}));
-  EXPECT_NEAR(fault->size[0], 0.05, 0.003);
-  EXPECT_NEAR(fault->onset_s, 3.0, 0.01);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_NEAR(fault->claim.size[0], 0.05, 0.003);
+  EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
 }
 
 TEST(ExplainLog, AForceOfAMomentIsACollision) {
@@ -123,8 +85,8 @@ TEST(ExplainLog, AForceOfAMomentIsACollision) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label, (FaultLabel{FaultKind::collision, 2}));
-  EXPECT_NEAR(fault->onset_s, 5.0, 0.03);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_NEAR(fault->claim.onset_s, 5.0, 0.03);
 }
 
 TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
@@ -134,8 +96,8 @@ TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label.kind, FaultKind::unknown);
-  EXPECT_NEAR(fault->onset_s, 4.0, 0.15);
+  EXPECT_EQ(fault->claim.kind, FaultKind::unknown);
+  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
 }
 
 TEST(ExplainLog, TheSameLogGivesTheSameBytes) {

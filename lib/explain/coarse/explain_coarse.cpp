@@ -235,7 +235,7 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const Judged& judged) {
   out.kind = judged.kind;
   out.joint = judged.guess.joint;
   out.onset_s = judged.guess.onset_s;
-  out.duration_s = judged.guess.duration_s;
+  if (judged.guess.duration_s > 0.0) out.end_s = out.onset_s + judged.guess.duration_s;
   out.gain = judged.gain;
   out.size = judged.fit.size;
   out.fit.log_likelihood = judged.fit.log_likelihood;

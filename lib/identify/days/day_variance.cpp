@@ -10,15 +10,15 @@ constexpr double kUnseenDays = 2.0;  // times the variance between the days that
 /// Standard deviations of the effects, relative but for the offset, which is a share of the joint's torque
 /// rms.
 struct EffectStd {
-  double inertia, friction, slope, gain, offset;
+  double inertia, friction, slope, gain, offset, width;
 };
 
 // First: what robots differ by from day to day. Least: what makes no difference to any judgement. Unseen:
 // what a few days cannot show (friction by the warmth of the gear, inertia and torque constants as drives are
-// made).
-constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3};
-constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4};
-constexpr EffectStd kUnseen{1e-3, 0.05, 0.03, 1e-3, 1e-3};
+// made, friction near rest, where healthy logs have few rows).
+constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1};
+constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02};
+constexpr EffectStd kUnseen{1e-3, 0.05, 0.03, 1e-3, 1e-3, 0.1};
 
 Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
   const DayLayout day = day_layout(model.rigid);
@@ -29,6 +29,7 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
     out[day.friction_slope(j)] = std.slope * std.slope;
     out[day.gain(j)] = std.gain * std.gain;
     out[day.offset(j)] = offset * offset;
+    out[day.friction_width(j)] = std.width * std.width;
   }
   return out;
 }

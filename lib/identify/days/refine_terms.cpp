@@ -2,6 +2,7 @@
 #include "lib/identify/days/refine_terms.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -37,21 +38,29 @@ double left_with_width(const HealthyDay& day, const BalanceModel& m, int j, doub
   return y.squaredNorm() - product.dot(square.ldlt().solve(product));
 }
 
+/// Where the parabola through three points, the middle one the lowest, is lowest.
+double lowest_of_parabola(const std::array<double, 3>& x, const std::array<double, 3>& y) {
+  const double a = (x[1] - x[0]) * (y[1] - y[2]), b = (x[1] - x[2]) * (y[1] - y[0]);
+  return a == b ? x[1] : x[1] - 0.5 * ((x[1] - x[0]) * a - (x[1] - x[2]) * b) / (a - b);
+}
+
 }  // namespace
 
 DayDraft with_refined_widths(DayDraft draft) {
   BalanceModel& m = draft.model;
+  const int last = static_cast<int>(kWidthFactors.size()) - 1;
   for (int j = 0; j < m.joints(); ++j) {
-    double least = -1.0, best = m.setting.friction_width[j];
-    for (const double factor : kWidthFactors) {
-      const double width = factor * m.setting.friction_width[j];
-      double sum = 0.0;
-      for (const HealthyDay& day : draft.days) {
-        sum += left_with_width(day, m, j, width);
-      }
-      if (least < 0.0 || sum < least) least = sum, best = width;
-    }
-    m.setting.friction_width[j] = best;
+    std::array<double, kWidthFactors.size()> left{};
+    for (int k = 0; k <= last; ++k)
+      for (const HealthyDay& day : draft.days)
+        left[k] += left_with_width(day, m, j, kWidthFactors[k] * m.setting.friction_width[j]);
+    const int best = static_cast<int>(std::min_element(left.begin(), left.end()) - left.begin());
+    const auto log_factor = [](int k) { return elementary::log(kWidthFactors[k]); };
+    double at = log_factor(best);
+    if (best > 0 && best < last)
+      at = lowest_of_parabola({log_factor(best - 1), at, log_factor(best + 1)},
+                              {left[best - 1], left[best], left[best + 1]});
+    m.setting.friction_width[j] *= elementary::exp(at);
   }
   return draft;
 }

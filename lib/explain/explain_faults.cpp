@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/explain_faults.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "lib/explain/judge.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kMostFaults = 12;  // of one log
+constexpr std::size_t kFirsts = 3;       // that a second fault at once is looked for beside,
+constexpr double kFirstShare = 0.3;      // with this share of the best one's evidence at least
+constexpr double kAlike = 0.4;           // share of each other that the sizes of two slips are
+constexpr double kOppositeWithin = 0.3;  // of a false reading's size
+
+/// One step of the explanation: the faults that explain best what the known ones leave, best first.
+struct NextFault {
+  std::vector<ExplainedFault> named;  ///< at least one
+  ExplainedFault unknown;             ///< the best of them as a fault of no kind
+  double without = 1.0;               ///< mean square left without it
+
+  bool leaves_much() const { return faultline::leaves_much(named.front(), without); }
+};
+
+std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& model,
+                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& known) {
+  const LogFit fit(log, model, known);
+  const LogExplanation e = explain_log(fit);
+  const AlarmTimes alarms = alarm_times(fit, e);
+  // What known faults leave is louder than the noise that evidence is counted by.
+  const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
+  std::vector<ExplainedFault> named = named_faults(e, own, alarms, kFirsts);
+  if (named.empty()) return std::nullopt;
+  ExplainedFault unknown = as_unknown(named.front(), e, own, alarms);
+  return NextFault{std::move(named), std::move(unknown), e.healthy_square};
+}
+
+/// The fault that explains best what is left, or two at once where one leaves much and two together do not:
+/// those with the greatest evidence.
+std::vector<ExplainedFault> one_or_two(const UniformLog& log, const BalanceModel& model,
+                                       const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+                                       const NextFault& next) {
+  const ExplainedFault& alone = next.named.front();
+  std::vector<ExplainedFault> best = {next.leaves_much() ? next.unknown : alone};
+  if (alone.left <= kMuchLeft) return best;
+  double evidence = 0.0;
+  for (const ExplainedFault& first : next.named) {
+    if (first.evidence < kFirstShare * alone.evidence) continue;
+    std::vector<FaultClaim> more = known;
+    more.push_back(first.claim);
+    const std::optional<NextFault> second = next_fault(log, model, limits, more);
+    if (!second || leaves_much(second->named.front(), next.without)) continue;
+    if (second->named.front().left <= kMuchLeft) return {first, second->named.front()};
+    const double both = first.evidence + second->named.front().evidence;
+    if (both <= evidence) continue;
+    evidence = both;
+    best = {first, second->named.front()};
+  }
+  return best;
+}
+
+std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out) {
+  std::vector<FaultClaim> out;
+  for (std::size_t k = 0; k < faults.size(); ++k)
+    if (k != left_out) out.push_back(faults[k].claim);
+  return out;
+}
+
+/// Each fault judged again with all others known, the weakest first: it goes where they explain the log
+/// without it.
+std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
+                                    const EvidenceLimits& limits, std::vector<ExplainedFault> faults) {
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
+  for (std::size_t k = 0; k < faults.size();) {
+    const LogFit fit(log, model, claims_but(faults, k));
+    const LogExplanation e = explain_log(fit);
+    const AlarmTimes alarms = alarm_times(fit, e);
+    const std::vector<ExplainedFault> again = named_faults(e, limits, alarms, 1);
+    const std::optional<FaultHypothesis> before = judge(fit, faults[k].claim);
+    const double gain = before ? before->gain : 0.0;
+    if (again.empty() && gain <= limits.of(faults[k].claim.kind)) {
+      faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
+      continue;
+    }
+    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0], e.healthy_square))
+      faults[k] = again[0];
+    ++k;
+  }
+  return faults;
+}
+
+/// A false reading within another one of the joint that is its opposite, as two that follow each other: what
+/// they say of the log is the same, and the robot is healthy in between.
+std::vector<ExplainedFault> unnested(std::vector<ExplainedFault> faults) {
+  for (ExplainedFault& outer : faults)
+    for (ExplainedFault& inner : faults) {
+      FaultClaim &a = outer.claim, &b = inner.claim;
+      if (a.kind != FaultKind::sensor_bias || b.kind != a.kind || a.joint != b.joint) continue;
+      if (a.onset_s >= b.onset_s || a.end_s <= b.end_s) continue;
+      if (std::abs(a.size[0] + b.size[0]) > kOppositeWithin * std::abs(a.size[0])) continue;
+      const double end_s = a.end_s;
+      a.end_s = b.onset_s;
+      b = {a.kind, a.joint, b.end_s, end_s, a.size};
+      inner.alarm_s = std::max(inner.alarm_s, b.onset_s);
+    }
+  return faults;
+}
+
+bool is_slip(const FaultClaim& a, const FaultClaim& b) {
+  return a.kind == FaultKind::sensor_bias && b.kind == a.kind && a.joint == b.joint && a.end_s == b.end_s &&
+         a.onset_s < b.onset_s && b.size[0] / a.size[0] > kAlike && a.size[0] / b.size[0] > kAlike;
+}
+
+/// An encoder that jumps again and again in one direction, as a belt that slips, is one fault of no kind.
+/// `faults` stand by their onset.
+std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
+  for (std::size_t k = 0; k < faults.size(); ++k) {
+    const FaultClaim first = faults[k].claim;
+    if (std::erase_if(faults, [&](const ExplainedFault& other) { return is_slip(first, other.claim); }) == 0)
+      continue;
+    faults[k].could_also_be.insert(faults[k].could_also_be.begin(), faults[k].label());
+    faults[k].claim.kind = FaultKind::unknown;
+    faults[k].claim.size = {};
+  }
+  return faults;
+}
+
+}  // namespace
+
+std::vector<ExplainedFault> explain_faults(const UniformLog& log, const BalanceModel& model,
+                                           const EvidenceLimits& limits) {
+  std::vector<ExplainedFault> out;
+  while (out.size() < kMostFaults) {
+    const std::vector<FaultClaim> known = claims_but(out, out.size());
+    const std::optional<NextFault> next = next_fault(log, model, limits, known);
+    if (!next) break;
+    for (ExplainedFault& fault : one_or_two(log, model, limits, known, *next))
+      out.push_back(std::move(fault));
+  }
+  if (out.size() > 1) out = jointly(log, model, limits, std::move(out));
+  out = unnested(std::move(out));
+  std::stable_sort(out.begin(), out.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
+    return a.claim.onset_s < b.claim.onset_s;
+  });
+  return without_slips(std::move(out));
+}
+
+}  // namespace faultline

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/fault_columns.hpp"
+
+#include <algorithm>
+
+#include "lib/balance/smoothing.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kReach = 1.5,
+                 kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
+constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end that it reaches
+constexpr double kChangeDoubt_rows = 0.6;  // standard deviation of the time of a change of the work piece
+constexpr double kLossVariance = 0.25;
+constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
+constexpr double kPayloadVariance = 0.36;  // of the mass that the tip carries, squared
+constexpr double kLeastVariance = 1e-6;
+
+/// Mass that the last joint carries, kg, as its torque shows it.
+double carried_mass(const BalanceRows& rows, const BalanceModel& model, const MatrixXd& tip) {
+  const int j = rows.joints() - 1;
+  const VectorXd torque = rows.column[j] * model.theta;
+  const double square = tip.col(j).squaredNorm();
+  return square > 0.0 ? std::abs(torque.dot(tip.col(j)) / square) : 1.0;
+}
+
+LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
+  LinearFault out{
+      FaultKind::torque_loss,
+      j + 1,
+      {StackedColumns::Zero(rows.rows() * rows.joints(), 1), VectorXd::Constant(1, kLossVariance)},
+      {}};
+  out.columns.column.col(0).segment(j * rows.rows(), rows.rows()) = rows.torque.col(j);
+  if (m.piece_kg > 0.0 && carries_weight(m.rigid, j))
+    for (const double size : {.4, .7, 1.}) out.starts.push_back(VectorXd::Constant(1, size));
+  return out;
+}
+
+LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, int j) {
+  const ColumnLayout layout = m.layout();
+  const double fv = m.theta[layout.viscous(j)], fc = m.theta[layout.coulomb(j)];
+  LinearFault out{FaultKind::friction_increase,
+                  j + 1,
+                  {StackedColumns::Zero(rows.rows() * rows.joints(), 2), VectorXd(2)},
+                  {}};
+  out.columns.column.col(0).segment(j * rows.rows(), rows.rows()) = rows.column[j].col(layout.viscous(j));
+  out.columns.column.col(1).segment(j * rows.rows(), rows.rows()) = rows.column[j].col(layout.coulomb(j));
+  out.columns.variance << kFrictionVariance * fv * fv + kLeastVariance,
+      kFrictionVariance * fc * fc + kLeastVariance;
+  if (m.piece_kg > 0.0 && carries_weight(m.rigid, j)) {
+    out.starts.push_back(Eigen::Vector2d(fv, 1.5 * fc));
+    out.starts.push_back(Eigen::Vector2d(2.0 * fv, 3.0 * fc));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& m) {
+  const int n = rows.joints();
+  std::vector<LinearFault> out;
+  for (int j = 0; j < n; ++j) out.push_back(torque_loss(rows, m, j));
+  for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j));
+  const MatrixXd tip = payload_torque(rows, m.payload, n - 1);
+  const double mass = carried_mass(rows, m, tip);
+  LinearFault payload{FaultKind::payload_change,
+                      n,
+                      {Eigen::Map<const VectorXd>(tip.data(), tip.size()),
+                       VectorXd::Constant(1, kPayloadVariance * mass * mass)},
+                      {}};
+  if (m.piece_kg > 0.0)
+    for (const double share : {.25, .6, 1.}) payload.starts.push_back(VectorXd::Constant(1, share * mass));
+  out.push_back(std::move(payload));
+  return out;
+}
+
+FaultColumns force_columns(const BalanceRows& rows) {
+  const int n = rows.joints();
+  FaultColumns out{StackedColumns::Zero(rows.rows() * n, n), VectorXd(n)};
+  for (int j = 0; j < n; ++j) {
+    out.column.col(j).segment(j * rows.rows(), rows.rows()).setOnes();
+    out.variance[j] = rows.torque.col(j).squaredNorm() / rows.rows();
+  }
+  return out;
+}
+
+FaultColumns between(FaultColumns columns, const BalanceRows& rows, const RowSetting& setting, double onset_s,
+                     double end_s) {
+  VectorXd on = soft_step(rows, setting, onset_s);
+  if (end_s < kNeverEnds) on -= soft_step(rows, setting, end_s);
+  for (int j = 0; j < rows.joints(); ++j)
+    columns.column.middleRows(j * rows.rows(), rows.rows()).array().colwise() *= on.array();
+  return columns;
+}
+
+VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, double time_s) {
+  const double width = std::max(setting.kernel_s, 0.3 * setting.row_s());
+  return rows.time_s.unaryExpr([&](double t) { return normal_cdf((t - time_s) / width); });
+}
+
+StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const FaultClaim& claim) {
+  // The position of an encoder that sticks jumps when it moves on: that reaches all of the kernel.
+  const double reach = (claim.kind == FaultKind::stuck_encoder ? kReachOfJump : kReach) * m.setting.kernel_s;
+  const auto is_revolute = [&](int i) { return m.rigid.chain.geometry[i].kind == AxisKind::revolute; };
+  const int j = claim.joint - 1;
+  StackedMask out(static_cast<std::size_t>(rows.rows() * rows.joints()), false);
+  for (int i = 0; i < rows.joints(); ++i) {
+    const bool coupled = claim.kind == FaultKind::stuck_encoder && is_revolute(j) && is_revolute(i);
+    if (i != j && !coupled && claim.kind != FaultKind::unknown) continue;
+    for (int k = 0; k < rows.rows(); ++k)
+      out[i * rows.rows() + k] =
+          rows.time_s[k] > claim.onset_s - reach && rows.time_s[k] < claim.end_s + reach;
+  }
+  return out;
+}
+
+UniformLog without_false_reading(UniformLog log, const FaultClaim& claim) {
+  const int j = claim.joint - 1;
+  const double size = claim.size[0];
+  for (int k = 0; k < log.rows(); ++k) {
+    const double late = log.time_s(k) - claim.onset_s;
+    if (late < -1e-9 || log.time_s(k) >= claim.end_s - 1e-9) continue;
+    if (claim.kind == FaultKind::sensor_bias) {
+      log.q(k, j) -= size;
+    } else {
+      log.q(k, j) -= size * std::max(late, 0.0);
+      if (log.dq.rows() > 0) log.dq(k, j) -= size;
+    }
+  }
+  return log;
+}
+
+VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim) {
+  const double reach = kEdgeKernels * std::max(setting.kernel_s, 0.3 * setting.row_s());
+  return rows.time_s.unaryExpr([&](double t) {
+    return std::abs(t - claim.onset_s) < reach || std::abs(t - claim.end_s) < reach ? 1.0 : 0.0;
+  });
+}
+
+UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& known) {
+  for (const FaultClaim& claim : known)
+    if (reads_wrong(claim.kind)) log = without_false_reading(std::move(log), claim);
+  return log;
+}
+
+MatrixXd unstacked(const Stacked& values, int joints) {
+  return Eigen::Map<const MatrixXd>(values.data(), values.size() / joints, joints);
+}
+
+Stacked stacked(const MatrixXd& values) { return Eigen::Map<const VectorXd>(values.data(), values.size()); }
+
+FaultColumns piece_columns(const BalanceRows& rows, const RowSetting& setting, const MatrixXd& piece,
+                           const MatrixXd& change) {
+  const Eigen::Index changes = change.cols();
+  const double row_s = setting.row_s();
+  FaultColumns out{StackedColumns(piece.size(), changes + 2), VectorXd::Ones(changes + 2)};
+  const auto torque = [&](const VectorXd& level) {
+    return stacked((piece.array().colwise() * level.array()).matrix());
+  };
+  for (Eigen::Index c = 0; c < changes; ++c) out.column.col(c) = torque(change.col(c));
+  const VectorXd first = soft_step(rows, setting, rows.time_s[0] - 0.5 * row_s),
+                 last = soft_step(rows, setting, rows.time_s[rows.rows() - 1] + 0.5 * row_s);
+  out.column.col(changes) = torque(VectorXd::Ones(rows.rows()) - first);
+  out.column.col(changes + 1) = torque(last);
+  out.variance.head(changes).setConstant(Eigen::numext::abs2(kChangeDoubt_rows * row_s));
+  return out;
+}
+
+}  // namespace faultline

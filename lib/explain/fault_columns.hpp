@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/balance/balance_model.hpp"
+#include "lib/explain/fault_claim.hpp"
+
+namespace faultline {
+
+/// A value of every row and joint of a log, joint after joint: joint * rows + row.
+using Stacked = Eigen::VectorXd;
+/// Columns of such values.
+using StackedColumns = Eigen::MatrixXd;
+/// Rows that count for nothing, stacked.
+using StackedMask = std::vector<bool>;
+
+/// Columns of a hypothesis with the prior variance of their sizes.
+struct FaultColumns {
+  StackedColumns column;  ///< (joints * rows) x sizes
+  Eigen::VectorXd variance;
+
+  int sizes() const { return static_cast<int>(column.cols()); }
+};
+
+/// Columns of a fault that is linear, as if it lasted from the first row to the last.
+struct LinearFault {
+  FaultKind kind = FaultKind::none;
+  int joint = 0;  ///< from 1
+  FaultColumns columns;
+  std::vector<Eigen::VectorXd> starts;  ///< sizes to search the path of a work piece from
+};
+
+/// Torque loss and friction of each joint, payload at the tip.
+std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& model);
+
+/// An unknown force on each joint, as the columns of a collision while it lasts.
+FaultColumns force_columns(const BalanceRows& rows);
+
+/// The columns switched on at the onset and off at the end, smoothed as the rows are.
+FaultColumns between(FaultColumns columns, const BalanceRows& rows, const RowSetting& setting, double onset_s,
+                     double end_s);
+
+/// Step at `time_s`, smoothed as the rows are: by row, 0 before and 1 after.
+Eigen::VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, double time_s);
+
+/// Rows that say nothing while a fault lasts: those of a locked joint, those of all joints that the motion of
+/// a joint with a stuck encoder reaches, all of an unknown fault.
+StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& model, const FaultClaim& claim);
+
+/// What the times of the changes of a work piece are off by (`change`: rows x changes, derivatives of its
+/// level); and a change half a row before the first row or behind the last one, which reaches it with the
+/// kernel's tail. `piece` is the torque of the work piece in each row: rows x joints.
+FaultColumns piece_columns(const BalanceRows& rows, const RowSetting& setting, const Eigen::MatrixXd& piece,
+                           const Eigen::MatrixXd& change);
+
+/// Rows x joints from a stacked value, and back.
+Eigen::MatrixXd unstacked(const Stacked& values, int joints);
+Stacked stacked(const Eigen::MatrixXd& values);
+
+/// Rows that the begin or the end of a fault reaches: 1 there, 0 elsewhere.
+Eigen::VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
+
+/// The log as it would be without a false reading of the size that the claim has.
+UniformLog without_false_reading(UniformLog log, const FaultClaim& claim);
+/// The same for all false readings among the claims.
+UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& claims);
+
+}  // namespace faultline

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/free_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/explain/refine.hpp"
+#include "lib/explain/white_search.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kFreeRowCost =
+    1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
+constexpr int kRowsOfChange = 6;  // on each side of a change of the work piece: kernel and filter
+
+}  // namespace
+
+FreeForm free_form(const LogFit& fit) {
+  const int rows = fit.count(), n = fit.joints();
+  const int effects = static_cast<int>(fit.effect_variance().size());
+  Stacked torque = fit.residual();
+  if (fit.has_piece())  // as seen before a fault could bend the effects of the day
+    torque -=
+        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
+  Stacked white = fit.whitened(torque);
+  const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
+  for (int k = 0; k < static_cast<int>(changes.size()); ++k)  // the time of a change is not known to a row
+    for (int j = 0; j < n && changes[k]; ++j) white[j * rows + k] = 0.0;
+  NormalEquations sums{MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
+  const VectorXd precision = fit.effect_variance().cwiseInverse();
+  const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
+  double least = std::numeric_limits<double>::infinity();
+  int best = first;
+  VectorXd day = VectorXd::Zero(effects);
+  for (int k = 0; k + kTail < rows; ++k) {
+    for (int j = 0; j < n; ++j) {
+      const double y = white[j * rows + k];
+      if (!changes.empty() && changes[k]) continue;
+      const VectorXd w = fit.white_effects().row(j * rows + k).transpose();
+      sums.matrix += w * w.transpose();
+      sums.vector += y * w;
+      sums.square += y * y;
+    }
+    if (k < first) continue;
+    const Regression before = regress(sums, precision);
+    const double cost =
+        0.5 * (sums.square - before.estimate.dot(sums.vector)) + kFreeRowCost * n * (rows - 1 - k);
+    if (cost >= least) continue;
+    least = cost;
+    best = k;
+    day = before.estimate;
+  }
+  FreeForm out;
+  out.onset_s = fit.time_s()[std::min(best + 1, rows - 1)];
+  out.left = white - fit.white_effects() * day;
+  double back = 0.0, most = kEndEvidence;
+  for (int k = rows - 1; k > best && fit.time_s()[k] > out.onset_s + kLeastFault_s; --k) {
+    for (int j = 0; j < n; ++j) back += kFreeRowCost - 0.5 * Eigen::numext::abs2(out.left[j * rows + k]);
+    if (back <= most) continue;
+    most = back;
+    out.end_s = fit.time_s()[k];
+  }
+  return out;
+}
+
+double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
+  const double edge = reach_s(fit.model().setting);
+  double sum = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] < change.onset_s - edge) continue;
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double z = change.left[j * fit.count() + k];
+      sum += 0.5 * z * z - 0.5;
+    }
+    if (sum > threshold) return std::max(fit.time_s()[k] + edge, change.onset_s);
+  }
+  return fit.time_s()[fit.count() - 1] + edge;
+}
+
+}  // namespace faultline

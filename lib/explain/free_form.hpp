@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/explain/log_fit.hpp"
+
+namespace faultline {
+
+/// A change of any form: the log is explained up to a moment, and nothing is said of what follows.
+struct FreeForm {
+  double onset_s = 0.0;
+  double end_s = kNeverEnds;  ///< from which the healthy robot explains the rows again
+  Stacked left{};  ///< whitened rows left over, with the effects that the rows before the onset show
+};
+
+/// The moment up to which rows are explained, and from when on they are again, where each row in between
+/// costs a few nats. The effects of the day are those of the rows before.
+FreeForm free_form(const LogFit& fit);
+
+/// When what the rows before a change cannot explain passes `threshold` nats.
+double alarm_time(const LogFit& fit, const FreeForm& change, double threshold);
+
+}  // namespace faultline

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lib/explain/judge.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSameFault_s = 0.3;
+constexpr double kLeastGain = 0.1;     // nats by which a move explains more
+constexpr double kLeastStay_s = 0.25;  // of a fault that stays for a while and ends
+constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
+constexpr double kAbsentShare = 0.7;   // of the evidence that an absent fault gives
+constexpr double kStillEnough = 0.5;   // of the evidence without an end that the one with it must have
+
+/// Whether the same fault is known from about this moment on, or a drift that goes on: it does not begin
+/// twice.
+bool is_known(const LogFit& fit, const FaultClaim& claim) {
+  return std::any_of(fit.known().begin(), fit.known().end(), [&](const FaultClaim& known) {
+    return column_kind(known.kind) == column_kind(claim.kind) && known.joint == claim.joint &&
+           (std::abs(known.onset_s - claim.onset_s) < kSameFault_s ||
+            (claim.kind == FaultKind::sensor_drift && claim.onset_s > known.onset_s &&
+             claim.onset_s < known.end_s));
+  });
+}
+
+/// Whether onset and end may be moved: those of a stuck or jumped encoder begin with a sample.
+bool can_move(FaultKind kind) { return kind != FaultKind::stuck_encoder && kind != FaultKind::sensor_bias; }
+
+/// Moves onset or end (a member of the claim) while that explains more: a few steps, then halved ones.
+FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypotheses& bench) {
+  const LogFit& fit = bench.fit;
+  const double row_s = fit.model().setting.row_s();
+  const int first = std::max(6, static_cast<int>(kLead_s / row_s));
+  const double earliest = fit.time_s()[std::min(first, fit.count() - 1)],
+               latest = fit.time_s()[std::max(0, fit.count() - 3)];
+  const double shortest = best.kind == FaultKind::collision ? row_s : kLeastStay_s;
+  const auto try_at = [&](double t) {
+    FaultClaim claim = best;
+    claim.*when = t;
+    if (t < earliest || t >= latest || claim.end_s - claim.onset_s < shortest) return false;
+    const FaultHypothesis* h = bench.go(claim);
+    if (h == nullptr || h->gain <= best.gain + kLeastGain) return false;
+    best = *h;
+    return true;
+  };
+  const double at = best.*when;
+  for (const double d : {-.04, -.03, -.02, -.01, -.005, .005, .01, .02, .03, .04}) try_at(at + d);
+  for (double step = kFirstMove_s; step > 0.3 * row_s;)
+    if (!try_at(best.*when - step) && !try_at(best.*when + step)) step /= 2.0;
+  return best;
+}
+
+/// The moment from which the log shows that the fault is gone: the evidence of its absence since then (a
+/// cumulative sum; Page 1954) is large beside what is left over, and nearly all that its torque could give. A
+/// fault that goes on in another form than its columns gives less.
+std::optional<double> end_of(const LogFit& fit, const FaultHypothesis& h) {
+  Stacked y = fit.residual() - fit.day_torque(h.fit.day);
+  if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
+  const Stacked without = fit.whitened(y);
+  const double enough = kEndEvidence * std::max(1.0, h.fit.mean_square());
+  double absent = 0.0, possible = 0.0, since = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] <= h.onset_s + kLeastFault_s) continue;
+    if (absent <= 0.0) absent = possible = 0.0, since = fit.time_s()[k];
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double a = without[j * fit.count() + k], b = h.fit.left[j * fit.count() + k];
+      if (std::isnan(b)) continue;
+      absent += 0.5 * (b * b - a * a);
+      possible += 0.5 * (b - a) * (b - a);
+    }
+    if (absent > enough && absent > kAbsentShare * possible) return since;
+  }
+  return std::nullopt;
+}
+
+/// The hypothesis with an end, where the log shows that the fault is gone; it takes the place of the one
+/// without.
+void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
+  if (silences(h.kind) || h.end_s < kNeverEnds) return;
+  const std::optional<double> end_s = end_of(bench.fit, h);
+  if (!end_s) return;
+  FaultClaim claim = h;
+  claim.end_s = *end_s;
+  const FaultHypothesis* ends = bench.go(claim);
+  if (ends == nullptr) return;
+  const FaultHypothesis best = can_move(h.kind) ? moved(*ends, &FaultClaim::end_s, bench) : *ends;
+  if (best.gain < kStillEnough * h.gain) return;
+  std::erase_if(bench.judged, [&](const FaultHypothesis& other) {
+    return column_kind(other.kind) == column_kind(best.kind) && other.joint == best.joint &&
+           other.onset_s < best.end_s && other.end_s > best.end_s + kSameOnset_s;
+  });
+}
+
+}  // namespace
+
+const FaultHypothesis* JudgedHypotheses::go(const FaultClaim& claim) {
+  for (const double later_s : {0.0, kLeastFault_s})
+    if (fit.is_silent(claim.joint, claim.onset_s + later_s)) return nullptr;
+  if (is_known(fit, claim)) return nullptr;
+  std::optional<FaultHypothesis> h = judge(fit, claim);
+  if (!h) return nullptr;
+  judged.push_back(std::move(*h));
+  return &judged.back();
+}
+
+const FaultHypothesis* JudgedHypotheses::go_from(const Candidate& c) {
+  return go({c.kind, c.joint, c.onset_s, c.end_s, VectorXd::Constant(1, c.start)});
+}
+
+void refine(const FaultHypothesis& h, JudgedHypotheses& bench) {
+  FaultHypothesis best = can_move(h.kind) ? moved(h, &FaultClaim::onset_s, bench) : h;
+  if (best.end_s < kNeverEnds && can_move(h.kind))
+    moved(best, &FaultClaim::end_s, bench);
+  else
+    add_end(best, bench);
+}
+
+}  // namespace faultline

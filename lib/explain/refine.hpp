@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/explain/hypothesis.hpp"
+#include "lib/explain/white_search.hpp"
+
+namespace faultline {
+
+inline constexpr double kLeastFault_s = 0.1;  // before which no end is looked for
+/// Nats of a fault's absence that show its end, by the mean square that is left.
+inline constexpr double kEndEvidence = 50.0;
+
+/// Judges hypotheses of one log and keeps them all.
+struct JudgedHypotheses {
+  const LogFit& fit;
+  std::vector<FaultHypothesis> judged;
+
+  /// Judges a claim. Null where it cannot be judged, or says nothing beside what is known.
+  const FaultHypothesis* go(const FaultClaim& claim);
+  const FaultHypothesis* go_from(const Candidate& candidate);
+};
+
+/// Adds the hypothesis with onset and end at their best; where the log shows that the fault is gone, the one
+/// that ends takes the place of the one that does not.
+void refine(const FaultHypothesis& hypothesis, JudgedHypotheses& bench);
+
+}  // namespace faultline

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Several faults in one log, and faults that end, of a robot in closed form.
+#include "lib/explain/explain_faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/explain/explained_scara.hpp"
+
+namespace faultline {
+namespace {
+
+using testing::fit_of;
+using testing::of_day;
+using testing::on_grid;
+using testing::run_of;
+using testing::scara_model;
+using testing::simulate_closed_form;
+
+/// The log with changes of its rows from `onset_s` until `end_s`.
+template <typename Change>
+Log changed(Log log, double onset_s, double end_s, Change change) {
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= onset_s && log.time[k] < end_s) change(log, k);
+  return log;
+}
+
+Log with_loss(Log log, int joint, double share, double onset_s, double end_s = kNeverEnds) {
+  return changed(std::move(log), onset_s, end_s, [=](Log& l, int k) { l.tau[joint - 1][k] /= 1.0 - share; });
+}
+
+std::vector<ExplainedFault> faults_of(Log log) {
+  return explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({}));
+}
+
+std::string said(const std::vector<ExplainedFault>& faults) {
+  std::string out;
+  for (const ExplainedFault& f : faults)
+    out += std::string(to_string(f.claim.kind)) + " " + std::to_string(f.claim.joint) + " from " +
+           std::to_string(f.claim.onset_s) + " to " + std::to_string(f.claim.end_s) + ": " +
+           std::to_string(f.evidence) + "; ";
+  return out;
+}
+
+TEST(ExplainFaults, AHealthyLogHasNone) {
+  EXPECT_TRUE(faults_of(simulate_closed_form(of_day(2), run_of(21))).empty());
+}
+
+TEST(ExplainFaults, AFaultThatEndsHasItsEnd) {
+  const auto faults = faults_of(with_loss(simulate_closed_form(of_day(0), run_of(22)), 2, 0.4, 2.5, 5.5));
+  ASSERT_EQ(faults.size(), 1u) << said(faults);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(faults[0].claim.onset_s, 2.5, 0.05);
+  EXPECT_NEAR(faults[0].claim.end_s, 5.5, 0.05);
+  EXPECT_NEAR(faults[0].claim.size[0], 0.4, 0.04);
+}
+
+TEST(ExplainFaults, TwoFaultsThatBeginAtOnceAreBothFound) {
+  const Log one = with_loss(simulate_closed_form(of_day(0), run_of(23)), 2, 0.4, 4.0);
+  const auto faults = faults_of(with_loss(one, 1, 0.3, 4.0));
+  ASSERT_EQ(faults.size(), 2u) << said(faults);
+  for (const ExplainedFault& fault : faults) {
+    EXPECT_EQ(fault.claim.kind, FaultKind::torque_loss);
+    EXPECT_NEAR(fault.claim.onset_s, 4.0, 0.05);
+    EXPECT_NEAR(fault.claim.size[0], fault.claim.joint == 2 ? 0.4 : 0.3, 0.04);
+  }
+  EXPECT_NE(faults[0].claim.joint, faults[1].claim.joint);
+}
+
+TEST(ExplainFaults, AFaultIsFoundBehindAnotherOne) {
+  Log log = with_loss(simulate_closed_form(of_day(0), run_of(24)), 1, 0.3, 2.5);
+  log = changed(std::move(log), 5.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
+  const auto faults = faults_of(std::move(log));
+  ASSERT_EQ(faults.size(), 2u) << said(faults);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_NEAR(faults[1].claim.onset_s, 5.0, 0.02);
+}
+
+TEST(ExplainFaults, AFalsePositionThatComesTwiceIsTwoFaults) {
+  const auto shift = [](Log& l, int k) { l.q[1][k] += 0.05; };
+  Log log = changed(simulate_closed_form(of_day(0), run_of(25)), 2.0, 3.0, shift);
+  const auto faults = faults_of(changed(std::move(log), 5.0, 6.0, shift));
+  ASSERT_EQ(faults.size(), 2u) << said(faults);
+  for (const double onset_s : {2.0, 5.0}) {
+    const FaultClaim& claim = faults[onset_s > 3.0].claim;
+    EXPECT_EQ(claim.kind, FaultKind::sensor_bias);
+    EXPECT_NEAR(claim.onset_s, onset_s, 0.02);
+    EXPECT_NEAR(claim.end_s, onset_s + 1.0, 0.02);
+    EXPECT_NEAR(claim.size[0], 0.05, 0.005);
+  }
+}
+
+TEST(ExplainFaults, AnEncoderThatJumpsOnInOneDirectionIsOneFaultOfNoKind) {
+  Log log = simulate_closed_form(of_day(0), run_of(26));
+  for (const double at_s : {3.0, 4.5, 6.0})
+    log = changed(std::move(log), at_s, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.04; });
+  const auto faults = faults_of(std::move(log));
+  ASSERT_EQ(faults.size(), 1u) << said(faults);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.02);
+}
+
+TEST(LogFit, AKnownFaultIsAnEffectOfTheLog) {
+  Log log = with_loss(simulate_closed_form(of_day(1), run_of(27)), 2, 0.4, 4.0);
+  EXPECT_GT(fit_of(log).healthy().mean_square(), 3.0);
+  const LogFit known(on_grid(std::move(log)), scara_model(),
+                     {{FaultKind::torque_loss, 2, 4.0, kNeverEnds, Eigen::VectorXd::Constant(1, 0.35)}});
+  EXPECT_LT(known.healthy().mean_square(), 1.5);
+  EXPECT_NEAR(known.healthy().day[known.healthy().day.size() - 1], 0.05, 0.02);  // beyond the claim's size
+}
+
+}  // namespace
+}  // namespace faultline
