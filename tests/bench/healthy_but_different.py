@@ -15,6 +15,7 @@ import sys
 import time
 
 FAULTLINE = os.environ["FAULTLINE"]
+EXPLAIN = os.environ.get("FAULTLINE_EXPLAIN")  # measure this program (faultline_explain_logs) in place of FAULTLINE
 OUT = os.path.join(os.environ["FAULTLINE_OUT"], "healthy-but-different")
 HEALTHY_SEEDS = 4
 FAULT_SEEDS = 1
@@ -190,11 +191,18 @@ def simulate(folder, row, seed, runs):
 
 def learn_from(logs, folder, l1=0.4, held=False):
     """The model of a RRP robot of which l1 alone is known, and the seconds that learning it took."""
-    robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
-    with open(robot, "w") as file:
+    with open(os.path.join(folder, "robot.toml"), "w") as file:
         file.write(f'axes = "RRP"\n\n[known]\nl1 = {l1}\n\n[log]\ntorque = "commanded"\n')
         if held:
             file.write('torque_between_samples = "held"\n')
+    return learned(logs, folder)
+
+
+def learned(logs, folder):
+    """The model of the robot in folder/robot.toml; for EXPLAIN, which learns anew, what it learns from."""
+    robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
+    if EXPLAIN:
+        return (folder, robot, logs), 0.0
     start = time.monotonic()
     said = run("learn", *logs, "--robot", robot, "-o", model)
     learn_s = time.monotonic() - start
@@ -211,6 +219,34 @@ def learn():
 
 def diagnose(path, model):
     return json.loads(run("diagnose", path, "--model", model, "--json", "-"))
+
+
+def diagnose_all(paths, model):
+    """The report of each log."""
+    if EXPLAIN:
+        return explain_all(paths, *model)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda path: diagnose(path, model), paths))
+
+
+def explain_all(paths, folder, robot, healthy):
+    """The reports of EXPLAIN; each log under a name of its own, since reports are named after logs."""
+    out = os.path.abspath(os.path.join(folder, "explain"))
+    os.makedirs(out, exist_ok=True)
+    names = [f"{i:03d}_{os.path.basename(path)}" for i, path in enumerate(paths)]
+    for name, path in zip(names, paths):
+        link = os.path.join(out, name)
+        if os.path.lexists(link):
+            os.remove(link)
+        os.symlink(os.path.abspath(path), link)
+    with open(os.path.join(out, "logs.txt"), "w") as said_file:
+        logs = [os.path.join(out, name) for name in names]
+        subprocess.run([EXPLAIN, robot, out, *healthy, "--", *logs], stdout=said_file, check=True)
+    reports = []
+    for name in names:
+        with open(os.path.join(out, "reports", name + ".json")) as file:
+            reports.append(json.load(file))
+    return reports
 
 
 def said(faults):
@@ -253,10 +289,8 @@ class Tally:
 def tally_of(cell, runs, paths, model):
     """The tally of a cell's (name, kind, joint, onset), and what went wrong."""
     global ONSET_S
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        reports = list(pool.map(lambda path: diagnose(path, model), paths))
     tally, notes = Tally(), []
-    for (name, kind, joint, ONSET_S), report in zip(runs, reports):
+    for (name, kind, joint, ONSET_S), report in zip(runs, diagnose_all(paths, model)):
         if not tally.take(kind, joint, report):
             notes.append(f"{cell}/{name}: reported {said(report['faults'])}, onset {ONSET_S:.2f}")
     return tally, notes
@@ -270,19 +304,22 @@ def main(wanted):
     print(f"Learned in {learn_s:.0f} s.\n")
     print("| healthy, but | with alarm | inconclusive | with a fault: found | right | early | median delay/s |")
     print("|---|---|---|---|---|---|---|")
-    total, notes = Tally(), []
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for turn, (name, row) in enumerate(ROWS.items()):
-            if wanted and name not in wanted:
-                continue
-            folder, runs, tally = os.path.join(OUT, name), runs_of(turn), Tally()
-            simulate(folder, row, 100 * (turn + 1), runs)
-            paths = [os.path.join(folder, run_name + ".csv") for (run_name, _, _), _ in runs]
-            for ((run_name, kind, joint), _), report in zip(runs, pool.map(lambda p: diagnose(p, model), paths)):
-                if not tally.take(kind, joint, report):
-                    notes.append(f"{name}/{run_name}: {kind} {joint}, reported {said(report['faults'])}")
-            print(tally.line(name), flush=True)
-            total.add(tally)
+    total, notes, rows, paths = Tally(), [], [], []
+    for turn, (name, row) in enumerate(ROWS.items()):
+        if wanted and name not in wanted:
+            continue
+        folder, runs = os.path.join(OUT, name), runs_of(turn)
+        simulate(folder, row, 100 * (turn + 1), runs)
+        paths += [os.path.join(folder, run_name + ".csv") for (run_name, _, _), _ in runs]
+        rows.append((name, runs))
+    reports = iter(diagnose_all(paths, model))
+    for name, runs in rows:
+        tally = Tally()
+        for ((run_name, kind, joint), _), report in zip(runs, reports):
+            if not tally.take(kind, joint, report):
+                notes.append(f"{name}/{run_name}: {kind} {joint}, reported {said(report['faults'])}")
+        print(tally.line(name), flush=True)
+        total.add(tally)
     print(total.line("all"))
     print("\n" + "\n".join(notes))
 

@@ -5,14 +5,14 @@
 Usage: unknown_faults.py     called by unknown_faults.sh
 """
 import collections
-import json
 import math
 import os
-import subprocess
+import sys
 
 import numpy as np
 
-FAULTLINE = os.environ["FAULTLINE"]
+import healthy_but_different as simulated
+
 OUT = os.path.join(os.environ["FAULTLINE_OUT"], "unknown-faults")
 RATE_HZ = 500
 SUBSTEPS = 3
@@ -181,14 +181,6 @@ def simulate(path, seed, duration_s, kind=None, j=0, size=0.0, onset_s=0.0):
                comments="")
 
 
-def diagnose(path):
-    report = path[:-4] + ".json"
-    subprocess.run([FAULTLINE, "diagnose", path, "--model", f"{OUT}/model.json", "--json", report],
-                   stdout=subprocess.DEVNULL, check=False)
-    with open(report, encoding="utf-8") as file:
-        return json.load(file)["faults"]
-
-
 def verdict(kind, wanted, joint, onset_s, faults):
     """early, missed, right or the name given, by the first finding."""
     if not faults:
@@ -200,33 +192,43 @@ def verdict(kind, wanted, joint, onset_s, faults):
     return "right" if first["kind"] == wanted and right_joint else first["kind"]
 
 
+def simulated_runs():
+    """(name, kind to be reported, joint from 0, onset, path) of each log."""
+    seed, runs = 100, []
+    groups = [("unknown", UNKNOWN), ("friction_increase", CREEPING), (None, KNOWN),
+              ("collision", {push: PUSHED for push in PUSHES_S}), ("none", {"healthy": [0.0] * 4})]
+    for wanted, kinds in groups:
+        for kind, sizes in kinds.items():
+            for j, size in [(j, s) for _ in range(REPEATS) for j, s in enumerate(sizes)]:
+                seed += 1
+                path, onset_s = f"{OUT}/run_{seed}.csv", 5 + 0.37 * (seed % 7)
+                simulate(path, seed, 30.0 if kind in CREEPING else 12.0, None if wanted == "none" else kind, j % 3, size,
+                         onset_s)
+                runs.append((kind, wanted or kind, j % 3, onset_s, path))
+    return runs
+
+
 def main():
     os.makedirs(OUT, exist_ok=True)
     for i in range(3):
         simulate(f"{OUT}/healthy_{i}.csv", i + 1, 15.0)
     with open(f"{OUT}/robot.toml", "w", encoding="utf-8") as file:
         file.write(ROBOT)
-    subprocess.run([FAULTLINE, "learn", *[f"{OUT}/healthy_{i}.csv" for i in range(3)], "--robot",
-                    f"{OUT}/robot.toml", "-o", f"{OUT}/model.json"], stdout=subprocess.DEVNULL, check=True)
-    seed = 100
+    model, _ = simulated.learned([f"{OUT}/healthy_{i}.csv" for i in range(3)], OUT)
     print("| fault | logs | right | missed | early | else |\n|---|---|---|---|---|---|")
-    groups = [("unknown", UNKNOWN), ("friction_increase", CREEPING), (None, KNOWN),
-              ("collision", {push: PUSHED for push in PUSHES_S}), ("none", {"healthy": [0.0] * 4})]
-    for wanted, kinds in groups:
-        for kind, sizes in kinds.items():
-            tally = collections.Counter()
-            for j, size in [(j, s) for _ in range(REPEATS) for j, s in enumerate(sizes)]:
-                seed += 1
-                path, onset_s = f"{OUT}/run_{seed}.csv", 5 + 0.37 * (seed % 7)
-                healthy = wanted == "none"
-                simulate(path, seed, 30.0 if kind in CREEPING else 12.0, None if healthy else kind, j % 3, size,
-                         onset_s)
-                faults = diagnose(path)
-                tally["right" if healthy and not faults else
-                      "early" if healthy else verdict(kind, wanted or kind, j, onset_s, faults)] += 1
-            others = ", ".join(f"{n} {name}" for name, n in tally.items() if name not in ("right", "missed", "early"))
-            print(f"| {kind} | {sum(tally.values())} | {tally['right']} | {tally['missed']} | {tally['early']} | "
-                  f"{others} |", flush=True)
+    runs = simulated_runs()
+    reports = simulated.diagnose_all([run[-1] for run in runs], model)
+    tallies = collections.defaultdict(collections.Counter)
+    for (name, wanted, joint, onset_s, path), report in zip(runs, reports):
+        said, healthy = report["faults"], wanted == "none"
+        what = ("early" if said else "right") if healthy else verdict(name, wanted, joint, onset_s, said)
+        tallies[name][what] += 1
+        if what != "right":
+            print(f"{os.path.basename(path)}: {name} {joint + 1}, reported {simulated.said(said)}, onset {onset_s:.2f}",
+                  file=sys.stderr)
+    for name, tally in tallies.items():
+        others = ", ".join(f"{n} {what}" for what, n in tally.items() if what not in ("right", "missed", "early"))
+        print(f"| {name} | {sum(tally.values())} | {tally['right']} | {tally['missed']} | {tally['early']} | {others} |")
 
 
 if __name__ == "__main__":
