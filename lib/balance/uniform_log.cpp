@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/balance/sample_grid.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kPeriodGrid_s = 1e-6;  // to which a sample period is rounded
-constexpr double kEarliest =
-    0.3;  // of a period by which a stamp may be late and still belong to its grid point
+constexpr double kPeriodGrid_s = 1e-9;      // to which a sample period is rounded
+constexpr double kBridged_s = 0.007;        // a gap shorter than the kernels is bridged and not lost
 constexpr double kNormalMad = 0.6745;       // median of |x| of a standard normal x
 constexpr double kFourthDifference = 70.0;  // sum of the squares of 1, -4, 6, -4, 1
 
@@ -24,41 +24,81 @@ bool is_complete(const Log& log, int row) {
   return std::isfinite(log.time[row]);
 }
 
-/// Fills the lost rows of a column by straight lines between the rows that are there.
-void interpolate(const std::vector<bool>& lost, Eigen::Ref<Eigen::VectorXd> values) {
+/// Value at `at` between rows `before` and `after`: the cubic through two rows on each side where `is_smooth`
+/// and there are so many, else a straight line.
+double between(const std::vector<bool>& lost, const Eigen::Ref<const Eigen::VectorXd>& values, int before,
+               int after, int at, bool is_smooth) {
+  const double share = static_cast<double>(at - before) / (after - before);
+  const bool has_four = before > 0 && after + 1 < values.size() && !lost[before - 1] && !lost[after + 1];
+  if (!is_smooth || !has_four) return values[before] + share * (values[after] - values[before]);
+  const int row[4] = {before - 1, before, after, after + 1};
+  double sum = 0.0;
+  for (const int i : row) {
+    double weight = values[i];
+    for (const int k : row)
+      if (k != i) weight *= static_cast<double>(at - k) / (i - k);
+    sum += weight;
+  }
+  return sum;
+}
+
+/// Fills the lost rows of a column from the rows that are there.
+void interpolate(const std::vector<bool>& lost, bool is_smooth, Eigen::Ref<Eigen::VectorXd> values) {
   const int rows = static_cast<int>(values.size());
   int before = -1;
   for (int k = 0; k < rows; ++k) {
     if (lost[k]) continue;
-    for (int i = before + 1; i < k; ++i) {
-      const double share = before < 0 ? 1.0 : static_cast<double>(i - before) / (k - before);
-      values[i] = before < 0 ? values[k] : values[before] + share * (values[k] - values[before]);
-    }
+    for (int i = before + 1; i < k; ++i)
+      values[i] = before < 0 ? values[k] : between(lost, values, before, k, i, is_smooth);
     before = k;
   }
   for (int i = before + 1; i < rows && before >= 0; ++i) values[i] = values[before];
 }
 
-UniformLog on_grid(const Log& all, const std::string& path, double period_s) {
-  std::vector<std::pair<int, int>> kept;  // grid point, row
-  double start = 0.0;
-  for (int row = 0; row < all.rows(); ++row) {
-    if (!is_complete(all, row)) continue;
-    if (kept.empty()) start = all.time[row];
-    const int point = static_cast<int>(std::floor((all.time[row] - start) / period_s + kEarliest));
-    if (kept.empty() || point > kept.back().first) kept.emplace_back(point, row);
+/// The rows that count as lost when gaps of up to `most` rows are bridged.
+std::vector<bool> without_short_gaps(std::vector<bool> lost, int most) {
+  const int rows = static_cast<int>(lost.size());
+  for (int k = 0; k < rows;) {
+    int end = k;
+    while (end < rows && lost[end]) ++end;
+    if (end - k <= most) std::fill(lost.begin() + k, lost.begin() + end, false);
+    k = end + 1;
   }
-  if (kept.size() < 2)
+  return lost;
+}
+
+/// Rows of a log that have all values, and where they stand.
+struct PlacedRows {
+  std::vector<int> row;
+  SampleGrid grid;
+};
+
+PlacedRows placed(const Log& all, const std::string& path, double period_s) {
+  PlacedRows out;
+  std::vector<double> time;
+  for (int row = 0; row < all.rows(); ++row) {
+    if (!is_complete(all, row) || (!time.empty() && all.time[row] < time.back())) continue;
+    out.row.push_back(row);
+    time.push_back(all.time[row]);
+  }
+  out.grid = sample_grid(time, period_s);
+  if (out.grid.points() < 2)
     throw Error(ErrorCode::input, path, "has fewer than two rows with all values; nothing can be said of it");
+  return out;
+}
+
+UniformLog on_grid(const Log& all, const PlacedRows& placed) {
   UniformLog out;
-  out.start_s = start;
-  out.period_s = period_s;
-  const int rows = kept.back().first + 1, joints = all.joints();
+  out.start_s = placed.grid.start_s;
+  out.period_s = placed.grid.period_s;
+  const int rows = placed.grid.points(), joints = all.joints();
   out.q.setZero(rows, joints);
   out.tau.setZero(rows, joints);
   out.dq.setZero(all.dq.empty() ? 0 : rows, joints);
   out.lost.assign(rows, true);
-  for (const auto& [point, row] : kept) {
+  for (std::size_t k = 0; k < placed.row.size(); ++k) {
+    const int point = placed.grid.point[k], row = placed.row[k];
+    if (point < 0) continue;
     out.lost[point] = false;
     for (int j = 0; j < joints; ++j) {
       out.q(point, j) = all.q[j][row];
@@ -67,17 +107,19 @@ UniformLog on_grid(const Log& all, const std::string& path, double period_s) {
     }
   }
   for (int j = 0; j < joints; ++j) {
-    interpolate(out.lost, out.q.col(j));
-    interpolate(out.lost, out.tau.col(j));
-    if (out.dq.rows() > 0) interpolate(out.lost, out.dq.col(j));
+    interpolate(out.lost, true, out.q.col(j));
+    interpolate(out.lost, false, out.tau.col(j));
+    if (out.dq.rows() > 0) interpolate(out.lost, true, out.dq.col(j));
   }
+  out.lost = without_short_gaps(std::move(out.lost), static_cast<int>(kBridged_s / out.period_s));
   return out;
 }
 
 }  // namespace
 
 UniformLog uniform_log(LogSource& log, double period_s) {
-  return on_grid(read_all(log), log.identity().path, period_s);
+  const Log all = read_all(log);
+  return on_grid(all, placed(all, log.identity().path, period_s));
 }
 
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
@@ -90,10 +132,19 @@ std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
     for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
   }
   if (steps.empty()) throw Error(ErrorCode::input, "", "there are no logs to learn from");
-  const double period = std::round(upper_median(std::move(steps)) / kPeriodGrid_s) * kPeriodGrid_s;
+  const double usual = upper_median(std::move(steps));
+  std::vector<PlacedRows> rows;
+  std::vector<double> periods;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    rows.push_back(placed(read[k], logs[k]->identity().path, usual));
+    periods.push_back(rows.back().grid.period_s);
+  }
+  const double period = std::round(upper_median(std::move(periods)) / kPeriodGrid_s) * kPeriodGrid_s;
   std::vector<UniformLog> out;
-  for (std::size_t k = 0; k < logs.size(); ++k)
-    out.push_back(on_grid(read[k], logs[k]->identity().path, period));
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    out.push_back(on_grid(read[k], rows[k]));
+    out.back().period_s = period;
+  }
   return out;
 }
 

@@ -10,10 +10,10 @@
 namespace faultline {
 
 /// A log on a uniform grid, as filters need it. A sample that the log lacks or that has no value is
-/// interpolated and marked as lost.
+/// interpolated, and marked as lost where the gap is so long that the kernels of the rows do not span it.
 struct UniformLog {
   double start_s = 0.0;   ///< time of the first row
-  double period_s = 0.0;  ///< between two rows
+  double period_s = 0.0;  ///< between two rows, as the stamps of this log show it
   Eigen::MatrixXd q, dq,
       tau;  ///< rows x joints; rad or m, rad/s or m/s, N m or N; `dq` is empty without a velocity
   std::vector<bool> lost;  ///< by row: interpolated
@@ -23,13 +23,12 @@ struct UniformLog {
   double time_s(double row) const { return start_s + period_s * row; }
 };
 
-/// The whole log on the grid of `period_s` that begins with its first row. Each row goes to the grid point
-/// that its stamp lies in; of two rows at one point the first counts. Throws Error(input) when the log has
-/// fewer than two rows.
+/// The whole log on a grid of about `period_s` that begins with its first row; each row goes to its most
+/// likely point (see sample_grid). Throws Error(input) when the log has fewer than two rows.
 UniformLog uniform_log(LogSource& log, double period_s);
 
-/// The whole of each log, from its start, on grids of one period: the median step of all logs, to the
-/// microsecond. Throws Error(input) when no log has two rows.
+/// The whole of each log, from its start, on grids of one period: that which the stamps of the middle log
+/// show. Throws Error(input) when no log has two rows.
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs);
 
 /// Median over the logs of a value of each joint, such as its noise; `by_log` is not empty.

@@ -79,7 +79,7 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int j) {
       size[k] = 0.0;
     const std::optional<double> step = step_size(log, j, at);
     if (!step) continue;
-    const double jump = log.period_s < kHighRate_s ? *step : off[at];
+    const double jump = fit.model().setting.period_s < kHighRate_s ? *step : off[at];
     if (std::abs(jump) > 3.0 * fit.model().q_noise[j]) out.push_back({log.time_s(at + 1), jump});
   }
   return out;
@@ -93,7 +93,7 @@ std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   const BalanceModel& m = fit.model();
   const double least =
-      repeats_say_something(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / log.period_s;
+      repeats_say_something(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / m.setting.period_s;
   std::vector<std::pair<int, RepeatedCode>> runs;  // with their samples
   for (int first = 0; first < log.rows();) {
     int next = first + 1;

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/sample_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultline {
+namespace {
+
+constexpr double kLeastError = 0.1, kMostError = 0.35;  // periods: standard deviation of a stamp
+constexpr double kLostPoint = 4.6;                      // nats: one row in a hundred
+constexpr double kMostLost = 10.0;                      // nats of a gap, however long: logs stop and go on
+constexpr double kMostWrong = 8.0;                      // nats of a stamp, however wrong: clocks jump
+constexpr double kRowTooMany = 9.2;                     // nats: one row in ten thousand
+constexpr double kUnlikely = 30.0;    // nats behind the best beyond which a sequence is given up
+constexpr double kDoubtful = 0.25;    // periods
+constexpr int kAround = 2;            // points on each side of where a stamp lies
+constexpr double kPhaseGain = 0.005;  // of the phase for each row: some 200 rows
+
+/// The best sequence that ends at one point.
+struct Ending {
+  int point = 0;
+  double cost = 0.0;
+  double phase_s = 0.0;   ///< time of point 0, as the last rows show it
+  int before = -1;        ///< ending of the row before
+  bool is_point = false;  ///< whether the last row stands at this point, else at none
+};
+
+/// Standard deviation of a stamp in periods, from the steps between stamps, these cut where rows are lost: a
+/// median would be zero for stamps that are rounded.
+double stamp_error(std::span<const double> time, double period_s) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double off = (time[k] - time[k - 1]) / period_s - 1.0;
+    sum += std::min(off * off, 1.0);
+  }
+  return std::clamp(std::sqrt(0.5 * sum / static_cast<double>(time.size() - 1)), kLeastError, kMostError);
+}
+
+/// Keeps the better of two sequences that end at one point.
+void keep_better(const Ending& ending, std::vector<Ending>& endings) {
+  const auto known =
+      std::find_if(endings.begin(), endings.end(), [&](const Ending& e) { return e.point == ending.point; });
+  if (known == endings.end())
+    endings.push_back(ending);
+  else if (ending.cost < known->cost)
+    *known = ending;
+}
+
+/// The endings of the next row, which is stamped `time`.
+std::vector<Ending> next_endings(const std::vector<Ending>& endings, double time, double period_s,
+                                 double error, double gain) {
+  std::vector<Ending> out;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(endings.size()); ++i) {
+    const Ending& e = endings[i];
+    const int near = static_cast<int>(std::lround((time - e.phase_s) / period_s));
+    for (int point = std::max(near - kAround, e.point + 1); point <= std::max(near + kAround, e.point + 1);
+         ++point) {
+      const double off_s = time - e.phase_s - period_s * point, z = off_s / (period_s * error);
+      const double lost = std::min(kLostPoint * (point - e.point - 1), kMostLost);
+      const double cost = e.cost + std::min(0.5 * z * z, kMostWrong) + lost;
+      if (cost > least + kUnlikely) continue;
+      least = std::min(least, cost);
+      keep_better({point, cost, e.phase_s + gain * off_s, i, true}, out);
+    }
+    keep_better({e.point, e.cost + kRowTooMany, e.phase_s, i, false}, out);
+  }
+  least = std::min_element(out.begin(), out.end(), [](const Ending& a, const Ending& b) {
+            return a.cost < b.cost;
+          })->cost;
+  std::erase_if(out, [&](const Ending& e) { return e.cost > least + kUnlikely; });
+  for (Ending& e : out) e.cost -= least;
+  return out;
+}
+
+/// The points without those of rows beside a lost one whose stamps lie as near to it as to their own: `off`
+/// is how far each stamp lies from its point, in periods.
+std::vector<int> without_doubtful(std::vector<int> point, const std::vector<double>& off) {
+  int before = -1;  // last point that a row surely stands at
+  for (std::size_t k = 0; k < point.size(); ++k) {
+    if (point[k] < 0) continue;
+    if (point[k] > before + 1 && off[k] < -kDoubtful)
+      point[k] = -1;
+    else
+      before = point[k];
+  }
+  int after = before + 1;
+  for (std::size_t k = point.size(); k-- > 0;) {
+    if (point[k] < 0) continue;
+    if (point[k] < after - 1 && off[k] > kDoubtful)
+      point[k] = -1;
+    else
+      after = point[k];
+  }
+  return point;
+}
+
+/// Start and period by least squares of the stamps over the points.
+SampleGrid with_line(SampleGrid grid, std::span<const double> time, double period_s) {
+  double rows = 0.0, point = 0.0, off = 0.0;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    if (grid.point[k] < 0) continue;
+    rows += 1.0;
+    point += grid.point[k];
+    off += time[k] - time[0] - period_s * grid.point[k];
+  }
+  point /= rows;
+  off /= rows;
+  double square = 0.0, product = 0.0;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    if (grid.point[k] < 0) continue;
+    const double x = grid.point[k] - point;
+    square += x * x;
+    product += x * (time[k] - time[0] - period_s * grid.point[k] - off);
+  }
+  const double slope = square > 0.0 ? product / square : 0.0;
+  grid.period_s = period_s + slope;
+  grid.start_s = time[0] + off - slope * point;
+  return grid;
+}
+
+}  // namespace
+
+int SampleGrid::points() const {
+  int most = -1;
+  for (const int p : point) most = std::max(most, p);
+  return most + 1;
+}
+
+SampleGrid sample_grid(std::span<const double> time, double period_s) {
+  SampleGrid grid{0.0, period_s, std::vector<int>(time.size(), -1)};
+  if (time.size() < 2) return grid;
+  const double error = stamp_error(time, period_s);
+  std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, true}}};
+  for (std::size_t k = 1; k < time.size(); ++k)
+    all.push_back(next_endings(all.back(), time[k], period_s, error,
+                               std::max(kPhaseGain, 1.0 / static_cast<double>(k + 1))));
+  std::vector<double> off(time.size(), 0.0);
+  int at = 0;
+  for (int i = 1; i < static_cast<int>(all.back().size()); ++i)
+    if (all.back()[i].cost < all.back()[at].cost) at = i;
+  for (std::size_t k = time.size(); k-- > 0;) {
+    const Ending& e = all[k][at];
+    if (e.is_point) grid.point[k] = e.point;
+    off[k] = (time[k] - e.phase_s) / period_s - e.point;
+    at = e.before;
+  }
+  grid.point = without_doubtful(std::move(grid.point), off);
+  return with_line(std::move(grid), time, period_s);
+}
+
+}  // namespace faultline
