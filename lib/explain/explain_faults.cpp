@@ -37,8 +37,9 @@ std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& m
   return NextFault{std::move(named), std::move(unknown), e.healthy_square};
 }
 
-/// The fault that explains best what is left, or two at once where one leaves much and two together do not:
-/// those with the greatest evidence.
+/// The fault that explains best what is left, or two at once where one leaves much: the first two that have
+/// more evidence than the one and leave noise; else, where the one is of no kind, those with the greatest
+/// evidence.
 std::vector<ExplainedFault> one_or_two(const UniformLog& log, const BalanceModel& model,
                                        const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
                                        const NextFault& next) {
@@ -52,8 +53,10 @@ std::vector<ExplainedFault> one_or_two(const UniformLog& log, const BalanceModel
     more.push_back(first.claim);
     const std::optional<NextFault> second = next_fault(log, model, limits, more);
     if (!second || leaves_much(second->named.front(), next.without)) continue;
-    if (second->named.front().left <= kMuchLeft) return {first, second->named.front()};
     const double both = first.evidence + second->named.front().evidence;
+    if (both <= alone.evidence) continue;
+    if (second->named.front().left <= kMuchLeft) return {first, second->named.front()};
+    if (!next.leaves_much()) continue;
     if (both <= evidence) continue;
     evidence = both;
     best = {first, second->named.front()};

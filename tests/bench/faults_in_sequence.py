@@ -89,8 +89,9 @@ def main():
     totals = {}
     folder = os.path.join(OUT, "runs")
     base.simulate(folder, base.Row(), 500, [((name, "", 0), text) for name, _, text in cases()])
-    for name, expected, _ in cases():
-        faults = base.diagnose(os.path.join(folder, name + ".csv"), model)["faults"]
+    reports = base.diagnose_all([os.path.join(folder, name + ".csv") for name, _, _ in cases()], model)
+    for (name, expected, _), report in zip(cases(), reports):
+        faults = report["faults"]
         right, extra = all(listed(e, faults) for e in expected), max(0, len(faults) - len(expected))
         what = ", ".join(f"{kind} {joint}" for kind, joint, _, _ in expected)
         said = ", ".join(f"{f['kind']} {f['joint']} {f['onset_s']:.2f} to {f['end_s']:.2f}" for f in faults)
