@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 constexpr double kSameFault_s = 0.3;
 constexpr double kLeastGain = 0.1;     // nats by which a move explains more
 constexpr double kLeastStay_s = 0.25;  // of a fault that stays for a while and ends
-constexpr int kMostMoves = 40;
+constexpr int kMovesOfOnset = 40;
 constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
 constexpr double kAbsentShare = 0.7;   // of the evidence that an absent fault gives
 constexpr double kStillEnough = 0.5;   // of the evidence without an end that the one with it must have
@@ -55,7 +55,7 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   const double at = best.*when;
   for (const double d : {-.04, -.03, -.02, -.01, -.005, .005, .01, .02, .03, .04}) try_at(at + d);
   int moves = 0;
-  for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMostMoves; ++moves)
+  for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMovesOfOnset; ++moves)
     if (!try_at(best.*when - step) && !try_at(best.*when + step)) step /= 2.0;
   return best;
 }
