@@ -10,7 +10,7 @@ namespace faultline {
 struct SampleGrid {
   double start_s = 0.0;    ///< time of grid point 0, as all stamps show it
   double period_s = 0.0;   ///< between grid points, as all stamps show it
-  std::vector<int> point;  ///< of each row; -1 for a row of which none can be told
+  std::vector<int> point;  ///< grid point of each row; -1 for a row that has none
 
   int points() const;  ///< up to the last one that a row stands at
 };

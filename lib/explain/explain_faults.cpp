@@ -2,6 +2,7 @@
 #include "lib/explain/explain_faults.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "lib/explain/judge.hpp"

@@ -106,7 +106,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   const OneStepModel& m = *log.model;
   const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
-  const bool reading = is_reading(guess.kind);
+  const bool reading = reads_wrong(guess.kind);
   const int sizes = static_cast<int>(fault.std.size()), effects = static_cast<int>(log.day.cols());
   const VectorXd usual = numbers_with(log, at.day, {}, {});
   const MotionLaw healthy(m.body, usual);
@@ -194,7 +194,7 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
 
 VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
   VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
-  if (is_reading(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
+  if (reads_wrong(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
   VectorXd out = size.cwiseMax(-kMostSizes * std).cwiseMin(kMostSizes * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLoss);
   if (guess.kind == FaultKind::payload_change)
@@ -208,7 +208,7 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   const auto sizes = fault_directions(*log.model, guess.kind, guess.joint).std.size();
   out.log_likelihood = -kImpossibleAtCoarse;
   out.day = VectorXd::Zero(log.day.cols());
-  out.size = VectorXd::Zero(sizes + (is_reading(guess.kind) ? 1 : 0));
+  out.size = VectorXd::Zero(sizes + (reads_wrong(guess.kind) ? 1 : 0));
   out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
   out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
   out.about = log.about;
@@ -263,7 +263,7 @@ CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, c
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
   const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
   const int late = log.samples() - from;
-  const bool reading = is_reading(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  const bool reading = reads_wrong(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
   if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
   if (reading && at.size.size() > 0) at.about -= at.size[0] * read_column(log, guess, from);
   CoarseExplanation best;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "lib/explain/coarse/coarse_log.hpp"
+#include "lib/explain/fault_claim.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {

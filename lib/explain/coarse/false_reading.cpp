@@ -3,8 +3,6 @@
 
 namespace faultline {
 
-bool is_reading(FaultKind kind) { return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift; }
-
 int first_sample(const CoarseLog& log, double onset_s) {
   int k = 0;
   while (k < log.samples() && log.time_s(k) < onset_s - 1e-9) ++k;

@@ -5,9 +5,6 @@
 
 namespace faultline {
 
-/// Whether a fault makes a position read wrong and moves nothing.
-bool is_reading(FaultKind kind);
-
 /// The first sample at or after a time, s.
 int first_sample(const CoarseLog& log, double onset_s);
 
