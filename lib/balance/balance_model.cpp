@@ -35,6 +35,7 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetti
     out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
     out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
     out[j].col(day.offset(j)).setOnes();
+    out[j].col(day.delay()) = column.col(layout.delay(j));
     out[j].col(day.friction_width(j)) =
         theta[layout.coulomb(j)] * by_width(rows.dq.col(j), setting.friction_width[j]);
   }

@@ -33,7 +33,7 @@ struct BalanceModel {
 
 /// Where the effects of a day stand: relative change of each base parameter; then, for each joint, relative
 /// friction, its relative slope over the log, gain and offset of the torque, relative width of the friction's
-/// step at rest.
+/// step at rest; then the delay of all torques, samples.
 struct DayLayout {
   int base = 0, joints = 0;
 
@@ -43,7 +43,8 @@ struct DayLayout {
   int gain(int joint) const { return base + 2 * joints + joint; }
   int offset(int joint) const { return base + 3 * joints + joint; }
   int friction_width(int joint) const { return base + 4 * joints + joint; }
-  int count() const { return base + 5 * joints; }
+  int delay() const { return base + 5 * joints; }
+  int count() const { return delay() + 1; }
 };
 
 inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }

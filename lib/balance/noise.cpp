@@ -2,6 +2,7 @@
 #include "lib/balance/noise.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,7 @@ constexpr double kSaysNothing = 1e6;  // times the usual standard deviation
 constexpr double kRare = 50.0;        // times the median: squares above it are cut
 constexpr double kLeastShare = 0.1;   // of the median square that the constant part has at least
 constexpr double kRidge = 1e-4;       // of the variance, on the diagonal of the autocorrelation
+constexpr Eigen::Index kImpulse = 2000;  // rows of the response of the autoregression to one innovation
 
 constexpr int kTerms = 5;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
@@ -123,17 +125,34 @@ RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise nois
       for (int lag = 0; lag <= order && lag < x.size(); ++lag)
         correlation[lag] += x.head(x.size() - lag).dot(x.tail(x.size() - lag));
     }
-    correlation /= rows;
-    correlation[0] *= 1.0 + kRidge;
-    MatrixXd toeplitz(order, order);
-    for (int i = 0; i < order; ++i)
-      for (int k = 0; k < order; ++k) toeplitz(i, k) = correlation[std::abs(i - k)];
-    const VectorXd a = toeplitz.ldlt().solve(correlation.tail(order));
-    JointNoise& out = noise.joint[j];
-    out.filter.resize(order + 1);
-    out.filter << 1.0, -a;
-    out.innovation = std::sqrt(correlation[0] - a.dot(correlation.tail(order)));
+    noise.joint[j] = with_autocovariance(std::move(noise.joint[j]), correlation / rows);
   }
+  return noise;
+}
+
+VectorXd autocovariance(const JointNoise& noise) {
+  const Eigen::Index order = noise.filter.size() - 1;
+  VectorXd response(kImpulse), out(order + 1);
+  for (Eigen::Index k = 0; k < kImpulse; ++k) {
+    response[k] = k == 0 ? noise.innovation : 0.0;
+    for (Eigen::Index lag = 1; lag <= std::min(order, k); ++lag)
+      response[k] -= noise.filter[lag] * response[k - lag];
+  }
+  for (Eigen::Index lag = 0; lag <= order; ++lag)
+    out[lag] = response.head(kImpulse - lag).dot(response.tail(kImpulse - lag));
+  return out;
+}
+
+JointNoise with_autocovariance(JointNoise noise, VectorXd covariance) {
+  const Eigen::Index order = covariance.size() - 1;
+  covariance[0] *= 1.0 + kRidge;
+  MatrixXd toeplitz(order, order);
+  for (Eigen::Index i = 0; i < order; ++i)
+    for (Eigen::Index k = 0; k < order; ++k) toeplitz(i, k) = covariance[std::abs(i - k)];
+  const VectorXd a = toeplitz.ldlt().solve(covariance.tail(order));
+  noise.filter.resize(order + 1);
+  noise.filter << 1.0, -a;
+  noise.innovation = std::sqrt(covariance[0] - a.dot(covariance.tail(order)));
   return noise;
 }
 

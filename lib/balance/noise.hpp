@@ -45,4 +45,9 @@ RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& sett
 /// Autoregression of order `order` of the residuals over their standard deviation (Yule and Walker).
 RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise);
 
+/// Autocovariance of rows over their standard deviation: of lag 0 up to the order of the filter.
+Eigen::VectorXd autocovariance(const JointNoise& noise);
+/// The noise with the autoregression that has this autocovariance (Yule and Walker).
+JointNoise with_autocovariance(JointNoise noise, Eigen::VectorXd covariance);
+
 }  // namespace faultline

@@ -232,24 +232,23 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
 }
 
 MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
-                     const VectorXd& theta) {
+                     const VectorXd& theta, int first_row) {
   const auto [kernel, grid, at] = row_frame(log, setting);
   const ColumnLayout layout = layout_of(rigid, setting);
-  const int n = rigid.joints(), links = n * kLinkParameters;
-  const VectorXd numbers = rigid.lift * theta.head(rigid.base());
+  const int n = rigid.joints(), from = first_row * grid.step;  // first sample within reach of the first row
+  const Chain<double> chain = chain_of(rigid, theta);
+  const JointVector<double> rotor = Eigen::Map<const VectorXd>(chain.rotor_inertia.data(), n);
   MatrixXd left = at.torque;
-  LinkRegressor momentum, force;
-  VectorXd before_p, before_f;
-  for (int k = 0; k < log.rows(); ++k) {
+  MomentumAndForce before;
+  for (int k = from; k < log.rows(); ++k) {
     const JointVector<double> dq = row_of(at.velocity, k);
-    const LinkFrames frames = link_frames(rigid.chain, row_of(log.q, k));
-    momentum_regressor(frames, dq, momentum);
-    force_regressor(frames, dq, force);
-    VectorXd p = momentum * numbers.head(links), f = force * numbers.head(links);
-    p += dq.cwiseProduct(numbers.tail(n));
-    if (k > 0) left.row(k - 1) -= ((p - before_p) / setting.period_s - 0.5 * (f + before_f)).transpose();
-    before_p.swap(p);
-    before_f.swap(f);
+    MomentumAndForce now = momentum_and_force(link_frames(chain, row_of(log.q, k)), chain.links, dq);
+    now.momentum += rotor.cwiseProduct(dq);
+    if (k > from)
+      left.row(k - 1) -= ((now.momentum - before.momentum) / setting.period_s -
+                          0.5 * (now.force + before.force))
+                             .transpose();
+    before = std::move(now);
   }
   for (int j = 0; j < n; ++j) {
     left.col(j) -= theta[layout.viscous(j)] * at.link_speed.col(j) +
@@ -265,7 +264,7 @@ MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const Rig
       left(k, j) -= (t[0] * s + t[1] * c) * at.torque(k, j) + t[2] * s + t[3] * c;
     }
   }
-  return smooth_at(left, kernel, grid.first, grid.step, grid.count);
+  return smooth_at(left, kernel, grid.first + from, grid.step, grid.count - first_row);
 }
 
 }  // namespace faultline

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSameOnset_s = 0.08;
-constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6;
+constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
 
@@ -86,13 +86,11 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   if (blows.size() > 4) blows.resize(4);
   for (const double t : onsets_of(blows, common, 5)) bench.go({FaultKind::collision, fit.joints(), t});
   for (int joint = 1; joint <= fit.joints(); ++joint) {
-    const bool slide = fit.model().rigid.chain.geometry[joint - 1].kind == AxisKind::prismatic;
     std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
     if (drifts.size() > 3) drifts.resize(3);
-    for (std::size_t k = 0; k < std::min<std::size_t>(4, common.size()); ++k)
-      for (const double sign : {-1.0, 1.0})
-        drifts.push_back({FaultKind::sensor_drift, joint, common[k], 0.0, sign * (slide ? 0.01 : 0.03)});
     for (const Candidate& c : drifts) bench.go_from(c);
+    for (std::size_t k = 0; k < std::min(kOnsetsOfDrifts, common.size()); ++k)
+      bench.go({FaultKind::sensor_drift, joint, common[k]});
     for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go_from(c);
     const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
     for (const double t : onsets_of(locks, common, kOnsetsForAll)) bench.go({FaultKind::locked, joint, t});

@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 
 constexpr double kFreeRowCost =
     1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
-constexpr int kRowsOfChange = 6;  // on each side of a change of the work piece: kernel and filter
 
 }  // namespace
 
@@ -58,6 +57,7 @@ FreeForm free_form(const LogFit& fit) {
   FreeForm out;
   out.onset_s = fit.time_s()[std::min(best + 1, rows - 1)];
   out.left = white - fit.white_effects() * day;
+  out.day = std::move(day);
   double back = 0.0, most = kEndEvidence;
   for (int k = rows - 1; k > best && fit.time_s()[k] > out.onset_s + kLeastFault_s; --k) {
     for (int j = 0; j < n; ++j) back += kFreeRowCost - 0.5 * Eigen::numext::abs2(out.left[j * rows + k]);

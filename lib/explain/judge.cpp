@@ -18,6 +18,9 @@ using Eigen::VectorXd;
 constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
 constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
 constexpr double kDroppedCost = 1.2;   // nats a row that an unknown force explains
+constexpr int kReadingRounds = 3;      // of the size of a false reading
+constexpr double kSettled = 0.01;      // share of it that the last round changed
+constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
 constexpr double kSurely = 4.0;        // standard deviations
 constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
 constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
@@ -87,7 +90,7 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
 }
 
 /// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
-/// about the size before.
+/// about the size before (Newton), until the size is settled. A claim of no size starts from none.
 FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic,
              bias = claim.kind == FaultKind::sensor_bias;
@@ -98,23 +101,25 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
   const auto residual_with = [&](double value) {
     claim.size = VectorXd::Constant(1, value);
-    return fit.residual_of(without_false_reading(fit.log(), claim));
+    return fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s);
   };
-  for (int round = 0; round < (bias ? 2 : 3); ++round) {
-    const Stacked at = residual_with(size), next = residual_with(size + step);
-    FaultColumns columns{StackedColumns((at - next) / step),
-                         VectorXd::Constant(1, Eigen::numext::abs2(0.3 * size) + 1e-10)};
+  for (int round = 0; round < kReadingRounds; ++round) {
+    const Stacked at = size == 0.0 ? fit.residual() : residual_with(size), next = residual_with(size + step);
+    const double doubt = size == 0.0 ? usual : 0.3 * std::abs(size) + 1e-5;
+    FaultColumns columns{StackedColumns((at - next) / step), VectorXd::Constant(1, doubt * doubt)};
     std::vector<VectorXd> starts;
     if (fit.has_piece()) starts.push_back(VectorXd::Zero(1));
     Explanation e = fit.explain_with_piece(at, columns, starts, claim.onset_s);
     // The size's own prior in place of the one about the size before.
-    const double price =
-        0.5 * size * size / (usual * usual) + elementary::log(usual / std::sqrt(columns.variance[0]));
+    const double price = 0.5 * size * size / (usual * usual) + elementary::log(usual / doubt);
     const double change = e.size[0];
     FaultHypothesis h = hypothesis(fit, claim, std::move(e), price);
     h.size = VectorXd::Constant(1, size + change);
     if (h.gain > best.gain) best = std::move(h);
-    size += std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
+    if (size == 0.0 && best.gain < kHopeless) break;
+    const bool settled = std::abs(change) < kSettled * std::abs(size);
+    size += size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
+    if (settled) break;
   }
   return best;
 }

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "lib/balance/smoothing.hpp"
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/own_noise.hpp"
 #include "lib/explain/row_deviation.hpp"
 
 namespace faultline {
@@ -14,20 +16,30 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kForgotten = 1e-9;  // share of a velocity that is left of it
 constexpr double kSaysNothing = 1e9;
 constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
 constexpr double kFormShare = 0.05;    // of a known fault's torque: what its columns lack of its true form
 constexpr double kEdgeShare = 0.5;     // the same where it begins or ends
 constexpr double kReadingDoubt = 0.1;  // of a false reading's size that is left when it is mended
 constexpr double kGravity = 9.81;
+constexpr int kNoiseRounds = 3;
 constexpr int kMostPaths = 4;   // rounds of path and effects in turn
 constexpr int kBeforeRows = 5;  // effects before an onset are estimated anew for each so many rows
+
+/// After which the velocity of a sample no longer shows in that of another one, s.
+double memory_of_velocity_s(const RowSetting& setting) {
+  if (setting.velocity_is_difference || setting.fusion.size() == 0) return 0.0;
+  const double decay = setting.fusion.maxCoeff();
+  return decay > 0.0 ? setting.period_s * elementary::log(kForgotten) / elementary::log(decay) : 0.0;
+}
 
 /// What the size of a false reading that is mended still changes.
 FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
   claim.size[0] = doubt;
-  return {StackedColumns((fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim))) / doubt),
+  return {StackedColumns(
+              (fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s)) / doubt),
           VectorXd::Constant(1, doubt * doubt)};
 }
 
@@ -62,7 +74,8 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
       log_(without_false_readings(std::move(log), known_)),
       model_(model),
       rows_(balance_rows(log_, model.setting, model.rigid, model.theta)),
-      loudness_(row_loudness(log_, model)) {
+      loudness_(row_loudness(log_, model)),
+      noise_(model.noise) {
   const ColumnLayout layout = model.layout();
   tip_ = payload_torque(rows_, model.payload, joints() - 1);
   residual_ = stacked(rows_.torque - torque_of(rows_, model.theta));
@@ -92,11 +105,21 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   }
   for (std::size_t i = 0; i < silent_.size(); ++i)
     if (silent_[i]) std_.data()[i] *= kSilent;
+  whiten_effects();
+  settle_healthy();
+  for (int round = 0; round < kNoiseRounds; ++round) {  // a louder log dates its change later
+    noise_ = own_noise(*this);
+    whiten_effects();
+    settle_healthy();
+  }
+}
+
+void LogFit::whiten_effects() {
   StackedColumns effects(count() * joints(), effect_variance_.size());
   for (int j = 0; j < joints(); ++j) effects.middleRows(j * count(), count()) = effect_column_[j];
   effect_white_ = whitened(effects);
   effect_square_ = effect_white_.transpose() * effect_white_;
-  settle_healthy();
+  before_.clear();
 }
 
 /// A known fault is an effect whose size is estimated, and what its columns lack of its true form is noise.
@@ -149,9 +172,18 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
   return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
 }
 
-Stacked LogFit::residual_of(const UniformLog& moved) const {
-  return stacked(faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta)) - spring_ -
-         known_torque_;
+Stacked LogFit::residual_of(const UniformLog& moved, double from_s) const {
+  const double unmoved_s = from_s - reach_s(model_.setting) - memory_of_velocity_s(model_.setting);
+  int first = 0;
+  while (first < count() - 1 && time_s()[first] < unmoved_s) ++first;
+  const MatrixXd after =
+      faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta, first);
+  Stacked out = residual_;
+  for (int j = 0; j < joints(); ++j) {
+    const auto rest = [&](const Stacked& v) { return v.segment(j * count() + first, count() - first); };
+    out.segment(j * count() + first, count() - first) = after.col(j) - rest(spring_) - rest(known_torque_);
+  }
+  return out;
 }
 
 StackedColumns LogFit::whitened(const StackedColumns& columns) const {
@@ -161,7 +193,7 @@ StackedColumns LogFit::whitened(const StackedColumns& columns) const {
     if (of_joint.isZero(0.0))
       out.middleRows(j * count(), count()).setZero();
     else
-      out.middleRows(j * count(), count()) = whiten(of_joint, std_.col(j), model_.noise.joint[j]);
+      out.middleRows(j * count(), count()) = whiten(of_joint, std_.col(j), noise_.joint[j]);
   }
   return out;
 }

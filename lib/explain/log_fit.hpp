@@ -40,6 +40,8 @@ class LogFit {
   /// Whether a known fault leaves nothing to be said of joint `joint` (from 1) at a time.
   bool is_silent(int joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
+  /// That of the model, or the log's own where it is louder (own_noise()).
+  const RowNoise& noise() const { return noise_; }
   const BalanceRows& rows() const { return rows_; }
   int count() const { return rows_.rows(); }
   int joints() const { return model_.joints(); }
@@ -49,8 +51,8 @@ class LogFit {
   const Eigen::MatrixXd& std() const { return std_; }
   /// Torque that robot and known faults leave unexplained, without effects.
   const Stacked& residual() const { return residual_; }
-  /// The same of another trajectory of this log.
-  Stacked residual_of(const UniformLog& moved) const;
+  /// The same of another trajectory, which is that of this log before `from_s`.
+  Stacked residual_of(const UniformLog& moved, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Effects that every hypothesis has: those of the day (DayLayout), then the sizes of the known faults. By
   /// joint: rows x effects.
@@ -87,6 +89,7 @@ class LogFit {
  private:
   void add_fault(const FaultColumns& columns, const FaultClaim& claim);
   void settle_healthy();
+  void whiten_effects();
   PiecePath path_of(const Stacked& left, const StackedMask& dropped, bool wide) const;
 
   std::vector<FaultClaim> known_;
@@ -94,6 +97,7 @@ class LogFit {
   const BalanceModel& model_;
   BalanceRows rows_;
   Eigen::VectorXd loudness_;
+  RowNoise noise_;
   Eigen::MatrixXd std_, tip_;
   Stacked residual_, spring_;
   Stacked known_torque_;  ///< of the faults that are known, as large as their claims say

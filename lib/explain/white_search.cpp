@@ -14,22 +14,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
-constexpr int kImpulse = 2000;     // rows of the filter's response that its variance is summed over
 constexpr int kFirstOnsetRow = 6;  // rows
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
-
-/// Variance of a process whose innovations are one, from its autoregression.
-double process_variance(const VectorXd& filter) {
-  std::vector<double> h(kImpulse, 0.0);
-  double sum = 0.0;
-  for (int k = 0; k < kImpulse; ++k) {
-    double v = k == 0 ? 1.0 : 0.0;
-    for (int lag = 1; lag < filter.size() && lag <= k; ++lag) v -= filter[lag] * h[k - lag];
-    h[k] = v;
-    sum += v * v;
-  }
-  return sum;
-}
 
 /// Normal equations of columns over some rows; with the effects not yet taken away.
 struct SwitchedSums {
@@ -74,15 +60,13 @@ VectorXd WhiteSearch::weighted(int joint) const {
 }
 
 WhiteSearch white_search(const LogFit& fit) {
-  const BalanceModel& m = fit.model();
   WhiteSearch out{fit, VectorXd(fit.joints()), {}, {}};
   MatrixXd a = fit.effect_variance().cwiseInverse().asDiagonal();
   VectorXd b = VectorXd::Zero(a.rows());
   Stacked y = fit.residual();
   if (fit.has_piece()) y -= fit.piece_torque(fit.healthy().piece_level);
   for (int j = 0; j < fit.joints(); ++j) {
-    const JointNoise& noise = m.noise.joint[j];
-    out.precision[j] = 1.0 / (noise.innovation * noise.innovation * process_variance(noise.filter));
+    out.precision[j] = 1.0 / autocovariance(fit.noise().joint[j])[0];
     const VectorXd inverse = fit.std().col(j).cwiseInverse();
     const MatrixXd w = inverse.asDiagonal() * fit.effect_columns()[j];
     a += out.precision[j] * w.transpose() * w;

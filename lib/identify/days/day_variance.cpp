@@ -8,21 +8,22 @@ constexpr double kNoEffect = 1e-10;  // variance of an effect that cannot be tol
 constexpr double kUnseenDays = 2.0;  // times the variance between the days that were seen
 
 /// Standard deviations of the effects, relative but for the offset, which is a share of the joint's torque
-/// rms.
+/// rms, and the delay, which is in samples.
 struct EffectStd {
-  double inertia, friction, slope, gain, offset, width;
+  double inertia, friction, slope, gain, offset, width, delay;
 };
 
 // First: what robots differ by from day to day. Least: what makes no difference to any judgement. Unseen:
 // what a few days cannot show (friction by the warmth of the gear, inertia and torque constants as drives are
 // made, friction near rest, where healthy logs have few rows).
-constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1};
-constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02};
-constexpr EffectStd kUnseen{1e-3, 0.05, 0.03, 1e-3, 1e-3, 0.1};
+constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1};
+constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01};
+constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.3};
 
 Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
   const DayLayout day = day_layout(model.rigid);
   Eigen::VectorXd out = Eigen::VectorXd::Constant(day.count(), std.inertia * std.inertia);
+  out[day.delay()] = std.delay * std.delay;
   for (int j = 0; j < model.joints(); ++j) {
     const double offset = std.offset * model.torque_rms[j];
     out[day.friction(j)] = std.friction * std.friction;

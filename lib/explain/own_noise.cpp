@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/own_noise.hpp"
+
+#include <algorithm>
+
+#include "lib/balance/work_piece.hpp"
+#include "lib/explain/free_form.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kRowsOfHealthyLogs = 30.0;  // that the noise of the healthy logs counts for
+constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;  // of the log: rows that count in any case
+constexpr double kLost = 1e3;                // times the least standard deviation: a row that does not count
+
+/// Sums of products of rows that lie 0, 1, .. `order` apart.
+VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
+  VectorXd out = VectorXd::Zero(order + 1);
+  for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
+    out[lag] = rows.head(rows.size() - lag).dot(rows.tail(rows.size() - lag));
+  return out;
+}
+
+}  // namespace
+
+RowNoise own_noise(const LogFit& fit) {
+  const FreeForm change = free_form(fit);
+  Stacked torque = fit.residual() - fit.day_torque(change.day);
+  if (fit.has_piece())
+    torque -=
+        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
+  const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
+  const double first_s = fit.time_s()[0], length_s = fit.time_s()[fit.count() - 1] - first_s;
+  const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
+                                  first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
+  RowNoise out = fit.model().noise;
+  int rows = 0;
+  while (rows < fit.count() && fit.time_s()[rows] < until_s) ++rows;
+  for (int j = 0; j < fit.joints(); ++j) {
+    JointNoise& noise = out.joint[j];
+    const VectorXd std = fit.std().col(j);
+    VectorXd scaled = torque.segment(j * fit.count(), rows).cwiseQuotient(std.head(rows));
+    double count = kRowsOfHealthyLogs;
+    for (int k = 0; k < rows; ++k) {
+      const bool counts = std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
+      scaled[k] *= counts ? 1.0 : 0.0;
+      count += counts ? 1.0 : 0.0;
+    }
+    const VectorXd usual = autocovariance(noise);
+    const VectorXd own = (kRowsOfHealthyLogs * usual + lag_products(scaled, usual.size() - 1)) / count;
+    if (own[0] > usual[0]) noise = with_autocovariance(std::move(noise), own);
+  }
+  return out;
+}
+
+}  // namespace faultline
