@@ -172,6 +172,12 @@ double reach_s(const RowSetting& setting) {
   return setting.period_s * reach_samples(setting, gaussian_kernel(setting.kernel_s, setting.period_s));
 }
 
+double velocity_reach_s(const RowSetting& setting, double share) {
+  if (setting.velocity_is_difference || setting.fusion.size() == 0) return 0.0;
+  const double decay = setting.fusion.maxCoeff();
+  return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
+}
+
 Chain<double> chain_of(const RigidColumns& rigid, const VectorXd& theta) {
   Chain<double> chain = rigid.chain;
   const int n = rigid.joints();

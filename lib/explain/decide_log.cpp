@@ -31,39 +31,40 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   return out;
 }
 
-AlarmTimes alarm_times(const LogFit& fit, const LogExplanation& e) {
+LogEvidence log_evidence(const LogFit& fit, const LogExplanation& e) {
   return {[&fit](const FaultHypothesis& h, double limit) { return alarm_time(fit, h, limit); },
+          [&fit, &e](const FaultHypothesis& h) { return misfit(fit, e.free_form, h); },
           [&fit, &e](double limit) { return alarm_time(fit, e.free_form, limit); }};
 }
 
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
-                                         const AlarmTimes& alarms, std::size_t most) {
+                                         const LogEvidence& evidence, std::size_t most) {
   std::vector<ExplainedFault> out;
   for (auto best = e.best.begin(); best != e.best.end() && out.size() < most; ++best) {
     if (!passes(*best, limits)) continue;
     ExplainedFault& fault = out.emplace_back();
     fault.claim = *best;
     fault.evidence = best->gain;
-    fault.left = best->fit.mean_square();
-    const double scale = std::max(1.0, fault.left);
+    fault.misfit = evidence.misfit(*best);
+    const double scale = std::max(1.0, best->fit.mean_square());
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
         fault.could_also_be.push_back({h->kind, h->joint});
-    fault.alarm_s = alarms.of(*best, limits.of(best->kind));
+    fault.alarm_s = evidence.alarm(*best, limits.of(best->kind));
   }
   return out;
 }
 
 ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, const EvidenceLimits& limits,
-                          const AlarmTimes& alarms) {
+                          const LogEvidence& evidence) {
   ExplainedFault out = named;
   out.claim.kind = FaultKind::unknown;
   out.claim.size = {};
   out.could_also_be.insert(out.could_also_be.begin(), named.label());
-  if (!alarms.of_free_form) return out;
+  if (!evidence.alarm_of_free_form) return out;
   out.claim.onset_s = e.free_form.onset_s;
   out.claim.end_s = e.free_form.end_s;
-  out.alarm_s = alarms.of_free_form(limits.of(named.claim.kind));
+  out.alarm_s = evidence.alarm_of_free_form(limits.of(named.claim.kind));
   return out;
 }
 
@@ -72,17 +73,16 @@ EvidenceLimits scaled(EvidenceLimits limits, double factor) {
   return limits;
 }
 
-bool leaves_much(const ExplainedFault& named, double without) {
-  if (named.claim.kind == FaultKind::stuck_encoder) return false;
-  return named.left > kMuchLeft && named.left - 1.0 > kUnexplained * (without - 1.0);
+bool leaves_much(const ExplainedFault& named) {
+  return named.claim.kind != FaultKind::stuck_encoder && named.misfit > kLeastEvidence;
 }
 
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
-                                         const AlarmTimes& alarms) {
-  const std::vector<ExplainedFault> named = named_faults(e, limits, alarms, 1);
+                                         const LogEvidence& evidence) {
+  const std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
   if (named.empty()) return std::nullopt;
-  if (!leaves_much(named.front(), e.healthy_square)) return named.front();
-  return as_unknown(named.front(), e, limits, alarms);
+  if (!leaves_much(named.front())) return named.front();
+  return as_unknown(named.front(), e, limits, evidence);
 }
 
 }  // namespace faultline

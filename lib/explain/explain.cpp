@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search.hpp"
 #include "lib/explain/sensor_jumps.hpp"
@@ -72,7 +73,9 @@ void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<dou
     const std::vector<Candidate> own = of(all, fault.kind, fault.joint);
     std::set<double> onsets = onsets_of(own, common, kOnsetsForAll);
     if (fault.joint == fit.joints()) onsets.insert(changes.begin(), changes.end());
-    for (const double t : onsets) bench.go({fault.kind, fault.joint, t});
+    for (const double t : onsets)
+      bench.go({.kind = fault.kind, .joint = fault.joint, .onset_s = t, .grows = fault.columns.grow});
+    if (fault.columns.grow) continue;
     for (const Candidate& c : own)
       if (c.end_s < kNeverEnds) bench.go_from(c);
   }
@@ -117,6 +120,13 @@ std::vector<FaultHypothesis> ranked(const std::vector<FaultHypothesis>& all) {
   return out;
 }
 
+/// What the log would leave without the fault of a hypothesis, all else as it says; whitened.
+Stacked left_without(const LogFit& fit, const FaultHypothesis& h) {
+  Stacked y = fit.residual() - fit.day_torque(h.fit.day);
+  if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
+  return fit.whitened(y);
+}
+
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit) {
@@ -142,10 +152,37 @@ LogExplanation explain_log(const LogFit& fit) {
   return out;
 }
 
+double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& h) {
+  const MatrixXd left = unstacked(h.fit.left, fit.joints());
+  const MatrixXd torque = unstacked(left_without(fit, h), fit.joints()) - left;
+  const VectorXd power = torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
+                 edges = fault_edges(fit.rows(), fit.model().setting, h);
+  const double edge_s = reach_s(fit.model().setting), from_s = std::min(h.onset_s, change.onset_s) - edge_s;
+  const auto lasts = [&](int k) {
+    return fit.time_s()[k] > h.onset_s - edge_s && fit.time_s()[k] < h.end_s + edge_s;
+  };
+  double usual = 0.0, count = 0.0;
+  for (int k = 0; k < fit.count(); ++k)
+    if (lasts(k)) usual += power[k], count += 1.0;
+  usual /= std::max(1.0, count);
+  const double share = h.kind == FaultKind::collision ? kShareOfBlow : kFormShare;
+  double out = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] < from_s) continue;
+    const double inexact = std::max(share * share * usual, kEdgeShare * kEdgeShare * edges[k] * power[k]);
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double square = Eigen::numext::abs2(left(k, j));
+      if (std::isnan(square)) continue;
+      const double variance = lasts(k) ? std::clamp(square, 1.0, std::max(1.0, inexact)) : 1.0;
+      out += 0.5 * (square / variance + elementary::log(variance));
+    }
+    out -= change.row_cost[k];
+  }
+  return out;
+}
+
 double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold) {
-  Stacked y = fit.residual() - fit.day_torque(h.fit.day);
-  if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
-  const Stacked without = fit.whitened(y);
+  const Stacked without = left_without(fit, h);
   const double edge = reach_s(fit.model().setting);
   double sum = 0.0;
   for (int k = 0; k < fit.count(); ++k) {

@@ -17,6 +17,10 @@ struct LogExplanation {
 
 LogExplanation explain_log(const LogFit& fit);
 
+/// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the form
+/// of its columns, so a share of its torque is noise.
+double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& hypothesis);
+
 /// When the evidence of `hypothesis` from its onset on passes `threshold`; the effects of the day are those
 /// of the whole log.
 double alarm_time(const LogFit& fit, const FaultHypothesis& hypothesis, double threshold);

@@ -11,7 +11,9 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kMostFaults = 12;  // of one log
-constexpr std::size_t kFirsts = 3;       // that a second fault at once is looked for beside,
+constexpr std::size_t kMostTogether = 3; // faults of which each alone leaves much
+constexpr std::size_t kFirsts = 3;       // that more are looked for beside,
+constexpr double kAsOne_s = 1.0;
 constexpr double kFirstShare = 0.3;      // with this share of the best one's evidence at least
 constexpr double kAlike = 0.4;           // share of each other that the sizes of two slips are
 constexpr double kOppositeWithin = 0.3;  // of a false reading's size
@@ -20,49 +22,49 @@ constexpr double kOppositeWithin = 0.3;  // of a false reading's size
 struct NextFault {
   std::vector<ExplainedFault> named;  ///< at least one
   ExplainedFault unknown;             ///< the best of them as a fault of no kind
-  double without = 1.0;               ///< mean square left without it
-
-  bool leaves_much() const { return faultline::leaves_much(named.front(), without); }
 };
 
 std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& model,
                                     const EvidenceLimits& limits, const std::vector<FaultClaim>& known) {
   const LogFit fit(log, model, known);
   const LogExplanation e = explain_log(fit);
-  const AlarmTimes alarms = alarm_times(fit, e);
+  const LogEvidence evidence = log_evidence(fit, e);
   // What known faults leave is louder than the noise that evidence is counted by.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
-  std::vector<ExplainedFault> named = named_faults(e, own, alarms, kFirsts);
+  std::vector<ExplainedFault> named = named_faults(e, own, evidence, kFirsts);
   if (named.empty()) return std::nullopt;
-  ExplainedFault unknown = as_unknown(named.front(), e, own, alarms);
-  return NextFault{std::move(named), std::move(unknown), e.healthy_square};
+  ExplainedFault unknown = as_unknown(named.front(), e, own, evidence);
+  return NextFault{std::move(named), std::move(unknown)};
 }
 
-/// The fault that explains best what is left, or two at once where one leaves much: the first two that have
-/// more evidence than the one and leave noise; else, where the one is of no kind, those with the greatest
-/// evidence.
-std::vector<ExplainedFault> one_or_two(const UniformLog& log, const BalanceModel& model,
-                                       const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
-                                       const NextFault& next) {
+/// Whether two faults of one joint begin so close to each other that they are one of no kind.
+bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
+  return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
+}
+
+/// The fault that explains best what is left; or several that explain it together, where one alone leaves
+/// much; or a fault of no kind where these leave much, too.
+std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceModel& model,
+                                        const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+                                        const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
-  std::vector<ExplainedFault> best = {next.leaves_much() ? next.unknown : alone};
-  if (alone.left <= kMuchLeft) return best;
-  double evidence = 0.0;
+  if (!leaves_much(alone)) return {alone};
   for (const ExplainedFault& first : next.named) {
     if (first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
-    more.push_back(first.claim);
-    const std::optional<NextFault> second = next_fault(log, model, limits, more);
-    if (!second || leaves_much(second->named.front(), next.without)) continue;
-    const double both = first.evidence + second->named.front().evidence;
-    if (both <= alone.evidence) continue;
-    if (second->named.front().left <= kMuchLeft) return {first, second->named.front()};
-    if (!next.leaves_much()) continue;
-    if (both <= evidence) continue;
-    evidence = both;
-    best = {first, second->named.front()};
+    std::vector<ExplainedFault> together = {first};
+    while (together.size() < kMostTogether) {
+      more.push_back(together.back().claim);
+      const std::optional<NextFault> another = next_fault(log, model, limits, more);
+      if (!another || std::any_of(together.begin(), together.end(), [&](const ExplainedFault& fault) {
+            return begin_as_one(fault.claim, another->named.front().claim);
+          }))
+        break;
+      together.push_back(another->named.front());
+      if (!leaves_much(together.back())) return together;
+    }
   }
-  return best;
+  return {next.unknown};
 }
 
 std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out) {
@@ -81,15 +83,15 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
   for (std::size_t k = 0; k < faults.size();) {
     const LogFit fit(log, model, claims_but(faults, k));
     const LogExplanation e = explain_log(fit);
-    const AlarmTimes alarms = alarm_times(fit, e);
-    const std::vector<ExplainedFault> again = named_faults(e, limits, alarms, 1);
+    const LogEvidence evidence = log_evidence(fit, e);
+    const std::vector<ExplainedFault> again = named_faults(e, limits, evidence, 1);
     const std::optional<FaultHypothesis> before = judge(fit, faults[k].claim);
     const double gain = before ? before->gain : 0.0;
     if (again.empty() && gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
       continue;
     }
-    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0], e.healthy_square))
+    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0]))
       faults[k] = again[0];
     ++k;
   }
@@ -141,7 +143,7 @@ std::vector<ExplainedFault> explain_faults(const UniformLog& log, const BalanceM
     const std::vector<FaultClaim> known = claims_but(out, out.size());
     const std::optional<NextFault> next = next_fault(log, model, limits, known);
     if (!next) break;
-    for (ExplainedFault& fault : one_or_two(log, model, limits, known, *next))
+    for (ExplainedFault& fault : best_faults(log, model, limits, known, *next))
       out.push_back(std::move(fault));
   }
   if (out.size() > 1) out = jointly(log, model, limits, std::move(out));

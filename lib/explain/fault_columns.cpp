@@ -2,8 +2,10 @@
 #include "lib/explain/fault_columns.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "lib/balance/smoothing.hpp"
+#include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 namespace {
@@ -13,10 +15,12 @@ using Eigen::VectorXd;
 
 constexpr double kReach = 1.5,
                  kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
+constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity
 constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end that it reaches
 constexpr double kChangeDoubt_rows = 0.6;  // standard deviation of the time of a change of the work piece
 constexpr double kLossVariance = 0.25;
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
+constexpr double kCreepVariance = 0.01;    // the same, per second
 constexpr double kPayloadVariance = 0.36;  // of the mass that the tip carries, squared
 constexpr double kLeastVariance = 1e-6;
 
@@ -40,18 +44,20 @@ LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
   return out;
 }
 
-LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, int j) {
+/// Friction that is added at once, or that creeps.
+LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, int j, bool creeps) {
   const ColumnLayout layout = m.layout();
   const double fv = m.theta[layout.viscous(j)], fc = m.theta[layout.coulomb(j)];
   LinearFault out{FaultKind::friction_increase,
                   j + 1,
-                  {StackedColumns::Zero(rows.rows() * rows.joints(), 2), VectorXd(2)},
+                  {StackedColumns::Zero(rows.rows() * rows.joints(), 2), VectorXd(2), creeps},
                   {}};
   out.columns.column.col(0).segment(j * rows.rows(), rows.rows()) = rows.column[j].col(layout.viscous(j));
   out.columns.column.col(1).segment(j * rows.rows(), rows.rows()) = rows.column[j].col(layout.coulomb(j));
-  out.columns.variance << kFrictionVariance * fv * fv + kLeastVariance,
-      kFrictionVariance * fc * fc + kLeastVariance;
-  if (m.piece_kg > 0.0 && carries_weight(m.rigid, j)) {
+  out.columns.variance << fv * fv, fc * fc;
+  out.columns.variance *= creeps ? kCreepVariance : kFrictionVariance;
+  out.columns.variance.array() += kLeastVariance;
+  if (m.piece_kg > 0.0 && carries_weight(m.rigid, j) && !creeps) {
     out.starts.push_back(Eigen::Vector2d(fv, 1.5 * fc));
     out.starts.push_back(Eigen::Vector2d(2.0 * fv, 3.0 * fc));
   }
@@ -64,7 +70,8 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
   const int n = rows.joints();
   std::vector<LinearFault> out;
   for (int j = 0; j < n; ++j) out.push_back(torque_loss(rows, m, j));
-  for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j));
+  for (const bool creeps : {false, true})
+    for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j, creeps));
   const MatrixXd tip = payload_torque(rows, m.payload, n - 1);
   const double mass = carried_mass(rows, m, tip);
   LinearFault payload{FaultKind::payload_change,
@@ -78,12 +85,18 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
   return out;
 }
 
-FaultColumns force_columns(const BalanceRows& rows) {
+FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s) {
   const int n = rows.joints();
-  FaultColumns out{StackedColumns::Zero(rows.rows() * n, n), VectorXd(n)};
+  const VectorXd lasts = soft_step(rows, setting, onset_s) - soft_step(rows, setting, end_s);
+  const VectorXd swells = rows.time_s.unaryExpr([&](double t) {
+    const double share = (t - onset_s) / (end_s - onset_s);
+    return share > 0.0 && share < 1.0 ? elementary::sin(std::numbers::pi * share) : 0.0;
+  });
+  FaultColumns out{StackedColumns::Zero(rows.rows() * n, 2 * n), VectorXd(2 * n)};
   for (int j = 0; j < n; ++j) {
-    out.column.col(j).segment(j * rows.rows(), rows.rows()).setOnes();
-    out.variance[j] = rows.torque.col(j).squaredNorm() / rows.rows();
+    out.column.col(j).segment(j * rows.rows(), rows.rows()) = lasts;
+    out.column.col(n + j).segment(j * rows.rows(), rows.rows()) = swells;
+    out.variance[j] = out.variance[n + j] = rows.torque.col(j).squaredNorm() / rows.rows();
   }
   return out;
 }
@@ -92,6 +105,7 @@ FaultColumns between(FaultColumns columns, const BalanceRows& rows, const RowSet
                      double end_s) {
   VectorXd on = soft_step(rows, setting, onset_s);
   if (end_s < kNeverEnds) on -= soft_step(rows, setting, end_s);
+  if (columns.grow) on.array() *= (rows.time_s.array() - onset_s).max(0.0);
   for (int j = 0; j < rows.joints(); ++j)
     columns.column.middleRows(j * rows.rows(), rows.rows()).array().colwise() *= on.array();
   return columns;
@@ -104,7 +118,9 @@ VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, double ti
 
 StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const FaultClaim& claim) {
   // The position of an encoder that sticks jumps when it moves on: that reaches all of the kernel.
-  const double reach = (claim.kind == FaultKind::stuck_encoder ? kReachOfJump : kReach) * m.setting.kernel_s;
+  const double reach = claim.kind == FaultKind::stuck_encoder
+                           ? kReachOfJump * m.setting.kernel_s + velocity_reach_s(m.setting, kShowsInVelocity)
+                           : kReach * m.setting.kernel_s;
   const auto is_revolute = [&](int i) { return m.rigid.chain.geometry[i].kind == AxisKind::revolute; };
   const int j = claim.joint - 1;
   StackedMask out(static_cast<std::size_t>(rows.rows() * rows.joints()), false);
@@ -138,6 +154,13 @@ VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const F
   const double reach = kEdgeKernels * std::max(setting.kernel_s, 0.3 * setting.row_s());
   return rows.time_s.unaryExpr([&](double t) {
     return std::abs(t - claim.onset_s) < reach || std::abs(t - claim.end_s) < reach ? 1.0 : 0.0;
+  });
+}
+
+VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim) {
+  const double share = claim.kind == FaultKind::collision ? kShareOfBlow : kFormShare;
+  return fault_edges(rows, setting, claim).unaryExpr([share](double edge) {
+    return std::max(share, kEdgeShare * edge);
   });
 }
 

@@ -9,6 +9,7 @@
 
 namespace faultline {
 
+
 /// A value of every row and joint of a log, joint after joint: joint * rows + row.
 using Stacked = Eigen::VectorXd;
 /// Columns of such values.
@@ -20,6 +21,7 @@ using StackedMask = std::vector<bool>;
 struct FaultColumns {
   StackedColumns column;  ///< (joints * rows) x sizes
   Eigen::VectorXd variance;
+  bool grow = false;  ///< the sizes are those of each second since the onset
 
   int sizes() const { return static_cast<int>(column.cols()); }
 };
@@ -32,13 +34,15 @@ struct LinearFault {
   std::vector<Eigen::VectorXd> starts;  ///< sizes to search the path of a work piece from
 };
 
-/// Torque loss and friction of each joint, payload at the tip.
+/// Torque loss, friction and friction that creeps of each joint, payload at the tip.
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& model);
 
-/// An unknown force on each joint, as the columns of a collision while it lasts.
-FaultColumns force_columns(const BalanceRows& rows);
+/// The columns of a collision: an unknown force on each joint that is the same from onset to end, then one on
+/// each joint that rises and falls in between (half a sine).
+FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s);
 
-/// The columns switched on at the onset and off at the end, smoothed as the rows are.
+/// The columns switched on at the onset and off at the end, smoothed as the rows are; those that grow begin
+/// with nothing.
 FaultColumns between(FaultColumns columns, const BalanceRows& rows, const RowSetting& setting, double onset_s,
                      double end_s);
 
@@ -61,6 +65,14 @@ Stacked stacked(const Eigen::MatrixXd& values);
 
 /// Rows that the begin or the end of a fault reaches: 1 there, 0 elsewhere.
 Eigen::VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
+
+/// Shares of a fault's torque that its columns lack of its true form: of any fault, of a blow, and at the begin
+/// or end of any.
+inline constexpr double kFormShare = 0.05, kShareOfBlow = 0.5, kEdgeShare = 0.5;
+
+/// By row, the share of a fault's torque that its columns lack of its true form: a lost torque has no other
+/// form, a blow any, and a begin or end may take some time.
+Eigen::VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
 
 /// The log as it would be without a false reading of the size that the claim has.
 UniformLog without_false_reading(UniformLog log, const FaultClaim& claim);

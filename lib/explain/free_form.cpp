@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/white_search.hpp"
 
@@ -16,6 +17,23 @@ using Eigen::VectorXd;
 
 constexpr double kFreeRowCost =
     1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
+
+/// Nats that each row costs: by joint as the rows before the change explain them, or each row of the change
+/// with a torque of its own as large as is usual for the joint, whichever costs less.
+VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
+  const int rows = fit.count();
+  VectorXd out = VectorXd::Zero(rows);
+  for (int j = 0; j < fit.joints(); ++j) {
+    const VectorXd explained = 0.5 * change.left.segment(j * rows, rows).cwiseAbs2();
+    const double usual = fit.model().torque_rms[j] / fit.noise().joint[j].innovation;
+    VectorXd free = explained;
+    for (int k = 0; k < rows; ++k)
+      if (fit.time_s()[k] >= change.onset_s && fit.time_s()[k] <= change.end_s)
+        free[k] = 0.5 * elementary::log1p(Eigen::numext::abs2(usual / fit.std()(k, j)));
+    out += free.sum() < explained.sum() ? free : explained;
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -65,6 +83,7 @@ FreeForm free_form(const LogFit& fit) {
     most = back;
     out.end_s = fit.time_s()[k];
   }
+  out.row_cost = row_costs(fit, out);
   return out;
 }
 

@@ -32,17 +32,20 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   const int j = claim.joint - 1;
   if (kind == FaultKind::torque_loss)
     return kImpossible * std::max(0.0, -size[0]) + 2e4 * std::max(0.0, size[0] - 1.2);
-  if (kind == FaultKind::payload_change) return size[0] < 0.0 ? kImpossible : 0.0;
+  if (kind == FaultKind::payload_change) return size[0] < 0.0 && fit.has_piece() ? kImpossible : 0.0;
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
-  const VectorXd surely = size + kSurely * e.size_std;  // friction that is left is none that drives
+  const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
+  const VectorXd surely = (size + kSurely * e.size_std) *  // friction that is left is none that drives
+                          seconds(std::min(claim.end_s, fit.time_s()[fit.count() - 1]));
   if (surely[0] < -theta[layout.viscous(j)] || surely[1] < -theta[layout.coulomb(j)]) return kImpossible;
   double power = 0.0;  // that the friction takes
   int rows = 0;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] <= claim.onset_s || fit.time_s()[k] >= claim.end_s) continue;
     const double v = fit.rows().dq(k, j);
-    power += (size[0] * v + size[1] * elementary::tanh(v / fit.model().setting.friction_width[j])) * v;
+    power += (size[0] * v + size[1] * elementary::tanh(v / fit.model().setting.friction_width[j])) * v *
+             seconds(fit.time_s()[k]);
     ++rows;
   }
   return rows < 3 || power <= 0.0 ? kImpossible : 0.0;
@@ -61,6 +64,7 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   const FaultColumns columns = fit.between(fault.columns, claim.onset_s, claim.end_s);
   Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, claim.onset_s);
   claim.kind = fault.kind;
+  claim.grows = fault.columns.grow;
   const double price = price_of_size(fit, claim, e);
   if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeLoss) claim.kind = FaultKind::free_swinging;
   return hypothesis(fit, claim, std::move(e), price);
@@ -68,11 +72,12 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
 
 /// A force on all joints from onset to end; it belongs to the joint whose force is greatest by its torque.
 FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
-  const FaultColumns columns = fit.between(force_columns(fit.rows()), claim.onset_s, claim.end_s);
+  const FaultColumns columns = force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
   std::vector<VectorXd> starts;
-  if (fit.has_piece()) starts.push_back(VectorXd::Zero(fit.joints()));
+  if (fit.has_piece()) starts.push_back(VectorXd::Zero(columns.sizes()));
   Explanation e = fit.explain_with_piece(fit.residual(), columns, starts, claim.onset_s);
-  (e.size.cwiseAbs2().cwiseQuotient(columns.variance)).maxCoeff(&claim.joint);
+  const int n = fit.joints();
+  (e.size.head(n) + e.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&claim.joint);
   ++claim.joint;
   return hypothesis(fit, claim, std::move(e), 0.0);
 }
@@ -81,7 +86,7 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
   if (claim.end_s < kNeverEnds) return judge_force(fit, claim);
   FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
-  for (const double duration : {.03, .06, .12, .25, .5}) {
+  for (const double duration : {.03, .06, .12, .25, .5, 1.0}) {
     claim.end_s = claim.onset_s + duration;
     FaultHypothesis h = judge_force(fit, claim);
     if (h.gain > best.gain) best = std::move(h);
@@ -216,7 +221,8 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
     case FaultKind::friction_increase:
     case FaultKind::payload_change:
       for (const LinearFault& fault : fit.linear())
-        if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint)
+        if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint &&
+            fault.columns.grow == claim.grows)
           return judge_linear(fit, fault, claim);
       return std::nullopt;
     case FaultKind::collision:

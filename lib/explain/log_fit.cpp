@@ -19,20 +19,11 @@ using Eigen::VectorXd;
 constexpr double kForgotten = 1e-9;  // share of a velocity that is left of it
 constexpr double kSaysNothing = 1e9;
 constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
-constexpr double kFormShare = 0.05;    // of a known fault's torque: what its columns lack of its true form
-constexpr double kEdgeShare = 0.5;     // the same where it begins or ends
 constexpr double kReadingDoubt = 0.1;  // of a false reading's size that is left when it is mended
 constexpr double kGravity = 9.81;
 constexpr int kNoiseRounds = 3;
 constexpr int kMostPaths = 4;   // rounds of path and effects in turn
 constexpr int kBeforeRows = 5;  // effects before an onset are estimated anew for each so many rows
-
-/// After which the velocity of a sample no longer shows in that of another one, s.
-double memory_of_velocity_s(const RowSetting& setting) {
-  if (setting.velocity_is_difference || setting.fusion.size() == 0) return 0.0;
-  const double decay = setting.fusion.maxCoeff();
-  return decay > 0.0 ? setting.period_s * elementary::log(kForgotten) / elementary::log(decay) : 0.0;
-}
 
 /// What the size of a false reading that is mended still changes.
 FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
@@ -43,11 +34,13 @@ FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
           VectorXd::Constant(1, doubt * doubt)};
 }
 
-/// Columns of a linear fault as if it lasted from the first row to the last.
+/// Columns of a linear fault while it lasts.
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
   for (const LinearFault& fault : fit.linear())
-    if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint) return fault.columns;
-  return force_columns(fit.rows());
+    if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint &&
+        fault.columns.grow == claim.grows)
+      return fit.between(fault.columns, claim.onset_s, claim.end_s);
+  return force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
 }
 
 /// X' X without some rows of X.
@@ -100,7 +93,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
     } else if (reads_wrong(claim.kind)) {
       add_fault(reading_column(*this, claim), claim);
     } else {
-      add_fault(between(columns_of(*this, claim), claim.onset_s, claim.end_s), claim);
+      add_fault(columns_of(*this, claim), claim);
     }
   }
   for (std::size_t i = 0; i < silent_.size(); ++i)
@@ -129,11 +122,9 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
     known_torque_ += torque;
     residual_ -= torque;
   }
-  const MatrixXd edge = fault_edges(rows_, model_.setting, claim);
-  std_ = (std_.array().square() +
-          unstacked(torque, joints()).array().square() *
-              (kFormShare * kFormShare + kEdgeShare * kEdgeShare * edge.replicate(1, joints()).array()))
-             .sqrt();
+  const MatrixXd inexact = unstacked(torque, joints()).array().colwise() *
+                           form_shares(rows_, model_.setting, claim).array();
+  std_ = (std_.array().square() + inexact.array().square()).sqrt();
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());
   effect_variance_.tail(columns.sizes()) = columns.variance;
@@ -173,7 +164,7 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
 }
 
 Stacked LogFit::residual_of(const UniformLog& moved, double from_s) const {
-  const double unmoved_s = from_s - reach_s(model_.setting) - memory_of_velocity_s(model_.setting);
+  const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   int first = 0;
   while (first < count() - 1 && time_s()[first] < unmoved_s) ++first;
   const MatrixXd after =

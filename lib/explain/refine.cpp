@@ -16,6 +16,7 @@ using Eigen::VectorXd;
 constexpr double kSameFault_s = 0.3;
 constexpr double kLeastGain = 0.1;     // nats by which a move explains more
 constexpr double kLeastStay_s = 0.25;  // of a fault that stays for a while and ends
+constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
 constexpr int kMovesOfOnset = 40;
 constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
 constexpr double kAbsentShare = 0.7;   // of the evidence that an absent fault gives
@@ -42,11 +43,13 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   const int first = std::max(6, static_cast<int>(kLead_s / row_s));
   const double earliest = fit.time_s()[std::min(first, fit.count() - 1)],
                latest = fit.time_s()[std::max(0, fit.count() - 3)];
-  const double shortest = best.kind == FaultKind::collision ? row_s : kLeastStay_s;
+  const bool passes = best.kind == FaultKind::collision;
+  const double shortest = passes ? row_s : kLeastStay_s, longest = passes ? kLongestBlow_s : kNeverEnds;
   const auto try_at = [&](double t) {
     FaultClaim claim = best;
     claim.*when = t;
-    if (t < earliest || t >= latest || claim.end_s - claim.onset_s < shortest) return false;
+    const double lasts_s = claim.end_s - claim.onset_s;
+    if (t < earliest || t >= latest || lasts_s < shortest || lasts_s > longest) return false;
     const FaultHypothesis* h = bench.go(claim);
     if (h == nullptr || h->gain <= best.gain + kLeastGain) return false;
     best = *h;

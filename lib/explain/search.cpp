@@ -119,7 +119,8 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
 std::vector<Candidate> search(const LogFit& fit) {
   const WhiteSearch s = white_search(fit);
   std::vector<Candidate> out;
-  for (const LinearFault& fault : fit.linear()) append(search_linear(s, fault), out);
+  for (const LinearFault& fault : fit.linear())
+    if (!fault.columns.grow) append(search_linear(s, fault), out);
   for (int j = 0; j < fit.joints(); ++j) append(search_drift(s, j), out);
   append(search_collision(s), out);
   for (int j = 0; j < fit.joints(); ++j) {

@@ -89,7 +89,9 @@ struct CoarseCore {
     const auto alarm = [&](const FaultHypothesis& h, double limit) {
       return coarse_alarm_time(read, h, limit);
     };
-    const std::optional<ExplainedFault> fault = decide_log(explain_coarse(read), limits, {alarm});
+    const LogExplanation e = explain_coarse(read);
+    const auto misfit = [&e](const FaultHypothesis& h) { return coarse_misfit(e, h); };
+    const std::optional<ExplainedFault> fault = decide_log(e, limits, {alarm, misfit});
     return fault ? std::vector<ExplainedFault>{*fault} : std::vector<ExplainedFault>{};
   }
 };

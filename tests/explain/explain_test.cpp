@@ -22,7 +22,7 @@ using testing::simulate_closed_form;
 
 std::optional<ExplainedFault> decided(const LogFit& fit) {
   const LogExplanation e = explain_log(fit);
-  return decide_log(e, evidence_limits({}), alarm_times(fit, e));
+  return decide_log(e, evidence_limits({}), log_evidence(fit, e));
 }
 
 EvidenceLimits limits() { return evidence_limits({}); }
@@ -49,7 +49,7 @@ TEST(ExplainLog, AHealthyDayGivesNoEvidence) {
   const LogExplanation e = explain_log(fit);
   EXPECT_LT(e.best.front().gain, 20.0) << to_string(e.best.front().kind);
   EXPECT_LT(e.healthy_square, 1.5);
-  EXPECT_FALSE(decide_log(e, limits(), alarm_times(fit, e)));
+  EXPECT_FALSE(decide_log(e, limits(), log_evidence(fit, e)));
 }
 
 TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {

@@ -16,6 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kMuchLeft = 3.0;     // mean square from which an explanation may be none,
+constexpr double kUnexplained = 0.3;  // and share of what the log leaves without it
 constexpr double kFreeShare = 0.9;   // of the torque lost, from which a joint swings freely
 constexpr std::size_t kJudged = 14;  // candidates
 constexpr std::size_t kOnsetsForAllKinds = 2;
@@ -277,6 +279,12 @@ double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis
     if (sum > threshold) return log.time_s(k);
   }
   return log.end_s();
+}
+
+double coarse_misfit(const LogExplanation& e, const FaultHypothesis& h) {
+  const double left = h.fit.mean_square();
+  const bool much = left > kMuchLeft && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
+  return much ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
 }  // namespace faultline

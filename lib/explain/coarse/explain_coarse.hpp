@@ -12,4 +12,7 @@ LogExplanation explain_coarse(const CoarseLog& log);
 /// When the evidence of `hypothesis` from its onset on passes `threshold` (nats).
 double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis, double threshold);
 
+/// Whether a hypothesis leaves so much that the fault is none of the kinds: 0, or without bound.
+double coarse_misfit(const LogExplanation& explanation, const FaultHypothesis& hypothesis);
+
 }  // namespace faultline
