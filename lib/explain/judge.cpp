@@ -16,6 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
+constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
 constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
 constexpr double kDroppedCost = 1.2;   // nats a row that an unknown force explains
 constexpr int kReadingRounds = 3;      // of the size of a false reading
@@ -79,7 +80,7 @@ FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   const int n = fit.joints();
   (e.size.head(n) + e.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&claim.joint);
   ++claim.joint;
-  return hypothesis(fit, claim, std::move(e), 0.0);
+  return hypothesis(fit, claim, std::move(e), (claim.end_s - claim.onset_s) / kUsualBlow_s);
 }
 
 FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
