@@ -15,10 +15,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e6;  // times the usual standard deviation
-constexpr double kRare = 50.0;        // times the median: squares above it are cut
-constexpr double kLeastShare = 0.1;   // of the median square that the constant part has at least
-constexpr double kRidge = 1e-4;       // of the variance, on the diagonal of the autocorrelation
+constexpr double kSaysNothing = 1e6;     // times the usual standard deviation
+constexpr double kRare = 50.0;           // times the median: squares above it are cut
+constexpr double kLeastShare = 0.1;      // of the median square that the constant part has at least
+constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
 constexpr Eigen::Index kImpulse = 2000;  // rows of the response of the autoregression to one innovation
 
 constexpr int kTerms = 5;

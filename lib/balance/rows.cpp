@@ -251,9 +251,9 @@ MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const Rig
     MomentumAndForce now = momentum_and_force(link_frames(chain, row_of(log.q, k)), chain.links, dq);
     now.momentum += rotor.cwiseProduct(dq);
     if (k > from)
-      left.row(k - 1) -= ((now.momentum - before.momentum) / setting.period_s -
-                          0.5 * (now.force + before.force))
-                             .transpose();
+      left.row(k - 1) -=
+          ((now.momentum - before.momentum) / setting.period_s - 0.5 * (now.force + before.force))
+              .transpose();
     before = std::move(now);
   }
   for (int j = 0; j < n; ++j) {

@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kSameOnset_s = 0.08;
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
+constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
 
@@ -120,6 +121,15 @@ std::vector<FaultHypothesis> ranked(const std::vector<FaultHypothesis>& all) {
   return out;
 }
 
+/// Whether anything is worth judging: an onset that the search found, or a change of any form.
+bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Candidate>& found) {
+  double left = 0.0;
+  for (const double z : fit.healthy().left)
+    if (!std::isnan(z)) left += 0.5 * z * z;
+  return left - change.row_cost.sum() > kStandsOut ||
+         std::any_of(found.begin(), found.end(), [](const Candidate& c) { return c.score > kStandsOut; });
+}
+
 /// What the log would leave without the fault of a hypothesis, all else as it says; whitened.
 Stacked left_without(const LogFit& fit, const FaultHypothesis& h) {
   Stacked y = fit.residual() - fit.day_torque(h.fit.day);
@@ -134,7 +144,10 @@ LogExplanation explain_log(const LogFit& fit) {
   bench.judged.reserve(1024);
   LogExplanation out;
   out.free_form = free_form(fit);
-  judge_candidates(search(fit), out.free_form, bench);
+  out.healthy_square = fit.healthy().mean_square();
+  const std::vector<Candidate> found = search(fit);
+  if (!stands_out(fit, out.free_form, found)) return out;
+  judge_candidates(found, out.free_form, bench);
   std::vector<FaultHypothesis> top = ranked(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
   for (const FaultHypothesis& h : top)
@@ -148,14 +161,14 @@ LogExplanation explain_log(const LogFit& fit) {
       out.best = ranked(bench.judged);
     }
   }
-  out.healthy_square = fit.healthy().mean_square();
   return out;
 }
 
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& h) {
   const MatrixXd left = unstacked(h.fit.left, fit.joints());
   const MatrixXd torque = unstacked(left_without(fit, h), fit.joints()) - left;
-  const VectorXd power = torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
+  const VectorXd power =
+                     torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
                  edges = fault_edges(fit.rows(), fit.model().setting, h);
   const double edge_s = reach_s(fit.model().setting), from_s = std::min(h.onset_s, change.onset_s) - edge_s;
   const auto lasts = [&](int k) {

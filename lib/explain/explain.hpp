@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// What one log says: the best hypothesis of each kind and joint, best first.
+/// What one log says: the best hypothesis of each kind and joint, best first; none where nothing stands out.
 struct LogExplanation {
   std::vector<FaultHypothesis> best;
   double healthy_square = 1.0;  ///< mean square of what the healthy robot leaves, in standard deviations
@@ -17,8 +17,8 @@ struct LogExplanation {
 
 LogExplanation explain_log(const LogFit& fit);
 
-/// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the form
-/// of its columns, so a share of its torque is noise.
+/// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the
+/// form of its columns, so a share of its torque is noise.
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& hypothesis);
 
 /// When the evidence of `hypothesis` from its onset on passes `threshold`; the effects of the day are those

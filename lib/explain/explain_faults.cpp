@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kMostFaults = 12;  // of one log
-constexpr std::size_t kMostTogether = 3; // faults of which each alone leaves much
-constexpr std::size_t kFirsts = 3;       // that more are looked for beside,
+constexpr std::size_t kMostFaults = 12;   // of one log
+constexpr std::size_t kMostTogether = 3;  // faults of which each alone leaves much
+constexpr std::size_t kFirsts = 3;        // that more are looked for beside,
 constexpr double kAsOne_s = 1.0;
 constexpr double kFirstShare = 0.3;      // with this share of the best one's evidence at least
 constexpr double kAlike = 0.4;           // share of each other that the sizes of two slips are
@@ -91,8 +91,7 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
       continue;
     }
-    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0]))
-      faults[k] = again[0];
+    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0])) faults[k] = again[0];
     ++k;
   }
   return faults;

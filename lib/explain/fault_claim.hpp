@@ -20,7 +20,8 @@ struct FaultClaim {
   /// Share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each joint; false
   /// position (rad or m) or drift (rad/s or m/s). Empty for kinds without a size, and where it is not known.
   Eigen::VectorXd size{};
-  bool grows = false;  ///< from nothing at the onset; then `size` is that of each second, as friction that creeps
+  bool grows =
+      false;  ///< from nothing at the onset; then `size` is that of each second, as friction that creeps
 };
 
 /// Whether a fault makes a position read wrong and moves nothing.

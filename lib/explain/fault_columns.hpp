@@ -9,7 +9,6 @@
 
 namespace faultline {
 
-
 /// A value of every row and joint of a log, joint after joint: joint * rows + row.
 using Stacked = Eigen::VectorXd;
 /// Columns of such values.
@@ -66,8 +65,8 @@ Stacked stacked(const Eigen::MatrixXd& values);
 /// Rows that the begin or the end of a fault reaches: 1 there, 0 elsewhere.
 Eigen::VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
 
-/// Shares of a fault's torque that its columns lack of its true form: of any fault, of a blow, and at the begin
-/// or end of any.
+/// Shares of a fault's torque that its columns lack of its true form: of any fault, of a blow, and at the
+/// begin or end of any.
 inline constexpr double kFormShare = 0.05, kShareOfBlow = 0.5, kEdgeShare = 0.5;
 
 /// By row, the share of a fault's torque that its columns lack of its true form: a lost torque has no other

@@ -11,9 +11,9 @@ inline constexpr int kRowsOfChange = 6;  ///< on each side of a change of the wo
 /// that every row has of its own, on the joints that need one.
 struct FreeForm {
   double onset_s = 0.0;
-  double end_s = kNeverEnds;  ///< from which the healthy robot explains the rows again
-  Eigen::VectorXd row_cost{};     ///< nats of each row: what it is off by, or what a torque of its own costs
-  Eigen::VectorXd day{};  ///< effects, as the rows before the onset show them
+  double end_s = kNeverEnds;   ///< from which the healthy robot explains the rows again
+  Eigen::VectorXd row_cost{};  ///< nats of each row: what it is off by, or what a torque of its own costs
+  Eigen::VectorXd day{};       ///< effects, as the rows before the onset show them
   Stacked left{};  ///< whitened rows left over, with the effects that the rows before the onset show
 };
 

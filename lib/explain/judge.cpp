@@ -78,7 +78,10 @@ FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   if (fit.has_piece()) starts.push_back(VectorXd::Zero(columns.sizes()));
   Explanation e = fit.explain_with_piece(fit.residual(), columns, starts, claim.onset_s);
   const int n = fit.joints();
-  (e.size.head(n) + e.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&claim.joint);
+  (e.size.head(n) + e.size.tail(n))
+      .cwiseAbs2()
+      .cwiseQuotient(columns.variance.head(n))
+      .maxCoeff(&claim.joint);
   ++claim.joint;
   return hypothesis(fit, claim, std::move(e), (claim.end_s - claim.onset_s) / kUsualBlow_s);
 }

@@ -29,9 +29,10 @@ constexpr int kBeforeRows = 5;  // effects before an onset are estimated anew fo
 FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
   claim.size[0] = doubt;
-  return {StackedColumns(
-              (fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s)) / doubt),
-          VectorXd::Constant(1, doubt * doubt)};
+  return {
+      StackedColumns(
+          (fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s)) / doubt),
+      VectorXd::Constant(1, doubt * doubt)};
 }
 
 /// Columns of a linear fault while it lasts.
@@ -122,8 +123,8 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
     known_torque_ += torque;
     residual_ -= torque;
   }
-  const MatrixXd inexact = unstacked(torque, joints()).array().colwise() *
-                           form_shares(rows_, model_.setting, claim).array();
+  const MatrixXd inexact =
+      unstacked(torque, joints()).array().colwise() * form_shares(rows_, model_.setting, claim).array();
   std_ = (std_.array().square() + inexact.array().square()).sqrt();
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());
@@ -167,8 +168,7 @@ Stacked LogFit::residual_of(const UniformLog& moved, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   int first = 0;
   while (first < count() - 1 && time_s()[first] < unmoved_s) ++first;
-  const MatrixXd after =
-      faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta, first);
+  const MatrixXd after = faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta, first);
   Stacked out = residual_;
   for (int j = 0; j < joints(); ++j) {
     const auto rest = [&](const Stacked& v) { return v.segment(j * count() + first, count() - first); };

@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kRowsOfHealthyLogs = 30.0;  // that the noise of the healthy logs counts for
+constexpr double kRowsOfHealthyLogs = 30.0;                   // that the noise of the healthy logs counts for
 constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;  // of the log: rows that count in any case
-constexpr double kLost = 1e3;                // times the least standard deviation: a row that does not count
+constexpr double kLost = 1e3;  // times the least standard deviation: a row that does not count
 
 /// Sums of products of rows that lie 0, 1, .. `order` apart.
 VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {

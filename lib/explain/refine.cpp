@@ -14,8 +14,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSameFault_s = 0.3;
-constexpr double kLeastGain = 0.1;     // nats by which a move explains more
-constexpr double kLeastStay_s = 0.25;  // of a fault that stays for a while and ends
+constexpr double kLeastGain = 0.1;      // nats by which a move explains more
+constexpr double kLeastStay_s = 0.25;   // of a fault that stays for a while and ends
 constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
 constexpr int kMovesOfOnset = 40;
 constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained

@@ -59,7 +59,11 @@ struct FineCore {
   ParameterSpace space;
   DayFitOptions options;
 
-  Model learn(const std::vector<LogSource*>& logs) const { return fit_days(logs, space, options); }
+  /// The model, and those without each of the logs.
+  std::pair<Model, std::vector<Model>> learn(const Bench& bench) const {
+    FittedDays fit = fit_days(bench.all_but(bench.healthy.size()), space, options);
+    return {std::move(fit.model), std::move(fit.without)};
+  }
   static LogExplanation explain(LogSource& log, const Model& model) {
     return explain_log({whole(log, model.setting.period_s), model});
   }
@@ -76,8 +80,11 @@ struct CoarseCore {
   ParameterSpace space;
   CoarseFitOptions options;
 
-  Model learn(const std::vector<LogSource*>& logs) const {
-    return fit_coarse_days(logs, robot, space, options);
+  std::pair<Model, std::vector<Model>> learn(const Bench& bench) const {
+    std::vector<Model> without;
+    for (std::size_t k = 0; k < bench.healthy.size(); ++k)
+      without.push_back(fit_coarse_days(bench.all_but(k), robot, space, options));
+    return {fit_coarse_days(bench.all_but(bench.healthy.size()), robot, space, options), std::move(without)};
   }
   static LogExplanation explain(LogSource& log, const Model& model) {
     return explain_coarse(coarse_log(whole(log, model.setting.period_s), model));
@@ -141,11 +148,10 @@ void judge_log(const Bench& bench, const std::string& path, const typename Core:
 template <typename Core>
 void learn_and_explain(const Bench& bench, const Core& core, double from,
                        const std::vector<std::string>& logs) {
-  const typename Core::Model model = core.learn(bench.all_but(bench.healthy.size()));
+  const auto [model, without] = core.learn(bench);
   std::vector<LogExplanation> left_out;
   for (std::size_t k = 0; k < bench.healthy.size(); ++k) {
-    const typename Core::Model others = core.learn(bench.all_but(k));
-    left_out.push_back(Core::explain(*bench.healthy[k], others));
+    left_out.push_back(Core::explain(*bench.healthy[k], without[k]));
     fmt::print("{} left out: left {:.2f}{}\n", bench.healthy[k]->identity().path,
                left_out.back().healthy_square, best_of(left_out.back()));
   }

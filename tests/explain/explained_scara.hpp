@@ -42,7 +42,7 @@ inline const BalanceModel& scara_model() {
     robot.chain.length = {1.0, 0.8, 0.0};
     DayFitOptions options;
     options.torque_is_held = true;
-    return fit_days(logs, parameter_space(robot), options);
+    return fit_days(logs, parameter_space(robot), options).model;
   }();
   return learned;
 }

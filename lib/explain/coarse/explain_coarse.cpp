@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 
 constexpr double kMuchLeft = 3.0;     // mean square from which an explanation may be none,
 constexpr double kUnexplained = 0.3;  // and share of what the log leaves without it
-constexpr double kFreeShare = 0.9;   // of the torque lost, from which a joint swings freely
-constexpr std::size_t kJudged = 14;  // candidates
+constexpr double kFreeShare = 0.9;    // of the torque lost, from which a joint swings freely
+constexpr std::size_t kJudged = 14;   // candidates
 constexpr std::size_t kOnsetsForAllKinds = 2;
 constexpr int kSameSamples = 3;       // between two onsets that count as one
 constexpr int kRounds = 3;            // of a judgement

@@ -56,8 +56,8 @@ DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& opt
 
 }  // namespace
 
-BalanceModel fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                      const DayFitOptions& options) {
+FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
+                    const DayFitOptions& options) {
   DayDraft draft = first_draft(logs, space, options);
   Eigen::VectorXd between = first_day_variance(draft.model);
   for (int round = 0; round < options.rounds; ++round) {
@@ -69,8 +69,15 @@ BalanceModel fit_days(std::span<LogSource* const> logs, const ParameterSpace& sp
     draft = std::move(fit.draft);
     between = variance_between_days(draft.model, fit.moments);
   }
+  FittedDays out;
+  for (const RobotWithoutDay& robot : fit_without_each_day(draft, between)) {
+    BalanceModel& m = out.without.emplace_back(draft.model);
+    m.theta = robot.theta;
+    m.day_variance = prior_of_a_day(m, variance_between_days(m, robot.moments));
+  }
   draft.model.day_variance = prior_of_a_day(draft.model, between);
-  return std::move(draft.model);
+  out.model = std::move(draft.model);
+  return out;
 }
 
 }  // namespace faultline

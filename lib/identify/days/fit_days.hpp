@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "lib/balance/balance_model.hpp"
 #include "lib/identify/parameter_space.hpp"
@@ -18,10 +19,17 @@ struct DayFitOptions {
   bool springs = true, ripples = true, pieces = true;
 };
 
+/// A robot from its healthy logs, and the same by all of them but each one in turn: what a log shows that was
+/// not learned from. Only what is linear is fitted anew: terms, widths and noise stay.
+struct FittedDays {
+  BalanceModel model;
+  std::vector<BalanceModel> without;  ///< by log
+};
+
 /// The robot, how it differs from day to day and the noise of its rows, from healthy logs (at least two of
 /// one rate): a regression with mixed effects, the robot's parameters free and each day's effects random
 /// (Laird and Ware 1982). `space` gives base parameters and lengths.
-BalanceModel fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                      const DayFitOptions& options = {});
+FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
+                    const DayFitOptions& options = {});
 
 }  // namespace faultline

@@ -21,4 +21,13 @@ struct MixedEffects {
 /// is an arrow: the robot, and a block for each day, which is eliminated.
 MixedEffects fit_mixed_effects(DayDraft draft, const Eigen::VectorXd& between);
 
+/// The robot as all days but one show it, noise and what is not linear as by all.
+struct RobotWithoutDay {
+  Eigen::VectorXd theta;
+  Eigen::VectorXd moments;  ///< as MixedEffects has them
+};
+
+/// One for each day, from the same normal equations.
+std::vector<RobotWithoutDay> fit_without_each_day(const DayDraft& draft, const Eigen::VectorXd& between);
+
 }  // namespace faultline
