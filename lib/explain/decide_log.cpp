@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kBeyondHealthy = 2.0;  // times the evidence of healthy logs
 constexpr double kLeastLoss = 0.08;     // share of the torque: less is the gain of another day
-constexpr double kInexact = 0.01;       // of its evidence, that a fault's columns lack of its true form
+constexpr double kOfNoKind = 200.0;     // nats by which a change of any form explains more
 constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;   // of the best evidence
 
@@ -75,8 +75,7 @@ EvidenceLimits scaled(EvidenceLimits limits, double factor) {
 }
 
 bool leaves_much(const ExplainedFault& named) {
-  return named.claim.kind != FaultKind::stuck_encoder &&
-         named.misfit > std::max(kLeastEvidence, kInexact * named.evidence);
+  return named.claim.kind != FaultKind::stuck_encoder && named.misfit > kOfNoKind;
 }
 
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
