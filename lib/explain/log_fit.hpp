@@ -26,6 +26,8 @@ struct Explanation {
   double mean_square() const;   ///< of what is left: 1 where it is noise
 };
 
+inline constexpr int kPathRounds = 4;  ///< of the work piece's path and the effects in turn
+
 /// One log against one model: what all hypotheses share.
 class LogFit {
  public:

@@ -53,6 +53,21 @@ TEST(Regressor, TorqueEqualsInverseDynamics) {
   }
 }
 
+TEST(Regressor, MomentumAndForceOfKnownLinksAreThoseOfTheRegressors) {
+  Random random(8);
+  for (int k = 0; k < 20; ++k) {
+    const Chain<double> chain = crossed_chain(random);
+    const auto q = draw(random, 3), dq = draw(random, 3);
+    const LinkFrames frames = link_frames(chain, q);
+    LinkRegressor momentum, force;
+    momentum_regressor(frames, dq, momentum);
+    force_regressor(frames, dq, force);
+    const MomentumAndForce both = momentum_and_force(frames, chain.links, dq);
+    EXPECT_LT((momentum * stacked(chain) - both.momentum).norm(), 1e-11);
+    EXPECT_LT((force * stacked(chain) - both.force).norm(), 1e-11);
+  }
+}
+
 TEST(Regressor, MomentumEqualsInertiaTimesVelocity) {
   Random random(6);
   for (int k = 0; k < 20; ++k) {

@@ -82,6 +82,10 @@ TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   const Eigen::MatrixXd left = residual_of(log, setting, rigid, theta);
   for (int j = 0; j < 3; ++j)
     EXPECT_LT((rows.torque.col(j) - rows.column[j] * theta - left.col(j)).norm(), 1e-9) << j;
+  const int first = 7;
+  const Eigen::MatrixXd later = residual_of(log, setting, rigid, theta, first);
+  ASSERT_EQ(later.rows(), left.rows() - first);
+  EXPECT_LT((later - left.bottomRows(later.rows())).norm(), 1e-9);
 }
 
 TEST(BalanceRows, LostSamplesMarkTheRowsWhoseKernelCrossesThem) {

@@ -15,6 +15,7 @@ namespace {
 
 using testing::ClosedFormScara;
 using testing::fit_of;
+using testing::learned_from;
 using testing::of_day;
 using testing::run_of;
 using testing::scara_model;
@@ -42,6 +43,21 @@ TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
   const DayLayout day = day_layout(scara_model().rigid);
   const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(9)));
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(fit.healthy().day[day.friction(j)], 0.04, 0.03) << j;
+}
+
+TEST(FitDays, TheRobotWithoutADayKnowsNothingOfIt) {
+  std::vector<Log> days;
+  for (int day = 0; day < 4; ++day) {
+    ClosedFormScara robot = of_day(day);
+    if (day == 2) robot.m3 *= 1.1;
+    days.push_back(simulate_closed_form(robot, run_of(day + 1)));
+  }
+  const FittedDays fit = learned_from(days);
+  ASSERT_EQ(fit.without.size(), days.size());
+  const double mass = ClosedFormScara{}.m3;
+  EXPECT_NEAR(fit.without[2].theta[3] / mass, 1.0, 0.005);
+  EXPECT_GT(fit.model.theta[3] / mass, 1.01);
+  EXPECT_GT(fit.without[0].theta[3] / mass, 1.01);
 }
 
 TEST(ExplainLog, AHealthyDayGivesNoEvidence) {
@@ -98,6 +114,60 @@ TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->claim.kind, FaultKind::unknown);
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
+}
+
+TEST(ExplainLog, FrictionThatCreepsIsMoreFriction) {
+  Log log = simulate_closed_form(of_day(0), run_of(17));
+  for (int k = 0; k < log.rows(); ++k)  // what the drive must give beyond that of the healthy joint
+    if (log.time[k] >= 3.0) log.tau[1][k] += (log.time[k] - 3.0) * 0.4 * std::tanh(log.dq[1][k] / 0.05);
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::friction_increase, 2}));
+  EXPECT_TRUE(fault->claim.grows);
+  EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.3);
+  EXPECT_NEAR(fault->claim.size[1], 0.4, 0.1);
+}
+
+TEST(ExplainLog, APushThatSwellsAndFadesIsACollision) {
+  Log log = simulate_closed_form(of_day(0), run_of(18));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 4.0 && log.time[k] < 4.8)
+      log.tau[1][k] -= 3.0 * std::sin(M_PI * (log.time[k] - 4.0) / 0.8);
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.2);
+}
+
+/// A torque that repeats with the position of joint 2, as that of a gear, from the first sample on.
+Log with_cogging(Log log) {
+  for (int k = 0; k < log.rows(); ++k) log.tau[1][k] += 0.5 * std::sin(60.0 * log.q[1][k]);
+  return log;
+}
+
+TEST(ExplainLog, WhatALogLeavesFromItsFirstRowOnIsItsNoise) {
+  const LogFit fit = fit_of(with_cogging(simulate_closed_form(of_day(0), run_of(19))));
+  const double usual = autocovariance(scara_model().noise.joint[1])[0];
+  EXPECT_GT(autocovariance(fit.noise().joint[1])[0], 4.0 * usual);
+  EXPECT_FALSE(decided(fit));
+}
+
+TEST(ExplainLog, AFaultOfALoudLogIsFound) {
+  Log log = with_cogging(simulate_closed_form(of_day(0), run_of(20)));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 4.0) log.tau[0][k] /= 0.5;
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 1}));
+}
+
+TEST(ExplainLog, AQuietLogHasTheNoiseOfTheHealthyLogs) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(1), run_of(21)));
+  for (int j = 0; j < 3; ++j)
+    EXPECT_LT(autocovariance(fit.noise().joint[j])[0], 1.5 * autocovariance(scara_model().noise.joint[j])[0]);
 }
 
 TEST(ExplainLog, TheSameLogGivesTheSameBytes) {

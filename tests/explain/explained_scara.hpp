@@ -30,19 +30,24 @@ inline ClosedFormScara of_day(int day) {
   return out;
 }
 
+inline FittedDays learned_from(const std::vector<Log>& days) {
+  std::vector<MemorySource> sources;
+  for (const Log& day : days) sources.emplace_back(day, "day");
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  Robot robot = preset_robot("RRP");
+  robot.chain.length = {1.0, 0.8, 0.0};
+  DayFitOptions options;
+  options.torque_is_held = true;
+  return fit_days(logs, parameter_space(robot), options);
+}
+
 /// Learned from three healthy days.
 inline const BalanceModel& scara_model() {
   static const BalanceModel learned = [] {
-    std::vector<MemorySource> days;
-    for (int day = 0; day < 3; ++day)
-      days.emplace_back(simulate_closed_form(of_day(day), run_of(day + 1)), "day");
-    std::vector<LogSource*> logs;
-    for (MemorySource& day : days) logs.push_back(&day);
-    Robot robot = preset_robot("RRP");
-    robot.chain.length = {1.0, 0.8, 0.0};
-    DayFitOptions options;
-    options.torque_is_held = true;
-    return fit_days(logs, parameter_space(robot), options).model;
+    std::vector<Log> days;
+    for (int day = 0; day < 3; ++day) days.push_back(simulate_closed_form(of_day(day), run_of(day + 1)));
+    return learned_from(days).model;
   }();
   return learned;
 }
