@@ -50,16 +50,23 @@ PiecePath piece_path(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& pie
   return path;
 }
 
-PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, double kernel_s) {
+std::vector<int> changes_of(const PiecePath& path) {
+  std::vector<int> out;
+  for (int k = 0; k + 1 < static_cast<int>(path.size()); ++k)
+    if (path[k] != path[k + 1]) out.push_back(k);
+  return out;
+}
+
+PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, double kernel_s,
+                       const Eigen::VectorXd& later_s) {
   const int rows = static_cast<int>(path.size());
-  std::vector<int> changes;
-  for (int k = 0; k + 1 < rows; ++k)
-    if (path[k] != path[k + 1]) changes.push_back(k);
+  const std::vector<int> changes = changes_of(path);
   PieceRamps out;
   out.level.setConstant(rows, rows > 0 ? path[0] : 0);
   out.change.setZero(rows, static_cast<int>(changes.size()));
   for (std::size_t c = 0; c < changes.size(); ++c) {
-    const double at = 0.5 * (time_s[changes[c]] + time_s[changes[c] + 1]);
+    const double at = 0.5 * (time_s[changes[c]] + time_s[changes[c] + 1]) +
+                      (later_s.size() > 0 ? later_s[static_cast<int>(c)] : 0.0);
     const double step = path[changes[c] + 1] - path[changes[c]];
     for (int k = 0; k < rows; ++k) {
       const double x = (time_s[k] - at) / kernel_s;

@@ -17,13 +17,18 @@ PiecePath piece_path(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& pie
 
 inline constexpr double kChangeOfPiece = 10.0;  ///< nats: a change in some 20000 rows
 
-/// The path smoothed as the rows are, and for each of its changes the derivative by its time.
+/// Rows behind which the level changes.
+std::vector<int> changes_of(const PiecePath& path);
+
+/// The path smoothed as the rows are, and for each of its changes what it would add to come earlier by 1 s.
 struct PieceRamps {
   Eigen::VectorXd level;   ///< by row
   Eigen::MatrixXd change;  ///< rows x changes
 };
 
-PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, double kernel_s);
+/// Each change comes `later_s` (empty: 0) than the middle between its two rows.
+PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, double kernel_s,
+                       const Eigen::VectorXd& later_s = {});
 
 /// Rows within `reach` rows of a change.
 std::vector<bool> near_change(const PiecePath& path, int reach);

@@ -17,7 +17,6 @@ constexpr double kReach = 1.5,
                  kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
 constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity
 constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end that it reaches
-constexpr double kChangeDoubt_rows = 0.6;  // standard deviation of the time of a change of the work piece
 constexpr double kLossVariance = 0.25;
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second

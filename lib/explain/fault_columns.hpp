@@ -58,6 +58,8 @@ StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& model, cons
 FaultColumns piece_columns(const BalanceRows& rows, const RowSetting& setting, const Eigen::MatrixXd& piece,
                            const Eigen::MatrixXd& change);
 
+inline constexpr double kChangeDoubt_rows = 0.6;  ///< standard deviation of the time of a change
+
 /// Rows x joints from a stacked value, and back.
 Eigen::MatrixXd unstacked(const Stacked& values, int joints);
 Stacked stacked(const Eigen::MatrixXd& values);

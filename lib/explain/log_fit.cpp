@@ -197,20 +197,17 @@ Stacked LogFit::piece_torque(const VectorXd& level) const {
   return stacked(model_.piece_kg * (tip_.array().colwise() * level.array()).matrix());
 }
 
-Explanation LogFit::explain(const Stacked& residual, const FaultColumns& columns, const PiecePath& path,
-                            const StackedMask& dropped) const {
+Explanation LogFit::regressed(const Stacked& residual, const FaultColumns& columns, const PieceRamps& ramps,
+                              const StackedMask& dropped) const {
   Explanation out;
   Stacked y = residual;
   StackedColumns x = columns.column;
   VectorXd variance = columns.variance;
   if (x.rows() == 0) x.resize(residual.size(), 0);
-  int changes = 0;
-  if (!path.empty()) {
-    const PieceRamps ramps = piece_ramps(path, time_s(), model_.setting.kernel_s);
-    out.path = path;
+  const auto changes = static_cast<int>(ramps.change.cols());
+  if (ramps.level.size() > 0) {
     out.piece_level = ramps.level;
     y -= piece_torque(ramps.level);
-    changes = static_cast<int>(ramps.change.cols());
     const FaultColumns piece = piece_columns(rows_, model_.setting, model_.piece_kg * tip_, ramps.change);
     x.conservativeResize(Eigen::NoChange, x.cols() + piece.sizes());
     x.rightCols(piece.sizes()) = piece.column;
@@ -246,6 +243,7 @@ Explanation LogFit::explain(const Stacked& residual, const FaultColumns& columns
   out.size_std.resize(columns.sizes());
   for (int k = 0; k < columns.sizes(); ++k)
     out.size_std[k] = std::sqrt(fit.factor.solve(VectorXd::Unit(effects + sizes, effects + k))[effects + k]);
+  out.later_s = -fit.estimate.segment(effects + columns.sizes(), changes);
   out.log_likelihood = fit.log_likelihood - 0.5 * lost - kChangeOfPiece * changes;
   out.left = z - effect_white_ * out.day - xw * fit.estimate.tail(sizes);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

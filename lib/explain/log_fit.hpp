@@ -22,6 +22,7 @@ struct Explanation {
   Stacked left;                 ///< whitened rows left over; NaN where rows do not count
   PiecePath path;               ///< of the work piece; empty without one
   Eigen::VectorXd piece_level;  ///< the path, smoothed
+  Eigen::VectorXd later_s;      ///< by change of the path: than the middle between its two rows
   Eigen::VectorXd row_gain;     ///< by sample, at coarse rates: nats by which it beats the healthy robot
   double mean_square() const;   ///< of what is left: 1 where it is noise
 };
@@ -92,6 +93,10 @@ class LogFit {
   void add_fault(const FaultColumns& columns, const FaultClaim& claim);
   void settle_healthy();
   void whiten_effects();
+  Explanation regressed(const Stacked& residual, const FaultColumns& columns, const PieceRamps& ramps,
+                        const StackedMask& dropped) const;
+  /// When the changes of a path come, as far as the healthy explanation has the same ones.
+  Eigen::VectorXd known_times_of(const PiecePath& path) const;
   PiecePath path_of(const Stacked& left, const StackedMask& dropped, bool wide) const;
 
   std::vector<FaultClaim> known_;

@@ -14,9 +14,44 @@ using Eigen::VectorXd;
 
 constexpr double kSaysNothing = 1e9;
 constexpr double kGravity = 9.81;
-constexpr int kBeforeRows = 5;  // effects before an onset are estimated anew for each so many rows
+constexpr int kBeforeRows = 5;             // effects before an onset are estimated anew for each so many rows
+constexpr int kTimeRounds = 4;             // of the times of the changes (Newton)
+constexpr double kSettledTime_rows = 0.1;  // a change that moves less is settled
+constexpr double kFarthest_rows = 1.5;     // from the middle between the rows of a change
 
 }  // namespace
+
+VectorXd LogFit::known_times_of(const PiecePath& path) const {
+  const std::vector<int> changes = changes_of(path), known = changes_of(healthy_.path);
+  VectorXd out = VectorXd::Zero(static_cast<Eigen::Index>(changes.size()));
+  for (std::size_t c = 0; c < changes.size(); ++c)
+    for (std::size_t k = 0; k < known.size(); ++k)
+      if (changes[c] == known[k])
+        out[static_cast<Eigen::Index>(c)] = healthy_.later_s[static_cast<Eigen::Index>(k)];
+  return out;
+}
+
+Explanation LogFit::explain(const Stacked& residual, const FaultColumns& columns, const PiecePath& path,
+                            const StackedMask& dropped) const {
+  if (path.empty()) return regressed(residual, columns, {}, dropped);
+  const double row_s = model_.setting.row_s();
+  VectorXd later_s = known_times_of(path);
+  Explanation best;
+  best.log_likelihood = -std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kTimeRounds; ++round) {
+    const PieceRamps ramps = piece_ramps(path, time_s(), model_.setting.kernel_s, later_s);
+    Explanation e = regressed(residual, columns, ramps, dropped);
+    e.log_likelihood -= 0.5 * (later_s / (kChangeDoubt_rows * row_s)).squaredNorm();
+    e.path = path;
+    const VectorXd moved = e.later_s;
+    e.later_s = later_s;
+    const bool better = e.log_likelihood > best.log_likelihood;
+    if (better) best = std::move(e);
+    if (!better || moved.size() == 0 || moved.cwiseAbs().maxCoeff() < kSettledTime_rows * row_s) break;
+    later_s = (later_s + moved).cwiseMax(-kFarthest_rows * row_s).cwiseMin(kFarthest_rows * row_s);
+  }
+  return best;
+}
 
 Explanation LogFit::explain_with_piece(const Stacked& residual, const FaultColumns& columns,
                                        const std::vector<VectorXd>& starts, double onset_s,
