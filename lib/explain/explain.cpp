@@ -7,6 +7,7 @@
 #include <set>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search.hpp"
 #include "lib/explain/sensor_jumps.hpp"
@@ -160,6 +161,14 @@ LogExplanation explain_log(const LogFit& fit) {
       bench.go(other);
       out.best = ranked(bench.judged);
     }
+  }
+  if (!out.best.empty() && column_kind(out.best.front().kind) == FaultKind::torque_loss) {
+    FaultClaim clipped = out.best.front();
+    for (const double onset_s : {clipped.onset_s, out.free_form.onset_s}) {
+      clipped.onset_s = onset_s;
+      bench.judged.push_back(judge_clipped(fit, clipped));
+    }
+    out.best = ranked(bench.judged);
   }
   return out;
 }

@@ -24,6 +24,12 @@ struct NextFault {
   ExplainedFault unknown;             ///< the best of them as a fault of no kind
 };
 
+/// Whether two faults of one joint begin so close to each other that the second is what the columns of the
+/// first lack of its form.
+bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
+  return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
+}
+
 std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& model,
                                     const EvidenceLimits& limits, const std::vector<FaultClaim>& known) {
   const LogFit fit(log, model, known);
@@ -32,14 +38,13 @@ std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& m
   // What known faults leave is louder than the noise that evidence is counted by.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
   std::vector<ExplainedFault> named = named_faults(e, own, evidence, kFirsts);
+  std::erase_if(named, [&](const ExplainedFault& fault) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
+  });
   if (named.empty()) return std::nullopt;
   ExplainedFault unknown = as_unknown(named.front(), e, own, evidence);
   return NextFault{std::move(named), std::move(unknown)};
-}
-
-/// Whether two faults of one joint begin so close to each other that they are one of no kind.
-bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
-  return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
 }
 
 /// The fault that explains best what is left; or several that explain it together, where one alone leaves
@@ -56,10 +61,7 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
       const std::optional<NextFault> another = next_fault(log, model, limits, more);
-      if (!another || std::any_of(together.begin(), together.end(), [&](const ExplainedFault& fault) {
-            return begin_as_one(fault.claim, another->named.front().claim);
-          }))
-        break;
+      if (!another) break;
       together.push_back(another->named.front());
       if (!leaves_much(together.back())) return together;
     }

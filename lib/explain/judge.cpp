@@ -15,16 +15,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
-constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
-constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
-constexpr double kDroppedCost = 1.2;   // nats a row that an unknown force explains
-constexpr int kReadingRounds = 3;      // of the size of a false reading
-constexpr double kSettled = 0.01;      // share of it that the last round changed
-constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
-constexpr double kSurely = 4.0;        // standard deviations
-constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
-constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
+constexpr double kImpossible = 1e9;        // nats that a size costs that no fault has
+constexpr double kUsualBlow_s = 0.02;      // mean of the exponential prior of a blow's length
+constexpr double kFreeLoss = 0.9;          // share of the torque from which a joint swings freely
+constexpr double kDroppedCost = 1.2;       // nats a row that an unknown force explains
+constexpr int kReadingRounds = 3;          // of the size of a false reading
+constexpr double kSettled = 0.01;          // share of it that the last round changed
+constexpr double kHopeless = -5.0;         // nats of a false reading of which nothing was known
+constexpr double kClippedDoubt = 0.02;     // of the torque that a clipping drive withholds
+constexpr double kPriceOfClipping = 30.0;  // nats: it is rarer than the loss of a share
+constexpr double kSurely = 4.0;            // standard deviations
+constexpr double kJolt = 3.0;              // of the joint's usual torque: that of a halt
+constexpr double kStandingCost = 3.0;      // nats of a joint that does not move
 
 /// Nats that a size costs that this kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
@@ -217,6 +219,36 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
 }
 
 }  // namespace
+
+FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
+  claim.kind = FaultKind::unknown;
+  const int j = claim.joint - 1;
+  const VectorXd torque = fit.rows().torque.col(j);
+  FaultHypothesis best;
+  best.gain = -std::numeric_limits<double>::infinity();
+  double most = 0.0, best_level = 0.0;
+  for (int k = 0; k < fit.count(); ++k)
+    if (fit.time_s()[k] > claim.onset_s && fit.time_s()[k] < claim.end_s)
+      most = std::max(most, std::abs(torque[k]));
+  const auto try_level = [&](double level) {
+    FaultColumns lost{StackedColumns::Zero(fit.count() * fit.joints(), 1),
+                      VectorXd::Constant(1, kClippedDoubt * kClippedDoubt)};
+    lost.column.col(0).segment(j * fit.count(), fit.count()) =
+        torque - torque.cwiseMin(level).cwiseMax(-level);
+    lost = fit.between(lost, claim.onset_s, claim.end_s);
+    const Stacked clipped = fit.residual() - lost.column.col(0);
+    FaultHypothesis h =
+        hypothesis(fit, claim, fit.explain_with_piece(clipped, lost, {}, claim.onset_s), kPriceOfClipping);
+    if (h.gain <= best.gain) return;
+    best = std::move(h);
+    best_level = level;
+  };
+  for (double share = 0.8; share > 0.01; share *= 0.7) try_level(share * most);
+  for (const double factor : {1.2, 1.1, 1.05})
+    for (const double level : {best_level * factor, best_level / factor}) try_level(level);
+  best.size = VectorXd::Constant(1, best_level);
+  return best;
+}
 
 std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim) {
   switch (claim.kind) {

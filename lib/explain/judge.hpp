@@ -12,4 +12,8 @@ namespace faultline {
 /// the last few rows.
 std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim);
 
+/// A drive that gives no more than a torque of some size, which is no known kind and looks like the loss of a
+/// share of it: the claim's joint, onset and end, the size that explains the log best.
+FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim);
+
 }  // namespace faultline
