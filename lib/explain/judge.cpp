@@ -15,18 +15,19 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kImpossible = 1e9;        // nats that a size costs that no fault has
-constexpr double kUsualBlow_s = 0.02;      // mean of the exponential prior of a blow's length
-constexpr double kFreeLoss = 0.9;          // share of the torque from which a joint swings freely
-constexpr double kDroppedCost = 1.2;       // nats a row that an unknown force explains
-constexpr int kReadingRounds = 3;          // of the size of a false reading
-constexpr double kSettled = 0.01;          // share of it that the last round changed
-constexpr double kHopeless = -5.0;         // nats of a false reading of which nothing was known
-constexpr double kClippedDoubt = 0.02;     // of the torque that a clipping drive withholds
-constexpr double kPriceOfClipping = 30.0;  // nats: it is rarer than the loss of a share
-constexpr double kSurely = 4.0;            // standard deviations
-constexpr double kJolt = 3.0;              // of the joint's usual torque: that of a halt
-constexpr double kStandingCost = 3.0;      // nats of a joint that does not move
+constexpr double kImpossible = 1e9;         // nats that a size costs that no fault has
+constexpr double kUsualBlow_s = 0.02;       // mean of the exponential prior of a blow's length
+constexpr double kFreeLoss = 0.9;           // share of the torque from which a joint swings freely
+constexpr double kDroppedCost = 1.2;        // nats a row that an unknown force explains
+constexpr int kReadingRounds = 3;           // of the size of a false reading
+constexpr double kSettled = 0.01;           // share of it that the last round changed
+constexpr double kHopeless = -5.0;          // nats of a false reading of which nothing was known
+constexpr double kClippedDoubt = 0.02;      // of the torque that a clipping drive withholds
+constexpr double kPriceOfClipping = 100.0;  // nats: it is rarer than the loss of a share
+constexpr double kLeastClip = 0.04;         // of the greatest torque: a joint that gets less swings freely
+constexpr double kSurely = 4.0;             // standard deviations
+constexpr double kJolt = 3.0;               // of the joint's usual torque: that of a halt
+constexpr double kStandingCost = 3.0;       // nats of a joint that does not move
 
 /// Nats that a size costs that this kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
@@ -243,9 +244,10 @@ FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
     best = std::move(h);
     best_level = level;
   };
-  for (double share = 0.8; share > 0.01; share *= 0.7) try_level(share * most);
+  for (double share = 0.8; share > kLeastClip; share *= 0.7) try_level(share * most);
   for (const double factor : {1.2, 1.1, 1.05})
-    for (const double level : {best_level * factor, best_level / factor}) try_level(level);
+    for (const double level : {best_level * factor, best_level / factor})
+      if (level > kLeastClip * most) try_level(level);
   best.size = VectorXd::Constant(1, best_level);
   return best;
 }
