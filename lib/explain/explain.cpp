@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kSameOnset_s = 0.08;
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
+constexpr double kMuchLess = 0.5;       // of what a lost torque leaves, that a clipping drive leaves
 constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
@@ -163,10 +164,13 @@ LogExplanation explain_log(const LogFit& fit) {
     }
   }
   if (!out.best.empty() && column_kind(out.best.front().kind) == FaultKind::torque_loss) {
-    FaultClaim clipped = out.best.front();
-    for (const double onset_s : {clipped.onset_s, out.free_form.onset_s}) {
-      clipped.onset_s = onset_s;
-      bench.judged.push_back(judge_clipped(fit, clipped));
+    FaultClaim claim = out.best.front();
+    const double left = out.best.front().fit.mean_square();
+    for (const double onset_s : {claim.onset_s, out.free_form.onset_s}) {
+      claim.onset_s = onset_s;
+      FaultHypothesis clipped = judge_clipped(fit, claim);
+      if (clipped.fit.mean_square() - 1.0 < kMuchLess * (left - 1.0))
+        bench.judged.push_back(std::move(clipped));
     }
     out.best = ranked(bench.judged);
   }

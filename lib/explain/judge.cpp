@@ -15,14 +15,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kImpossible = 1e9;         // nats that a size costs that no fault has
-constexpr double kUsualBlow_s = 0.02;       // mean of the exponential prior of a blow's length
-constexpr double kFreeLoss = 0.9;           // share of the torque from which a joint swings freely
-constexpr double kDroppedCost = 1.2;        // nats a row that an unknown force explains
-constexpr int kReadingRounds = 3;           // of the size of a false reading
-constexpr double kSettled = 0.01;           // share of it that the last round changed
-constexpr double kHopeless = -5.0;          // nats of a false reading of which nothing was known
-constexpr double kClippedDoubt = 0.02;      // of the torque that a clipping drive withholds
+constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
+constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
+constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
+constexpr double kDroppedCost = 1.2;   // nats a row that an unknown force explains
+constexpr int kReadingRounds = 3;      // of the size of a false reading
+constexpr double kSettled = 0.01;      // share of it that the last round changed
+constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
+constexpr int kSamplesBefore = 20;
+constexpr double kComesToRest = 0.3;    // share of repeats before a joint stands that shows that it brakes
+constexpr double kClippedDoubt = 0.02;  // of the torque that a clipping drive withholds
 constexpr double kPriceOfClipping = 100.0;  // nats: it is rarer than the loss of a share
 constexpr double kLeastClip = 0.04;         // of the greatest torque: a joint that gets less swings freely
 constexpr double kSurely = 4.0;             // standard deviations
@@ -154,8 +156,15 @@ double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   return 0.5 * (off / std).array().square().operator-(1.0).max(0.0).sum();
 }
 
-/// Samples from onset to end, and the share of them that repeat the position before.
-std::pair<int, double> repeats_in(const LogFit& fit, const FaultClaim& claim) {
+/// What the samples from onset to end say by repeating the position before them.
+struct Repeats {
+  int samples = 0;
+  double share = 0.0;  ///< that repeat the position before
+  double share_before =
+      1.0;  ///< the same of the samples before the onset: a joint that comes to rest repeats, too
+};
+
+Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   const int j = claim.joint - 1;
   int first = 0;
@@ -164,7 +173,11 @@ std::pair<int, double> repeats_in(const LogFit& fit, const FaultClaim& claim) {
   while (end < log.rows() && log.time_s(end) < claim.end_s - 1e-9) ++end;
   int same = 0, all = 0;
   for (int k = first + 3; k < end; ++k, ++all) same += log.q(k, j) == log.q(k - 1, j);
-  return {end - first, all > 2 ? static_cast<double>(same) / all : 0.0};
+  int before = 0;
+  const int from = std::max(1, first - kSamplesBefore);
+  for (int k = from; k < first; ++k) before += log.q(k, j) == log.q(k - 1, j);
+  return {end - first, all > 2 ? static_cast<double>(same) / all : 0.0,
+          first > from ? static_cast<double>(before) / (first - from) : 1.0};
 }
 
 /// Rows at which the joint must stand still: those that lie within onset and end.
@@ -199,8 +212,8 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
   const StackedMask dropped = silent_rows(fit.rows(), m, claim);
   const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
-  const auto [samples, same] = repeats_in(fit, claim);
-  const bool telling = repeats_say_something(m, j);
+  const auto [samples, same, same_before] = repeats_in(fit, claim);
+  const bool telling = repeats_say_something(m, j) && same_before < kComesToRest;
   double price = kDroppedCost * lost;
   if (claim.kind == FaultKind::locked) {
     const std::vector<int> within = rows_within(fit, claim);

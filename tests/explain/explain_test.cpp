@@ -141,6 +141,17 @@ TEST(ExplainLog, APushThatSwellsAndFadesIsACollision) {
   EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.2);
 }
 
+TEST(ExplainLog, ADriveThatClipsIsUnknown) {
+  Log log = simulate_closed_form(of_day(0), run_of(22));
+  for (int k = 0; k < log.rows(); ++k)  // what is commanded beyond 4 N m does not arrive
+    if (log.time[k] >= 3.0 && std::abs(log.tau[1][k]) > 2.0) log.tau[1][k] *= 3.0;
+  const LogFit fit = fit_of(std::move(log));
+  const auto fault = decided(fit);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->claim.kind, FaultKind::unknown);
+  EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.15);
+}
+
 /// A torque that repeats with the position of joint 2, as that of a gear, from the first sample on.
 Log with_cogging(Log log) {
   for (int k = 0; k < log.rows(); ++k) log.tau[1][k] += 0.5 * std::sin(60.0 * log.q[1][k]);
