@@ -25,13 +25,14 @@ bool is_complete(const Log& log, int row) {
 }
 
 /// Value at `at` between rows `before` and `after`: the cubic through two rows on each side where `is_smooth`
-/// and there are so many, else a straight line.
+/// and there are so many, else a straight line. Rows that repeat one value are bridged by this very value.
 double between(const std::vector<bool>& lost, const Eigen::Ref<const Eigen::VectorXd>& values, int before,
                int after, int at, bool is_smooth) {
   const double share = static_cast<double>(at - before) / (after - before);
   const bool has_four = before > 0 && after + 1 < values.size() && !lost[before - 1] && !lost[after + 1];
   if (!is_smooth || !has_four) return values[before] + share * (values[after] - values[before]);
   const int row[4] = {before - 1, before, after, after + 1};
+  if (std::all_of(row, row + 4, [&](int i) { return values[i] == values[before]; })) return values[before];
   double sum = 0.0;
   for (const int i : row) {
     double weight = values[i];

@@ -97,7 +97,7 @@ std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
   std::vector<std::pair<int, RepeatedCode>> runs;  // with their samples
   for (int first = 0; first < log.rows();) {
     int next = first + 1;
-    while (next < log.rows() && log.q(next, j) == log.q(first, j)) ++next;
+    while (next < log.rows() && (log.lost[next] || log.q(next, j) == log.q(first, j))) ++next;
     const bool to_the_end = next == log.rows();
     if (next - 1 - first >= least)
       runs.push_back({next - first, {log.time_s(first), to_the_end ? kNeverEnds : log.time_s(next)}});

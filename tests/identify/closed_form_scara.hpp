@@ -74,8 +74,8 @@ struct ClosedFormRun {
   ClosedFormScara::Triple reach = {1.2, 1.4, 0.15};  ///< amplitude of the motion; 0: the joint rests
   double q_noise = 1e-4, dq_noise = 5e-3;
   ClosedFormScara::Triple torque_gain = {1, 1, 1};  ///< true torque of each one logged
-  double clips_from_s = 1e9;                     ///< from then on the drives give no more than `clip`
-  std::array<double, 3> clip = {1e9, 1e9, 1e9};  ///< N m or N
+  double clips_from_s = 1e9;                        ///< from then on the drives give no more than `clip`
+  std::array<double, 3> clip = {1e9, 1e9, 1e9};     ///< N m or N
   std::uint64_t seed = 1;
 };
 
@@ -112,7 +112,8 @@ inline Log simulate_closed_form(const ClosedFormScara& robot, const ClosedFormRu
       log.q[j].push_back(x.q[j] + run.q_noise * random.normal());
       log.dq[j].push_back(x.dq[j] + run.dq_noise * random.normal());
       log.tau[j].push_back(tau[j] / run.torque_gain[j]);
-      if (k * run.period_s >= run.clips_from_s) tau[j] = std::max(-run.clip[j], std::min(run.clip[j], tau[j]));
+      if (k * run.period_s >= run.clips_from_s)
+        tau[j] = std::max(-run.clip[j], std::min(run.clip[j], tau[j]));
     }
     for (int i = 0; i < pieces; ++i) robot.step(x, tau, run.period_s / pieces);
   }
