@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kBeyondHealthy = 2.0;  // times the evidence of healthy logs
+constexpr double kBeyondHealthy = 3.0;  // times the evidence of healthy logs
 constexpr double kLeastLoss = 0.08;     // share of the torque: less is the gain of another day
 constexpr double kOfNoKind = 200.0;     // nats by which a change of any form explains more
 constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best

@@ -17,7 +17,7 @@ struct EvidenceLimits {
   double of(FaultKind kind) const { return nats[static_cast<std::size_t>(kind)]; }
 };
 
-/// Limits from healthy logs, each explained by a model that was learned from the others: twice the evidence
+/// Limits from healthy logs, each explained by a model that was learned from the others: thrice the evidence
 /// that any of them gave for a kind, at least that of any kind, at least kLeastEvidence.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 

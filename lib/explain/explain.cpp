@@ -163,6 +163,12 @@ LogExplanation explain_log(const LogFit& fit) {
       out.best = ranked(bench.judged);
     }
   }
+  if (!out.best.empty() && out.best.front().kind == FaultKind::collision) {
+    FaultClaim loss = out.best.front();  // a joint that falls to its end stop loses its torque for a moment
+    loss.kind = FaultKind::torque_loss;
+    if (const FaultHypothesis* judged = bench.go(loss)) refine(FaultHypothesis(*judged), bench);
+    out.best = ranked(bench.judged);
+  }
   if (!out.best.empty() && column_kind(out.best.front().kind) == FaultKind::torque_loss) {
     FaultClaim claim = out.best.front();
     const double left = out.best.front().fit.mean_square();
