@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/rows.hpp"
 
+#include <limits>
+
 #include "lib/balance/regressor.hpp"
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
@@ -175,6 +177,7 @@ double reach_s(const RowSetting& setting) {
 double velocity_reach_s(const RowSetting& setting, double share) {
   if (setting.velocity_is_difference || setting.fusion.size() == 0) return 0.0;
   const double decay = setting.fusion.maxCoeff();
+  if (decay >= 1.0) return std::numeric_limits<double>::infinity();
   return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
 }
 

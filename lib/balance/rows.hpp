@@ -39,7 +39,8 @@ Eigen::MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, co
 /// How far the samples that a row is made of lie from its middle at most, s.
 double reach_s(const RowSetting& setting);
 
-/// How far a sample's velocity shows in those of others with more than a share of it, s.
+/// How far a sample's velocity shows in those of others with more than a share of it, s; without bound where
+/// the logged velocity has no noise.
 double velocity_reach_s(const RowSetting& setting, double share);
 
 /// The chain that moves as `theta` says; its friction does not count.

@@ -132,13 +132,6 @@ bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Can
          std::any_of(found.begin(), found.end(), [](const Candidate& c) { return c.score > kStandsOut; });
 }
 
-/// What the log would leave without the fault of a hypothesis, all else as it says; whitened.
-Stacked left_without(const LogFit& fit, const FaultHypothesis& h) {
-  Stacked y = fit.residual() - fit.day_torque(h.fit.day);
-  if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
-  return fit.whitened(y);
-}
-
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit) {
@@ -185,7 +178,7 @@ LogExplanation explain_log(const LogFit& fit) {
 
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& h) {
   const MatrixXd left = unstacked(h.fit.left, fit.joints());
-  const MatrixXd torque = unstacked(left_without(fit, h), fit.joints()) - left;
+  const MatrixXd torque = unstacked(fit.left_without_fault(h.fit), fit.joints()) - left;
   const VectorXd power =
                      torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
                  edges = fault_edges(fit.rows(), fit.model().setting, h);
@@ -197,7 +190,7 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
   for (int k = 0; k < fit.count(); ++k)
     if (lasts(k)) usual += power[k], count += 1.0;
   usual /= std::max(1.0, count);
-  const double share = h.kind == FaultKind::collision ? kShareOfBlow : kFormShare;
+  const double share = form_share(h.kind);
   double out = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < from_s) continue;
@@ -214,7 +207,7 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
 }
 
 double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold) {
-  const Stacked without = left_without(fit, h);
+  const Stacked without = fit.left_without_fault(h.fit);
   const double edge = reach_s(fit.model().setting);
   double sum = 0.0;
   for (int k = 0; k < fit.count(); ++k) {

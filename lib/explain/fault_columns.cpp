@@ -15,6 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double kReach = 1.5,
                  kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
+constexpr double kLongestReach_s = 0.1;    // beside a stuck encoder
 constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity
 constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end that it reaches
 constexpr double kLossVariance = 0.25;
@@ -84,6 +85,14 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
   return out;
 }
 
+const LinearFault* linear_of(const std::vector<LinearFault>& faults, const FaultClaim& claim) {
+  for (const LinearFault& fault : faults)
+    if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint &&
+        fault.columns.grow == claim.grows)
+      return &fault;
+  return nullptr;
+}
+
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s) {
   const int n = rows.joints();
   const VectorXd lasts = soft_step(rows, setting, onset_s) - soft_step(rows, setting, end_s);
@@ -118,7 +127,8 @@ VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, double ti
 StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const FaultClaim& claim) {
   // The position of an encoder that sticks jumps when it moves on: that reaches all of the kernel.
   const double reach = claim.kind == FaultKind::stuck_encoder
-                           ? kReachOfJump * m.setting.kernel_s + velocity_reach_s(m.setting, kShowsInVelocity)
+                           ? kReachOfJump * m.setting.kernel_s +
+                                 std::min(velocity_reach_s(m.setting, kShowsInVelocity), kLongestReach_s)
                            : kReach * m.setting.kernel_s;
   const auto is_revolute = [&](int i) { return m.rigid.chain.geometry[i].kind == AxisKind::revolute; };
   const int j = claim.joint - 1;
@@ -156,8 +166,10 @@ VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const F
   });
 }
 
+double form_share(FaultKind kind) { return kind == FaultKind::collision ? kShareOfBlow : kFormShare; }
+
 VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim) {
-  const double share = claim.kind == FaultKind::collision ? kShareOfBlow : kFormShare;
+  const double share = form_share(claim.kind);
   return fault_edges(rows, setting, claim).unaryExpr([share](double edge) {
     return std::max(share, kEdgeShare * edge);
   });

@@ -36,6 +36,9 @@ struct LinearFault {
 /// Torque loss, friction and friction that creeps of each joint, payload at the tip.
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& model);
 
+/// The linear fault that a claim is of; null where its kind has none.
+const LinearFault* linear_of(const std::vector<LinearFault>& faults, const FaultClaim& claim);
+
 /// The columns of a collision: an unknown force on each joint that is the same from onset to end, then one on
 /// each joint that rises and falls in between (half a sine).
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s);
@@ -70,6 +73,9 @@ Eigen::VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, 
 /// Shares of a fault's torque that its columns lack of its true form: of any fault, of a blow, and at the
 /// begin or end of any.
 inline constexpr double kFormShare = 0.05, kShareOfBlow = 0.5, kEdgeShare = 0.5;
+
+/// That of a kind, away from begin and end.
+double form_share(FaultKind kind);
 
 /// By row, the share of a fault's torque that its columns lack of its true form: a lost torque has no other
 /// form, a blow any, and a begin or end may take some time.

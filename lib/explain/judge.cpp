@@ -271,10 +271,7 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
     case FaultKind::torque_loss:
     case FaultKind::friction_increase:
     case FaultKind::payload_change:
-      for (const LinearFault& fault : fit.linear())
-        if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint &&
-            fault.columns.grow == claim.grows)
-          return judge_linear(fit, fault, claim);
+      if (const LinearFault* fault = linear_of(fit.linear(), claim)) return judge_linear(fit, *fault, claim);
       return std::nullopt;
     case FaultKind::collision:
       return judge_collision(fit, claim);

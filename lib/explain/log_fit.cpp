@@ -33,10 +33,8 @@ FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
 
 /// Columns of a linear fault while it lasts.
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
-  for (const LinearFault& fault : fit.linear())
-    if (fault.kind == column_kind(claim.kind) && fault.joint == claim.joint &&
-        fault.columns.grow == claim.grows)
-      return fit.between(fault.columns, claim.onset_s, claim.end_s);
+  if (const LinearFault* fault = linear_of(fit.linear(), claim))
+    return fit.between(fault->columns, claim.onset_s, claim.end_s);
   return force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
 }
 
@@ -195,6 +193,12 @@ Stacked LogFit::day_torque(const VectorXd& day) const {
 
 Stacked LogFit::piece_torque(const VectorXd& level) const {
   return stacked(model_.piece_kg * (tip_.array().colwise() * level.array()).matrix());
+}
+
+Stacked LogFit::left_without_fault(const Explanation& e) const {
+  Stacked torque = residual_ - day_torque(e.day);
+  if (e.piece_level.size() > 0) torque -= piece_torque(e.piece_level);
+  return whitened(torque);
 }
 
 Explanation LogFit::regressed(const Stacked& residual, const FaultColumns& columns, const PieceRamps& ramps,

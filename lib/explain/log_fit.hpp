@@ -84,6 +84,9 @@ class LogFit {
   /// Torque of the effects.
   Stacked day_torque(const Eigen::VectorXd& day) const;
   Stacked piece_torque(const Eigen::VectorXd& level) const;
+  /// Whitened rows that remain when the fault of an explanation is taken away and its effects of the day and
+  /// its work piece stay.
+  Stacked left_without_fault(const Explanation& explanation) const;
   /// Effects of the day as the rows before `time_s` show them.
   Eigen::VectorXd day_before(double time_s) const;
   /// Columns of a fault while it lasts.

@@ -67,9 +67,7 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
 /// cumulative sum; Page 1954) is large beside what is left over, and nearly all that its torque could give. A
 /// fault that goes on in another form than its columns gives less.
 std::optional<double> end_of(const LogFit& fit, const FaultHypothesis& h) {
-  Stacked y = fit.residual() - fit.day_torque(h.fit.day);
-  if (h.fit.piece_level.size() > 0) y -= fit.piece_torque(h.fit.piece_level);
-  const Stacked without = fit.whitened(y);
+  const Stacked without = fit.left_without_fault(h.fit);
   const double enough = kEndEvidence * std::max(1.0, h.fit.mean_square());
   double absent = 0.0, possible = 0.0, since = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
