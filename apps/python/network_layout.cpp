@@ -74,8 +74,6 @@ const char* unit_in_features(FeatureRole role) {
       return "ln(s)";
     case FeatureRole::residual:
       return "ln(healthy rms)";
-    case FeatureRole::samples:
-      return "ln(samples)";
     case FeatureRole::size:
       return "1";
   }
@@ -86,7 +84,7 @@ NetworkLayout evidence_layout(const Model& model, const std::string& name, std::
                               std::string output) {
   NetworkLayout layout{.name = name, .what = std::move(what)};
   NetworkPort features{.name = "features", .what = "evidence of one episode, as the diagnosis collects it"};
-  for (const EpisodeFeature& feature : episode_feature_list(model.bank, model.robot.joints())) {
+  for (const EpisodeFeature& feature : episode_feature_list(model.labels, model.robot.joints())) {
     features.columns.push_back(name_of(feature));
     features.units.emplace_back(unit_in_features(feature.role));
   }

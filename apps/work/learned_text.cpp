@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/work/carried_cases.hpp"
@@ -72,22 +73,18 @@ std::string reach_table(const Model& model) {
   return text;
 }
 
-/// The thresholds, and the faults whose own lie above what most have.
-std::string threshold_text(const EvidenceOptions& evidence, const std::vector<Hypothesis>& bank) {
-  constexpr std::size_t kMostListed = 6;
-  std::vector<Imitation> most = evidence.imitations;
-  std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.nats > b.nats; });
-  const std::vector<FaultLabel> labels = labels_of(bank).labels;
-  const auto faults = std::count_if(labels.begin(), labels.end(),
-                                    [](const FaultLabel& label) { return label.kind != FaultKind::none; });
-  const double usual = std::ssize(most) == faults ? most.back().nats : 0.0;
-  std::erase_if(most, [&](const Imitation& imitation) { return imitation.nats <= usual; });
-  std::string text = fmt::format("Alarms from {:.0f} nats on", evidence.threshold + usual);
-  for (std::size_t i = 0; i < std::min(most.size(), kMostListed); ++i)
-    text += fmt::format("{} {:.0f} for {}", i == 0 ? "; from" : ",", evidence.threshold + most[i].nats,
-                        label_text(most[i].label));
-  if (most.size() > kMostListed) text += fmt::format(" and more for {} others", most.size() - kMostListed);
-  return text + (most.empty() ? ".\n" : ": what the healthy logs look like by themselves.\n");
+/// What a fault must explain to be told, and the kinds that need more than most.
+std::string limits_text(const EvidenceLimits& limits, const std::vector<FaultLabel>& labels) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FaultLabel& label : labels) least = std::min(least, limits.of(label.kind));
+  std::string text = fmt::format("A fault is told from {:.0f} nats on", least);
+  FaultKind last = FaultKind::none;
+  for (const FaultLabel& label : labels) {
+    if (label.kind != last && limits.of(label.kind) > least)
+      text += fmt::format(", {} from {:.0f}", to_string(label.kind), limits.of(label.kind));
+    last = label.kind;
+  }
+  return text + ": three times what healthy logs give, each judged by the others.\n";
 }
 
 std::string relation_name(const SignalRelation& relation) {
@@ -140,7 +137,7 @@ std::string mechanics_text(const Learned& learned) {
          fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
                      validation_text(learned.model.validation)) +
          "\nThe smallest fault that would be found, nine times of ten, in all simulated runs:\n" +
-         reach_table(learned.model) + threshold_text(learned.model.evidence, learned.model.bank);
+         reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 
 /// What the logs and the model are to be doubted for.

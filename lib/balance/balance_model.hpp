@@ -18,7 +18,8 @@ struct BalanceModel {
   Eigen::VectorXd theta;         ///< see ColumnLayout
   Eigen::VectorXd day_variance;  ///< prior variance of the effects of a day, see DayLayout
   RowNoise noise;
-  double piece_kg = 0.0;  ///< of a work piece that comes and goes at the tip; 0: there is none
+  bool torque_is_measured = false;  ///< behind the drive: then a loss of torque does not show
+  double piece_kg = 0.0;            ///< of a work piece that comes and goes at the tip; 0: there is none
 
   // What the healthy logs looked like, by joint.
   Eigen::VectorXd q_noise, dq_noise;         ///< white noise of one sample

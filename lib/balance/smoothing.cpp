@@ -72,6 +72,10 @@ Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double deca
   return (1.0 - decay) / (1.0 + decay) * out;
 }
 
-double normal_cdf(double x) { return 0.5 * elementary::erfc(-x / std::numbers::sqrt2); }
+double normal_cdf(double x) {
+  constexpr double kBeyondAll = 9.0;  // where a double knows no difference from 0 and 1
+  if (std::abs(x) > kBeyondAll) return x > 0.0 ? 1.0 : 0.0;
+  return 0.5 * elementary::erfc(-x / std::numbers::sqrt2);
+}
 
 }  // namespace faultline

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMostSquare = 50.0;  // of one value: an outlier costs no more
 constexpr double kNoEvidence = 1e6;   // N m or N: a value with such a deviation is no evidence
+constexpr double kNoSlope = 9.0;      // kernels beside a change, where its slope is none
 
 double cost(double residual, double std) {
   const double z = residual / std;
@@ -71,6 +72,7 @@ PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, dou
     for (int k = 0; k < rows; ++k) {
       const double x = (time_s[k] - at) / kernel_s;
       out.level[k] += step * normal_cdf(x);
+      if (std::abs(x) > kNoSlope) continue;
       out.change(k, static_cast<int>(c)) =
           step * elementary::exp(-0.5 * x * x) / (kernel_s * std::sqrt(2.0 * std::numbers::pi));
     }

@@ -2,47 +2,44 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "lib/evidence/episode_evidence.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/explain/decide_log.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
 
-/// What the bank makes of an episode by label: for each the best of its hypotheses.
+/// What the regression makes of one label in an episode.
 struct LabelEvidence {
   FaultLabel label;
-  double log_likelihood_ratio = 0.0;      ///< against healthy
+  double log_likelihood_ratio = 0.0;      ///< against healthy; far below 0 where it was not worth judging
   std::array<double, kMostSizes> size{};  ///< as the catalogue lists them, over their feature_scale()
-  Surprise surprise{};                    ///< what it leaves unexplained
+  double left = std::numeric_limits<double>::quiet_NaN();  ///< mean square that it leaves; 1 is noise
 };
 
-/// One entry a label of the bank, in a fixed order. A collision that pushes all joints counts for the joint
-/// it pushes most, by the joint's usual torque.
-std::vector<LabelEvidence> evidence_by_label(const EpisodeEvidence& episode, std::span<const Hypothesis> bank,
-                                             const MotionModel& model);
+/// One entry a label, in the order of `labels`. `end_s` is the last sample of the episode, up to which a
+/// fault that grows has grown.
+std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,
+                                             std::span<const FaultLabel> labels, const MotionModel& model);
 
-/// Free-swinging and the loss of all torque are one fault: a loss of nearly all of it gets the former's name.
-FaultLabel named_by_size(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
+/// Sizes of a fault in the units of the catalogue's features, as far as it has grown by `end_s`.
+std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, int joints);
 
-/// What the bank itself would say: the likeliest label, where a loss of nearly all torque is a free joint,
-/// and an unknown disturbance is named only when every known fault explains less than half of what it
-/// explains.
-LabelEvidence likeliest(const std::vector<LabelEvidence>& evidence);
+/// Momentum that a collision of the scored size passes on to joint `joint` (from 0), N m s or N s.
+double impulse_of(const FaultClaim& collision, int joint, int joints);
 
-/// Posterior probability of `label` among all labels, each as likely as the others before the log was seen. A
-/// loss of nearly all torque counts for the free joint.
+/// Posterior probability of `label` among all labels, each as likely as the others before the log was seen.
 double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
 
 /// The numbers the two networks classify an episode by: for each label how far it stays behind the likeliest
 /// and its size, how strong and how long the episode is, and the MLP's residual of each joint over the
 /// episode (root mean square in units of healthy; a joint without one counts as 1).
-std::vector<double> episode_features(const EpisodeEvidence& episode,
-                                     const std::vector<LabelEvidence>& evidence,
+std::vector<double> episode_features(const std::vector<LabelEvidence>& evidence, double lasts_s,
                                      std::span<const JointResidual> residuals, int joints);
 
 /// What a number among the features of an episode tells.
@@ -50,8 +47,7 @@ enum class FeatureRole {
   behind,    ///< how far `label` stays behind the likeliest
   size,      ///< size number `size` of `label`, as its kind has them
   strength,  ///< how much likelier the best label is than a healthy robot
-  samples,   ///< from onset to name
-  duration,  ///< the same as time
+  duration,  ///< from onset to end
   residual,  ///< of the MLP at `joint`
 };
 struct EpisodeFeature {
@@ -62,9 +58,9 @@ struct EpisodeFeature {
 };
 
 /// What episode_features() gives, in its order.
-std::vector<EpisodeFeature> episode_feature_list(std::span<const Hypothesis> bank, int joints);
+std::vector<EpisodeFeature> episode_feature_list(std::span<const FaultLabel> labels, int joints);
 std::string name_of(const EpisodeFeature& feature);
-std::vector<std::string> episode_feature_names(std::span<const Hypothesis> bank, int joints);
+std::vector<std::string> episode_feature_names(std::span<const FaultLabel> labels, int joints);
 
 // How numbers become features, and back as far as that is possible: nats behind the likeliest (at most
 // kLargestDeficit), and how much the size of a label so far behind counts.

@@ -65,10 +65,8 @@ FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t wh
       return read_size(list, which, features, model);
     case FeatureRole::strength:
       return {"log likelihood of the fault over a healthy robot", "nats", elementary::exp(x) - 1.0};
-    case FeatureRole::samples:
-      return {"samples until it was named", "", std::round(elementary::exp(x))};
     case FeatureRole::duration:
-      return {"time from onset until it was named", "s", elementary::exp(x)};
+      return {"time from onset to end", "s", elementary::exp(x)};
     case FeatureRole::residual:
       return {"MLP residual of joint " + std::to_string(list[which].joint), "times healthy",
               elementary::exp(x)};

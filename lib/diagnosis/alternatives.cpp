@@ -42,57 +42,28 @@ void add_votes(Alternatives& alternatives, const Votes& votes) {
                                                 100.0 * share.share));
 }
 
-double best_ratio(const std::vector<LabelEvidence>& evidence) {
-  double best = 0.0;
-  for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
-  return best;
-}
-
-void add_close_labels(Alternatives& alternatives, const std::vector<LabelEvidence>& evidence,
-                      const DecisionOptions& options) {
-  const double best = best_ratio(evidence);
-  for (const LabelEvidence& e : evidence)
-    if (e.label.kind != FaultKind::unknown && e.log_likelihood_ratio > best - options.close_ratio)
-      alternatives.add(e.label, "explains the log almost as well");
-  const LabelEvidence likely = likeliest(evidence);
-  if (likely.label.joint > 0) alternatives.add(likely.label, "explains the log best by its likelihood");
-}
-
-/// The best hypothesis of a push on all joints at once; null when the bank has none that explains anything.
-const HypothesisEvidence* push_on_all_joints(const EpisodeEvidence& observed, const Model& model) {
-  const HypothesisEvidence* best = nullptr;
-  for (std::size_t h = 0; h < model.bank.size(); ++h)
-    if (is_everywhere(model.bank[h]) &&
-        (!best || observed.hypotheses[h].log_likelihood_ratio > best->log_likelihood_ratio))
-      best = &observed.hypotheses[h];
-  return best;
-}
-
-void add_pushed_joints(Alternatives& alternatives, const FaultLabel& collision,
-                       const std::vector<LabelEvidence>& evidence, const EpisodeEvidence& observed,
-                       const Model& model, const DecisionOptions& options) {
-  const HypothesisEvidence* everywhere = push_on_all_joints(observed, model);
-  if (!everywhere || collision.joint < 1 ||
-      everywhere->log_likelihood_ratio < best_ratio(evidence) - options.close_ratio)
-    return;
-  auto push = [&](int j) { return std::abs(everywhere->impulse[j]) / model.motion.torque_scale[j]; };
-  for (int j = 0; j < model.robot.joints(); ++j)
-    if (push(j) > kLeastPush * push(collision.joint - 1))
+void add_pushed_joints(Alternatives& alternatives, const MonitoredEpisode& observed, const Model& model) {
+  const FaultClaim& claim = observed.fault.claim;
+  const int joints = model.robot.joints();
+  auto push = [&](int j) { return std::abs(impulse_of(claim, j, joints)) / model.motion.torque_scale[j]; };
+  for (int j = 0; j < joints; ++j)
+    if (push(j) > kLeastPush * push(claim.joint - 1))
       alternatives.add({FaultKind::collision, j + 1},
                        "the push reached this joint too, as one at the tip does");
 }
 
 }  // namespace
 
-std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model,
-                                         const DecisionOptions& options) {
+std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model) {
   const auto& [observed, basis, decision] = decided;
   Alternatives alternatives(decision.label);
+  if (basis.likeliest.kind != FaultKind::unknown) alternatives.add(basis.likeliest, "explains the log best");
+  for (const FaultLabel& label : basis.as_likely)
+    alternatives.add(label, basis.likeliest.kind == FaultKind::unknown ? "comes nearest of the known faults"
+                                                                       : "explains the log almost as well");
   add_opinions(alternatives, basis.episode);
   add_votes(alternatives, basis.votes);
-  add_close_labels(alternatives, basis.evidence, options);
-  if (decision.label.kind == FaultKind::collision)
-    add_pushed_joints(alternatives, decision.label, basis.evidence, observed.evidence, model, options);
+  if (observed.fault.claim.kind == FaultKind::collision) add_pushed_joints(alternatives, observed, model);
   return alternatives.list;
 }
 

@@ -13,52 +13,39 @@ namespace {
 
 constexpr double kPercent = 100.0;
 
-struct Words {
-  const char* what;
-  bool is_share;
-};
-
-Words words_of(SlowKind kind) {
+const char* words_of(DayEffectKind kind) {
   switch (kind) {
-    case SlowKind::friction:
-      return {"friction", true};
-    case SlowKind::torque_gain:
-      return {"drive torque", true};
-    case SlowKind::torque_offset:
-      return {"torque offset", false};
-    case SlowKind::coloured_torque:
-      return {"passing torque", false};
-    case SlowKind::tip_mass:
-      return {"mass at the tip", false};
+    case DayEffectKind::friction:
+      return "friction";
+    case DayEffectKind::torque_gain:
+      return "drive torque";
+    case DayEffectKind::torque_offset:
+      return "torque offset";
   }
-  return {"", false};
+  return "";
 }
 
-ConditionItem item_of(const SlowEstimate& estimate, const Chain<double>& chain) {
-  const SlowKind kind = estimate.state.kind;
-  const auto [what, is_share] = words_of(kind);
-  const bool is_tip = kind == SlowKind::tip_mass;
-  const bool turns = chain.geometry[estimate.state.joint].kind == AxisKind::revolute;
+ConditionItem item_of(const DayEffect& effect, const Chain<double>& chain) {
+  const bool is_share = effect.kind != DayEffectKind::torque_offset;
+  const bool turns = chain.geometry[effect.joint - 1].kind == AxisKind::revolute;
   ConditionItem item;
-  item.joint = is_tip ? 0 : estimate.state.joint + 1;
-  item.name = is_tip ? to_string(kind) : fmt::format("{}_{}", to_string(kind), item.joint);
-  item.what = is_tip ? what : fmt::format("{} of joint {}", what, item.joint);
-  item.unit = is_share ? "%" : is_tip ? "kg" : turns ? "N m" : "N";
+  item.joint = effect.joint;
+  item.name = fmt::format("{}_{}", to_string(effect.kind), item.joint);
+  item.what = fmt::format("{} of joint {}", words_of(effect.kind), item.joint);
+  item.unit = is_share ? "%" : turns ? "N m" : "N";
   const double unit = is_share ? kPercent : 1.0;
-  item.value = unit * estimate.value;
-  item.ci95 = {unit * (estimate.value - kNormal95 * estimate.std),
-               unit * (estimate.value + kNormal95 * estimate.std)};
-  item.normal_range = unit * estimate.state.normal_range();
+  item.value = unit * effect.value;
+  item.ci95 = {unit * (effect.value - kNormal95 * effect.std),
+               unit * (effect.value + kNormal95 * effect.std)};
+  item.normal_range = unit * effect.normal_range();
   return item;
 }
 
 }  // namespace
 
-std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimates,
-                                        const Chain<double>& chain) {
+std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain<double>& chain) {
   std::vector<ConditionItem> items;
-  for (const SlowEstimate& estimate : estimates)
-    if (!(estimate.state.memory_s > 0.0)) items.push_back(item_of(estimate, chain));
+  for (const DayEffect& effect : day) items.push_back(item_of(effect, chain));
   return items;
 }
 

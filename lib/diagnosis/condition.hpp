@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/evidence/slow_estimate.hpp"
+#include "lib/explain/day_effects.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 
@@ -14,11 +15,11 @@ namespace faultline {
 struct ConditionItem {
   std::string name;  ///< stable identifier, such as "friction_1"
   std::string what;  ///< for a person, such as "friction of joint 1"
-  int joint = 0;     ///< from 1; 0 for the tip
+  int joint = 0;     ///< from 1
   double value = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 2> ci95 = {value, value};
   double normal_range = std::numeric_limits<double>::quiet_NaN();  ///< healthy days are within +- so much
-  std::string unit;  ///< "%" of what was identified, "N m", "N" or "kg"
+  std::string unit;  ///< "%" of what was identified, "N m" or "N"
 
   /// Whether the log tells it better than the normal range does.
   bool is_told() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
@@ -28,9 +29,8 @@ struct ConditionItem {
   }
 };
 
-/// The slow states that stay, in the order in which they are; what passes within a second is no condition.
-std::vector<ConditionItem> condition_of(const std::vector<SlowEstimate>& estimates,
-                                        const Chain<double>& chain);
+/// In the order in which they are.
+std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain<double>& chain);
 
 /// What is beyond its normal range, or so many times it, such as "friction of joint 1 (+52 %, normal within
 /// 30 %)"; empty if nothing is.

@@ -26,57 +26,24 @@ std::string if_simulated(const Votes& votes) {
   return all && !votes.precedents.empty() ? ", all simulated," : "";
 }
 
-/// That the size of a torque loss gave the fault another name; empty when it did not.
-std::string renaming(const Decision& decision) {
-  if (decision.label == decision.voted) return "";
-  return fmt::format(", and nearly all of it is lost: {}", words(decision.label));
-}
-
 }  // namespace
 
-std::string reason_in_words(const Decision& decision, const DecisionBasis& basis,
-                            const DecisionOptions& options) {
+std::string reason_in_words(const Decision& decision, const DecisionBasis& basis) {
   const Episode& episode = basis.episode;
   switch (decision.reason) {
-    case DecisionReason::thin_evidence:
-      return fmt::format("the evidence is thin (log likelihood ratio {:.1f}, {:.1f} asked)", episode.evidence,
-                         options.thin_evidence);
-    case DecisionReason::hardly_believed:
-      return fmt::format("both networks say {}, but hardly believe it (confidence {:.2f})",
-                         words(episode.mlp.label), 0.5 * (episode.mlp.confidence + episode.rbfn.confidence));
     case DecisionReason::networks_agree:
-      return fmt::format("both networks say {}{}", words(decision.voted), renaming(decision));
-    case DecisionReason::nothing_similar:
-      return disagreement(episode) + " and no recorded case resembles this episode";
-    case DecisionReason::votes_even:
-      return disagreement(episode) + " and the similar cases do not settle it";
+      return fmt::format("both networks say {}", words(decision.label));
     case DecisionReason::votes_settle:
-      return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes{}",
+      return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes",
                          disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
-                         words(decision.voted), 100.0 * decision.confidence, renaming(decision));
-    case DecisionReason::lacks_evidence:
-      return fmt::format(
-          "networks and cases say {}, but its own likelihood stays below the alarm threshold of {:.0f} nats{}",
-          words(decision.voted), basis.threshold,
-          decision.label.joint > 0 ? fmt::format("; {} explains the log best", words(decision.label))
-                                   : std::string("; and no other fault stands out"));
-    case DecisionReason::others_refuted:
-      return fmt::format("{} leaves far more of the motion unexplained than noise does; {} does not",
+                         words(decision.label), 100.0 * decision.confidence);
+    case DecisionReason::evidence_alone:
+      return "networks and cases settle nothing; this fault explains the log best";
+    case DecisionReason::log_excludes:
+      return fmt::format("networks or cases say {}, which explains the log much worse than {}",
                          words(decision.voted), words(decision.label));
-    case DecisionReason::all_refuted:
-      return fmt::format(
-          "every known fault leaves far more of the motion unexplained than noise does, {} too",
-          words(decision.voted));
-    case DecisionReason::joint_is_held:
-      return fmt::format(
-          "{} is ruled out, as the joint stands still while torque acts on it{}", words(decision.voted),
-          decision.label.kind == FaultKind::unknown
-              ? std::string()
-              : fmt::format("; of the other faults {} explains the log best", words(decision.label)));
-    case DecisionReason::push_lasts:
-      return fmt::format("it begins as {}, but goes on for {:.2g} s", words(decision.voted), basis.lasts_s);
-    case DecisionReason::likelihood_names:
-      return "neither networks nor cases settle it; this fault explains the log best";
+    case DecisionReason::no_known_form:
+      return "every known fault leaves far more of the motion unexplained than noise does";
   }
   return "";
 }
@@ -91,7 +58,6 @@ std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes
              most.label != decision.voted && most.label != decision.label && most.share > options.clear_share)
       warnings.push_back(fmt::format("most similar cases{} were {}", if_simulated(votes), words(most.label)));
   }
-  if (decision.reason == DecisionReason::thin_evidence) return warnings;
   for (const Neighbour& n : votes.precedents)
     if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.label)
       warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also called {} and that was wrong",

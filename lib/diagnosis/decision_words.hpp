@@ -9,8 +9,7 @@
 namespace faultline {
 
 /// Why it was decided so, one sentence for a person.
-std::string reason_in_words(const Decision& decision, const DecisionBasis& basis,
-                            const DecisionOptions& options = {});
+std::string reason_in_words(const Decision& decision, const DecisionBasis& basis);
 
 /// What similar cases hold against the decision, a sentence each.
 std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes,

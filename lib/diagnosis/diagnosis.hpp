@@ -11,7 +11,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/diagnosis/condition.hpp"
 #include "lib/diagnosis/decided_by.hpp"
-#include "lib/evidence/evidence_trace.hpp"
+#include "lib/explain/evidence_course.hpp"
 #include "lib/fault/opinion.hpp"
 #include "lib/log/log_run.hpp"
 #include "lib/residual/residual_summary.hpp"

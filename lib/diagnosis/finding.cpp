@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kSureOfSlow = 0.95;  // its interval alone leaves less, other kinds leave more
+constexpr double kSureOfFriction = 0.95;  // its interval alone leaves less, other kinds leave more
 
 EpisodeFacts facts_of(const Episode& episode, const std::vector<std::string>& feature_names) {
   EpisodeFacts facts;
@@ -29,9 +29,9 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   FaultFinding finding;
   finding.label = decision.label;
   finding.extent = extent_of(decision.label, basis.evidence, model);
-  finding.onset_s = observed.evidence.onset_s;
-  finding.alarm_s = observed.evidence.alarm_s;
-  finding.end_s = observed.evidence.end_s;
+  finding.onset_s = observed.onset_s();
+  finding.alarm_s = observed.alarm_s();
+  finding.end_s = observed.end_s;
   finding.confidence = decision.confidence;
   finding.mlp = basis.episode.mlp;
   finding.rbfn = basis.episode.rbfn;
@@ -39,28 +39,26 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   finding.could_also_be = alternatives_to(decided, model);
   finding.evidence = finding_evidence(decided, model);
   finding.next_check = next_check_for(decision.label);
-  finding.episode = facts_of(basis.episode, episode_feature_names(model.bank, model.robot.joints()));
-  finding.trace = observed.evidence.trace;
+  finding.episode = facts_of(basis.episode, episode_feature_names(model.labels, model.robot.joints()));
+  finding.trace = observed.fault.trace;
   return finding;
 }
 
-FaultFinding finding_of(const SlowFault& fault, const Chain<double>& chain) {
-  const ConditionItem item = condition_of({fault.estimate}, chain).front();
+FaultFinding finding_of(const LastingFriction& fault, const Chain<double>& chain) {
+  const ConditionItem item = condition_of({fault.effect}, chain).front();
   FaultFinding finding;
   finding.label = {FaultKind::friction_increase, item.joint};
-  finding.onset_s = fault.left_s;
-  finding.alarm_s = fault.alarm_s;
+  finding.onset_s = fault.start_s;
+  finding.alarm_s = fault.end_s;
   finding.end_s = fault.end_s;
-  finding.confidence = kSureOfSlow;
+  finding.confidence = kSureOfFriction;
   finding.decided_by = DecidedBy::evidence;
   finding.evidence = {
       {item.name, item.value, item.unit,
-       fmt::format("{} against the robot that was identified ({} to {} {} with 95 %, normal within {} {})",
+       fmt::format("{} against the robot that was identified ({} to {} {} with 95 %, normal within {} {}), "
+                   "from the first row on",
                    item.what, value_text(item.ci95[0]), value_text(item.ci95[1]), item.unit,
-                   value_text(item.normal_range), item.unit)},
-      {"onset_interval", fault.left_s - fault.from_s, "s",
-       fmt::format("it began slowly, between {} and {}", seconds_text(fault.from_s),
-                   seconds_text(fault.left_s))}};
+                   value_text(item.normal_range), item.unit)}};
   finding.next_check = next_check_for(finding.label);
   return finding;
 }

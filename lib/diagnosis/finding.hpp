@@ -3,8 +3,8 @@
 
 #include "lib/diagnosis/decided_episode.hpp"
 #include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnosis/lasting_friction.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
-#include "lib/evidence/watch/slow_watch.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
@@ -13,8 +13,8 @@ namespace faultline {
 /// it could also be, what speaks for it, and what to check next.
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
 
-/// Friction that crept away, or was that high from the first row.
-FaultFinding finding_of(const SlowFault& fault, const Chain<double>& chain);
+/// Friction that is far beyond that of healthy days from the first row of a log on.
+FaultFinding finding_of(const LastingFriction& fault, const Chain<double>& chain);
 
 /// What the paper's criterion found, with the other words of single networks as alternatives.
 FaultFinding finding_of(const SampleAlarm& alarm);

@@ -38,13 +38,9 @@ double times_least_together(const FaultFinding& fault, const std::vector<FaultFi
   return sum;
 }
 
-/// The labels of the bank that have a size, in its order.
 std::vector<FaultLabel> sized_labels(const Model& model) {
-  std::vector<FaultLabel> labels;
-  for (const Hypothesis& hypothesis : model.bank)
-    if (hypothesis.label.joint > 0 && describe(hypothesis.label.kind).least_size > 0.0 &&
-        std::find(labels.begin(), labels.end(), hypothesis.label) == labels.end())
-      labels.push_back(hypothesis.label);
+  std::vector<FaultLabel> labels = model.labels;
+  std::erase_if(labels, [](const FaultLabel& label) { return !(describe(label.kind).least_size > 0.0); });
   return labels;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/evidence/episode_evidence.hpp"
+#include "lib/explain/decide_log.hpp"
 #include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
@@ -11,8 +11,12 @@ namespace faultline {
 /// A stretch of a log that the healthy robot does not explain, as monitoring leaves it: all that a decision
 /// is made from.
 struct MonitoredEpisode {
-  EpisodeEvidence evidence;
-  std::vector<JointResidual> residuals;  ///< of the MLP, a joint each, from onset to when it was named
+  ExplainedFault fault;
+  double end_s = 0.0;  ///< when the fault ended, or the last sample that was judged
+  std::vector<JointResidual> residuals{};  ///< of the MLP, a joint each, over some seconds from the onset on
+
+  double onset_s() const { return fault.claim.onset_s; }
+  double alarm_s() const { return fault.alarm_s; }
 };
 
 }  // namespace faultline

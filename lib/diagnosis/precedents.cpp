@@ -26,7 +26,7 @@ struct Comparing {
 };
 
 Comparing comparing(const DecisionBasis& basis, const CaseBase& cases, const Model& model) {
-  std::vector<EpisodeFeature> list = episode_feature_list(model.bank, model.robot.joints());
+  std::vector<EpisodeFeature> list = episode_feature_list(model.labels, model.robot.joints());
   if (list.size() != cases.metric().features.size()) list.clear();
   return {basis, cases, model, usual_features(cases), std::move(list)};
 }

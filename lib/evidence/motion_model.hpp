@@ -3,12 +3,21 @@
 
 #include <vector>
 
-#include "lib/evidence/hypothesis.hpp"
-#include "lib/evidence/noise_level.hpp"
 #include "lib/evidence/slow_state.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
+
+/// How large faults are before anything is seen of them: normal priors in SI units, one number a joint. The
+/// priors make hypotheses with and without a free size comparable.
+struct SizePriors {
+  std::vector<double> bias;              ///< rad or m, standard deviation about 0
+  std::vector<double> drift;             ///< per second, standard deviation about 0
+  std::vector<double> viscous_increase;  ///< N m s/rad or N s/m, mean and standard deviation
+  std::vector<double> coulomb_increase;  ///< N m or N, mean and standard deviation
+  std::vector<double> external_torque;   ///< N m or N, standard deviation about 0
+  double payload = 0.0;                  ///< kg, standard deviation about 0
+};
 
 /// What the identified robot does not know of its own torque, as white noise in torque space. The spectral
 /// density of joint j is correlation_s ((torque_share tau_j)^2 + (rest_share fc_j)^2 near rest + floor_j^2)
@@ -43,10 +52,6 @@ struct MotionModel {
   /// coarse codes): farther ones count for less, in the filters and in the evidence. One a joint; empty for
   /// none.
   std::vector<double> q_tail, dq_tail;
-  std::vector<double> work_pieces_kg;  ///< that come and go every day
-  double work_piece_doubt = 0.05;      ///< standard deviation of their masses, share of each
-  NoiseLevel usual_noise;              ///< of the healthy logs; empty where logs are taken as they are
-  std::array<double, 2> noise_range{1.0, 1.0};  ///< times that, for a log's own level
   std::vector<double> q_low;                    ///< range seen in healthy logs
   std::vector<double> q_high;
   std::vector<double> velocity_scale;  ///< root mean square of the healthy velocity

@@ -4,8 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 
@@ -13,8 +13,5 @@ namespace faultline {
 void to_json(nlohmann::json& json, const MotionModel& model);
 /// Throws Error(input) when something is missing or not one number a joint; `where` names the file.
 MotionModel motion_model_from_json(const nlohmann::json& json, const Robot& robot, const std::string& where);
-
-void to_json(nlohmann::json& json, const EvidenceOptions& options);
-EvidenceOptions evidence_options_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/evidence/learn/healthy_statistics.hpp"
+#include "lib/evidence/healthy_statistics.hpp"
 #include "lib/evidence/motion_model.hpp"
 
 namespace faultline {

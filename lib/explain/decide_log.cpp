@@ -11,10 +11,33 @@ constexpr double kLeastLoss = 0.08;     // share of the torque: less is the gain
 constexpr double kOfNoKind = 200.0;     // nats by which a change of any form explains more
 constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;   // of the best evidence
+constexpr std::size_t kTraced = 4;      // hypotheses whose evidence is traced
+constexpr double kTracedBeyond_s = 1.0;  // their alarm
 
 bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
   if (h.kind == FaultKind::torque_loss && h.size[0] < kLeastLoss) return false;
   return h.gain > limits.of(h.kind);
+}
+
+std::vector<LabelScore> scores_of(const LogExplanation& e) {
+  std::vector<LabelScore> out;
+  for (const FaultHypothesis& h : e.best)
+    out.push_back({h, h.gain, h.fit.size_std, h.fit.mean_square()});
+  return out;
+}
+
+/// How the evidence of `best` and of the hypotheses that come next to it grew.
+EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, const EvidenceCourse& course,
+                       const LogEvidence& evidence, double until_s) {
+  std::vector<FaultLabel> labels = {{best.kind, best.joint}};
+  std::vector<EvidenceCourse> courses = {course};
+  for (const FaultHypothesis& h : e.best) {
+    if (courses.size() == kTraced) break;
+    if (h.kind == best.kind && h.joint == best.joint) continue;
+    labels.push_back({h.kind, h.joint});
+    courses.push_back(evidence.course(h));
+  }
+  return faultline::trace_of(labels, courses, until_s);
 }
 
 }  // namespace
@@ -33,9 +56,19 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
 }
 
 LogEvidence log_evidence(const LogFit& fit, const LogExplanation& e) {
-  return {[&fit](const FaultHypothesis& h, double limit) { return alarm_time(fit, h, limit); },
+  return {[&fit](const FaultHypothesis& h) { return evidence_course(fit, h); },
           [&fit, &e](const FaultHypothesis& h) { return misfit(fit, e.free_form, h); },
-          [&fit, &e](double limit) { return alarm_time(fit, e.free_form, limit); }};
+          [&fit, &e] { return evidence_course(fit, e.free_form); }};
+}
+
+double least_limit(const EvidenceLimits& limits) {
+  return *std::min_element(limits.nats.begin(), limits.nats.end());
+}
+
+double largest_share(const LogExplanation& e, const EvidenceLimits& limits) {
+  double out = 0.0;
+  for (const FaultHypothesis& h : e.best) out = std::max(out, h.gain / limits.of(h.kind));
+  return out;
 }
 
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
@@ -51,7 +84,12 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
         fault.could_also_be.push_back({h->kind, h->joint});
-    fault.alarm_s = evidence.alarm(*best, limits.of(best->kind));
+    fault.limit = limits.of(best->kind);
+    const EvidenceCourse course = evidence.course(*best);
+    fault.alarm_s = course.alarm_s(fault.limit);
+    fault.scores = scores_of(e);
+    fault.trace = trace_of(e, *best, course, evidence, fault.alarm_s + kTracedBeyond_s);
+    fault.trace.limit = fault.limit;
   }
   return out;
 }
@@ -62,10 +100,10 @@ ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, 
   out.claim.kind = FaultKind::unknown;
   out.claim.size = {};
   out.could_also_be.insert(out.could_also_be.begin(), named.label());
-  if (!evidence.alarm_of_free_form) return out;
+  if (!evidence.course_of_free_form) return out;
   out.claim.onset_s = e.free_form.onset_s;
   out.claim.end_s = e.free_form.end_s;
-  out.alarm_s = evidence.alarm_of_free_form(limits.of(named.claim.kind));
+  out.alarm_s = evidence.course_of_free_form().alarm_s(limits.of(named.claim.kind));
   return out;
 }
 

@@ -23,31 +23,50 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
 
+/// The least evidence with which a fault of any kind is believed.
+double least_limit(const EvidenceLimits& limits);
+
 /// All limits times `factor`.
 EvidenceLimits scaled(EvidenceLimits limits, double factor);
+
+/// What a hypothesis of one kind and joint says of a log.
+struct LabelScore {
+  FaultClaim claim;
+  double nats = 0.0;           ///< by which it explains the log better than what is known of it without
+  Eigen::VectorXd size_std{};  ///< of each size of the claim; empty where it is not known
+  double left = 1.0;           ///< mean square of what it leaves, in variances of the noise
+
+  FaultLabel label() const { return {claim.kind, claim.joint}; }
+};
 
 /// The fault of a log.
 struct ExplainedFault {
   FaultClaim claim;
   double alarm_s = 0.0;   ///< earliest sample at which the evidence from the onset on passes the limit
   double evidence = 0.0;  ///< nats
+  double limit = 0.0;     ///< nats that it had to pass
   double misfit = 0.0;    ///< nats by which a change of any form explains the log better
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
+  std::vector<LabelScore> scores;         ///< of each kind and joint that was judged, best first
+  EvidenceTrace trace;                    ///< of the best of them
 
   FaultLabel label() const { return {claim.kind, claim.joint}; }
 };
 
-/// What decides about the hypotheses of a log: when the evidence of one, and of a change of any form, passes
-/// a limit in nats, and how much better a change of any form explains the log. Without `alarm_of_free_form`
-/// an unknown fault has the onset and the alarm of the hypothesis that comes nearest.
+/// What decides about the hypotheses of a log: how the evidence of one, and of a change of any form, grows,
+/// and how much better a change of any form explains the log. Without `course_of_free_form` an unknown fault
+/// has the onset and the alarm of the hypothesis that comes nearest.
 struct LogEvidence {
-  std::function<double(const FaultHypothesis&, double)> alarm;
+  std::function<EvidenceCourse(const FaultHypothesis&)> course;
   std::function<double(const FaultHypothesis&)> misfit;
-  std::function<double(double)> alarm_of_free_form{};
+  std::function<EvidenceCourse()> course_of_free_form{};
 };
 
 /// That of rows of 50 Hz and more.
 LogEvidence log_evidence(const LogFit& fit, const LogExplanation& explanation);
+
+/// The strongest evidence of a log, as a share of the limit of its kind.
+double largest_share(const LogExplanation& explanation, const EvidenceLimits& limits);
 
 /// The hypotheses that explain the log best and pass their limits, with their names: at most `most`, best
 /// first.

@@ -206,9 +206,10 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
   return out;
 }
 
-double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold) {
+EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& h) {
   const Stacked without = fit.left_without_fault(h.fit);
   const double edge = reach_s(fit.model().setting);
+  EvidenceCourse out;
   double sum = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < h.onset_s - edge) continue;
@@ -216,9 +217,10 @@ double alarm_time(const LogFit& fit, const FaultHypothesis& h, double threshold)
       const double a = without[j * fit.count() + k], b = h.fit.left[j * fit.count() + k];
       sum += 0.5 * (a * a - (std::isnan(b) ? 1.0 : b * b));
     }
-    if (sum > threshold) return std::max(fit.time_s()[k] + edge, h.onset_s);
+    out.time_s.push_back(std::max(fit.time_s()[k] + edge, h.onset_s));
+    out.nats.push_back(sum);
   }
-  return fit.time_s()[fit.count() - 1] + edge;
+  return out;
 }
 
 }  // namespace faultline

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lib/explain/evidence_course.hpp"
 #include "lib/explain/free_form.hpp"
 #include "lib/explain/hypothesis.hpp"
 
@@ -21,8 +22,7 @@ LogExplanation explain_log(const LogFit& fit);
 /// form of its columns, so a share of its torque is noise.
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& hypothesis);
 
-/// When the evidence of `hypothesis` from its onset on passes `threshold`; the effects of the day are those
-/// of the whole log.
-double alarm_time(const LogFit& fit, const FaultHypothesis& hypothesis, double threshold);
+/// Evidence of `hypothesis` from its onset on; the effects of the day are those of the whole log.
+EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& hypothesis);
 
 }  // namespace faultline

@@ -20,9 +20,33 @@ constexpr double kOppositeWithin = 0.3;  // of a false reading's size
 
 /// One step of the explanation: the faults that explain best what the known ones leave, best first.
 struct NextFault {
-  std::vector<ExplainedFault> named;  ///< at least one
-  ExplainedFault unknown;             ///< the best of them as a fault of no kind
+  std::vector<ExplainedFault> named;  ///< none where what is left is healthy
+  ExplainedFault unknown{};           ///< the best of them as a fault of no kind
+  ExplainedLog rest{};                ///< what the log says beside the known faults
 };
+
+/// Effects of the day that a person would look at.
+std::vector<DayEffect> effects_of(const LogFit& fit) {
+  const DayLayout at = day_layout(fit.model().rigid);
+  std::vector<DayEffect> out;
+  const auto add = [&](DayEffectKind kind, int joint, int index, double sign) {
+    out.push_back({kind, joint + 1, sign * fit.healthy().day[index], fit.healthy().day_std[index],
+                   std::sqrt(fit.model().day_variance[index])});
+  };
+  for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::friction, j, at.friction(j), 1.0);
+  for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_gain, j, at.gain(j), -1.0);
+  for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_offset, j, at.offset(j), -1.0);
+  return out;
+}
+
+/// Standard deviation of the rows of each joint over that of the healthy logs' rows.
+std::vector<double> loudness_of(const LogFit& fit) {
+  std::vector<double> out;
+  for (int j = 0; j < fit.joints(); ++j)
+    out.push_back(std::sqrt(autocovariance(fit.noise().joint[j])[0] /
+                            autocovariance(fit.model().noise.joint[j])[0]));
+  return out;
+}
 
 /// Whether two faults of one joint begin so close to each other that the second is what the columns of the
 /// first lack of its form.
@@ -30,7 +54,7 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
   return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
 }
 
-std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& model,
+NextFault next_fault(const UniformLog& log, const BalanceModel& model,
                                     const EvidenceLimits& limits, const std::vector<FaultClaim>& known) {
   const LogFit fit(log, model, known);
   const LogExplanation e = explain_log(fit);
@@ -42,9 +66,12 @@ std::optional<NextFault> next_fault(const UniformLog& log, const BalanceModel& m
     return std::any_of(known.begin(), known.end(),
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
-  if (named.empty()) return std::nullopt;
-  ExplainedFault unknown = as_unknown(named.front(), e, own, evidence);
-  return NextFault{std::move(named), std::move(unknown)};
+  NextFault out{std::move(named)};
+  if (!out.named.empty())
+    out.unknown = as_unknown(out.named.front(), e, own, evidence);
+  else
+    out.rest = {{}, effects_of(fit), loudness_of(fit), known.empty() ? largest_share(e, own) : 0.0};
+  return out;
 }
 
 /// The fault that explains best what is left; or several that explain it together, where one alone leaves
@@ -60,9 +87,9 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
     std::vector<ExplainedFault> together = {first};
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
-      const std::optional<NextFault> another = next_fault(log, model, limits, more);
-      if (!another) break;
-      together.push_back(another->named.front());
+      const NextFault another = next_fault(log, model, limits, more);
+      if (another.named.empty()) break;
+      together.push_back(another.named.front());
       if (!leaves_much(together.back())) return together;
     }
   }
@@ -137,22 +164,24 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
 
 }  // namespace
 
-std::vector<ExplainedFault> explain_faults(const UniformLog& log, const BalanceModel& model,
-                                           const EvidenceLimits& limits) {
-  std::vector<ExplainedFault> out;
-  while (out.size() < kMostFaults) {
-    const std::vector<FaultClaim> known = claims_but(out, out.size());
-    const std::optional<NextFault> next = next_fault(log, model, limits, known);
-    if (!next) break;
-    for (ExplainedFault& fault : best_faults(log, model, limits, known, *next))
-      out.push_back(std::move(fault));
+ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits) {
+  ExplainedLog out;
+  std::vector<ExplainedFault> faults;
+  while (faults.size() < kMostFaults) {
+    const std::vector<FaultClaim> known = claims_but(faults, faults.size());
+    NextFault next = next_fault(log, model, limits, known);
+    out = std::move(next.rest);
+    if (next.named.empty()) break;
+    for (ExplainedFault& fault : best_faults(log, model, limits, known, next))
+      faults.push_back(std::move(fault));
   }
-  if (out.size() > 1) out = jointly(log, model, limits, std::move(out));
-  out = unnested(std::move(out));
-  std::stable_sort(out.begin(), out.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
+  if (faults.size() > 1) faults = jointly(log, model, limits, std::move(faults));
+  faults = unnested(std::move(faults));
+  std::stable_sort(faults.begin(), faults.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
     return a.claim.onset_s < b.claim.onset_s;
   });
-  return without_slips(std::move(out));
+  out.faults = without_slips(std::move(faults));
+  return out;
 }
 
 }  // namespace faultline

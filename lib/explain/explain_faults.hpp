@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "lib/explain/decide_log.hpp"
+#include "lib/explain/explain_log.hpp"
 
 namespace faultline {
 
-/// All faults of a log by their onset: each is looked for with those that were found before as known; then
-/// each is judged again with all others known, and is left out where they explain the log without it.
-std::vector<ExplainedFault> explain_faults(const UniformLog& log, const BalanceModel& model,
+/// A log and its faults: each is looked for with those that were found before as known; then each is judged
+/// again with all others known, and is left out where they explain the log without it.
+ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model,
                                            const EvidenceLimits& limits);
 
 }  // namespace faultline

@@ -17,8 +17,9 @@ struct FaultClaim {
   int joint = 0;  ///< from 1
   double onset_s = 0.0;
   double end_s = kNeverEnds;
-  /// Share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each joint; false
-  /// position (rad or m) or drift (rad/s or m/s). Empty for kinds without a size, and where it is not known.
+  /// Share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each joint; torque
+  /// that is logged beside the one that acts (N m or N); false position (rad or m) or drift (rad/s or m/s).
+  /// Empty for kinds without a size, and where it is not known.
   Eigen::VectorXd size{};
   bool grows =
       false;  ///< from nothing at the onset; then `size` is that of each second, as friction that creeps

@@ -22,6 +22,7 @@ constexpr double kLossVariance = 0.25;
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second
 constexpr double kPayloadVariance = 0.36;  // of the mass that the tip carries, squared
+constexpr double kOffsetVariance = 0.36;   // of the joint's usual torque, squared
 constexpr double kLeastVariance = 1e-6;
 
 /// Mass that the last joint carries, kg, as its torque shows it.
@@ -64,12 +65,25 @@ LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, in
   return out;
 }
 
+/// A sensor that reads a torque beside the true one, so that the drive gives another one than is logged.
+LinearFault torque_offset(const BalanceRows& rows, const BalanceModel& m, int j) {
+  LinearFault out{FaultKind::torque_sensor_error,
+                  j + 1,
+                  {StackedColumns::Zero(rows.rows() * rows.joints(), 1),
+                   VectorXd::Constant(1, kOffsetVariance * m.torque_rms[j] * m.torque_rms[j])},
+                  {}};
+  out.columns.column.col(0).segment(j * rows.rows(), rows.rows()).setOnes();
+  if (m.piece_kg > 0.0 && carries_weight(m.rigid, j)) out.starts.push_back(VectorXd::Zero(1));
+  return out;
+}
+
 }  // namespace
 
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& m) {
   const int n = rows.joints();
   std::vector<LinearFault> out;
-  for (int j = 0; j < n; ++j) out.push_back(torque_loss(rows, m, j));
+  for (int j = 0; j < n && !m.torque_is_measured; ++j) out.push_back(torque_loss(rows, m, j));
+  for (int j = 0; j < n; ++j) out.push_back(torque_offset(rows, m, j));
   for (const bool creeps : {false, true})
     for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j, creeps));
   const MatrixXd tip = payload_torque(rows, m.payload, n - 1);

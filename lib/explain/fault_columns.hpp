@@ -33,7 +33,8 @@ struct LinearFault {
   std::vector<Eigen::VectorXd> starts;  ///< sizes to search the path of a work piece from
 };
 
-/// Torque loss, friction and friction that creeps of each joint, payload at the tip.
+/// Torque loss where it shows, offset of the torque, friction and friction that creeps of each joint, payload
+/// at the tip.
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& model);
 
 /// The linear fault that a claim is of; null where its kind has none.

@@ -87,8 +87,9 @@ FreeForm free_form(const LogFit& fit) {
   return out;
 }
 
-double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
+EvidenceCourse evidence_course(const LogFit& fit, const FreeForm& change) {
   const double edge = reach_s(fit.model().setting);
+  EvidenceCourse out;
   double sum = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < change.onset_s - edge) continue;
@@ -96,9 +97,10 @@ double alarm_time(const LogFit& fit, const FreeForm& change, double threshold) {
       const double z = change.left[j * fit.count() + k];
       sum += 0.5 * z * z - 0.5;
     }
-    if (sum > threshold) return std::max(fit.time_s()[k] + edge, change.onset_s);
+    out.time_s.push_back(std::max(fit.time_s()[k] + edge, change.onset_s));
+    out.nats.push_back(sum);
   }
-  return fit.time_s()[fit.count() - 1] + edge;
+  return out;
 }
 
 }  // namespace faultline

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lib/explain/evidence_course.hpp"
 #include "lib/explain/log_fit.hpp"
 
 namespace faultline {
@@ -21,7 +22,7 @@ struct FreeForm {
 /// costs a few nats. The effects of the day are those of the rows before.
 FreeForm free_form(const LogFit& fit);
 
-/// When what the rows before a change cannot explain passes `threshold` nats.
-double alarm_time(const LogFit& fit, const FreeForm& change, double threshold);
+/// How what the rows before a change cannot explain grows from it on.
+EvidenceCourse evidence_course(const LogFit& fit, const FreeForm& change);
 
 }  // namespace faultline

@@ -38,6 +38,7 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   const int j = claim.joint - 1;
   if (kind == FaultKind::torque_loss)
     return kImpossible * std::max(0.0, -size[0]) + 2e4 * std::max(0.0, size[0] - 1.2);
+  if (kind == FaultKind::torque_sensor_error) return 0.0;
   if (kind == FaultKind::payload_change) return size[0] < 0.0 && fit.has_piece() ? kImpossible : 0.0;
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
@@ -271,6 +272,7 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
     case FaultKind::torque_loss:
     case FaultKind::friction_increase:
     case FaultKind::payload_change:
+    case FaultKind::torque_sensor_error:
       if (const LinearFault* fault = linear_of(fit.linear(), claim)) return judge_linear(fit, *fault, claim);
       return std::nullopt;
     case FaultKind::collision:

@@ -244,9 +244,13 @@ Explanation LogFit::regressed(const Stacked& residual, const FaultColumns& colum
   const Regression fit = regress(sums, precision);
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, columns.sizes());
+  const auto std_of = [&](int k) {
+    return std::sqrt(fit.factor.solve(VectorXd::Unit(effects + sizes, k))[k]);
+  };
   out.size_std.resize(columns.sizes());
-  for (int k = 0; k < columns.sizes(); ++k)
-    out.size_std[k] = std::sqrt(fit.factor.solve(VectorXd::Unit(effects + sizes, effects + k))[effects + k]);
+  for (int k = 0; k < columns.sizes(); ++k) out.size_std[k] = std_of(effects + k);
+  if (columns.sizes() == 0) out.day_std.resize(effects);
+  for (int k = 0; k < out.day_std.size(); ++k) out.day_std[k] = std_of(k);
   out.later_s = -fit.estimate.segment(effects + columns.sizes(), changes);
   out.log_likelihood = fit.log_likelihood - 0.5 * lost - kChangeOfPiece * changes;
   out.left = z - effect_white_ * out.day - xw * fit.estimate.tail(sizes);

@@ -17,6 +17,7 @@ namespace faultline {
 struct Explanation {
   double log_likelihood = 0.0;  ///< marginal: effects, sizes and changes of the work piece integrated out
   Eigen::VectorXd day;          ///< effects: those of the day, then sizes of known faults
+  Eigen::VectorXd day_std;      ///< standard deviation of each; only without a hypothesis
   Eigen::VectorXd size;         ///< of the hypothesis' columns
   Eigen::VectorXd size_std;     ///< standard deviation of each
   Stacked left;                 ///< whitened rows left over; NaN where rows do not count

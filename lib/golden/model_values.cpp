@@ -34,11 +34,10 @@ std::vector<ParameterValue> values_of(const Model& model) {
   if (!model.has_mechanics()) return values;
   add_robot(model, values);
   const double no_std = std::numeric_limits<double>::quiet_NaN();
-  values.push_back({"trigger", model.evidence.trigger, no_std, "std"});
-  values.push_back({"threshold", model.evidence.threshold, no_std, "nats"});
-  for (const Imitation& imitation : model.evidence.imitations)
-    values.push_back({"threshold_" + label_text(imitation.label, "_"),
-                      model.evidence.threshold + imitation.nats, no_std, "nats"});
+  for (int k = 1; k < kFaultKinds; ++k) {
+    const auto kind = static_cast<FaultKind>(k);
+    values.push_back({std::string("threshold_") + to_string(kind), model.explain.limits.of(kind), no_std, "nats"});
+  }
   return values;
 }
 

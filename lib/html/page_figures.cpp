@@ -82,7 +82,7 @@ void show_trace(PageFigure& figure, const FaultFinding& fault) {
   figure.group = -figure.fault_id;
 }
 
-PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window, const RunCurves& curves,
+PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
                            const std::vector<PlotMark>& marks) {
   PageFigure figure = figure_over(window, "evidence", marks);
   figure.caption = "Evidence accumulating";
@@ -92,8 +92,8 @@ PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
     figure.curves.push_back({plain_words(curve.label), fmt::format("e{}-{}", fault.id, i),
                              static_cast<int>(i), &window, nullptr, &fault.trace.time, &curve.ratio});
   }
-  figure.limits = {{"alarm threshold", curves.alarm_ratio}};
-  double largest = curves.alarm_ratio;
+  figure.limits = {{"alarm threshold", fault.trace.limit}};
+  double largest = fault.trace.limit;
   for (const EvidenceCurve& curve : fault.trace.curves)
     for (const double ratio : curve.ratio) largest = std::fmax(largest, ratio);
   figure.least_y = -0.15 * largest;
@@ -158,7 +158,7 @@ std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves
   if (std::isfinite(fault.alarm_s)) marks.push_back({fault.alarm_s, "alarm"});
   if (std::isfinite(fault.end_s)) marks.push_back({fault.end_s, "end"});
   std::vector<PageFigure> figures = {residual_figure(*window, curves, marks),
-                                     evidence_figure(fault, *window, curves, marks)};
+                                     evidence_figure(fault, *window, marks)};
   if (!window->joints.empty())
     for (PageFigure& figure : joint_figures(*window, curves, joint_of(fault, *window), marks))
       figures.push_back(std::move(figure));

@@ -14,8 +14,7 @@ FactTable option_table(const Model& model, const DiagnoseOptions& options) {
     table.rows.push_back({"--criterion", to_string(options.criterion)});
     table.rows.push_back({"--g", options.g > 0 ? std::to_string(options.g) : "0 (as tuned by learn)"});
   }
-  table.rows.push_back({"alarm threshold", fact_text(model.evidence.threshold, "nats")});
-  table.rows.push_back({"trigger", fact_text(model.evidence.trigger, "standard deviations")});
+  table.rows.push_back({"least alarm threshold", fact_text(least_limit(model.explain.limits), "nats")});
   return table;
 }
 

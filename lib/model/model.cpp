@@ -10,6 +10,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
+#include "lib/model/explain_model_json.hpp"
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
 #include "lib/model/validation_json.hpp"
@@ -94,8 +95,8 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
     return model;
   }
   model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
-  model.evidence = evidence_options_from_json(json.at("evidence"), where);
-  model.bank = hypotheses_of(model.robot.joints(), model.robot.log.torque, model.motion.work_pieces_kg);
+  model.explain = explain_model_from_json(json.at("explain"), where);
+  model.labels = labels_of(model.robot);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
   model.confidence = calibration_from_json(json.at("confidence"));
@@ -106,14 +107,13 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
 }
 
 void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
-  nlohmann::json motion, evidence, residual, judges;
+  nlohmann::json motion, residual, judges;
   to_json(motion, model.motion);
-  to_json(evidence, model.evidence);
   to_json(residual, model.residual);
   to_json(judges, model.episode_classifier);
   if (model.twin) json["twin"] = twin_to_json(*model.twin);
   json["validation"] = validation_to_json(model.validation);
-  json["evidence"] = evidence;
+  json["explain"] = explain_model_to_json(model.explain);
   json["motion"] = motion;
   json["residual"] = residual;
   json["judges"] = judges;
@@ -146,12 +146,11 @@ std::string model_to_json(const Model& model) {
 
 Model model_from_json(const std::string& text, const std::string& where) {
   refuse_deep_json(text, where);
-  const ModelText read = read_model_text(text, where);
-  check_model_ranges(read.json, where);
+  const nlohmann::json json = read_model_text(text, where);
+  check_model_ranges(json, where);
   try {
-    Model model = read_members(read.json, where);
+    Model model = read_members(json, where);
     model.sha256 = sha256_hex(text);
-    model.has_digest = read.version > kModelVersionWithoutDigest;
     return model;
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::input, where,
@@ -161,6 +160,10 @@ Model model_from_json(const std::string& text, const std::string& where) {
     throw Error(ErrorCode::input, where,
                 "is a damaged model (" + std::string(error.what()) + "); learn it again");
   }
+}
+
+std::vector<FaultLabel> labels_of(const Robot& robot) {
+  return fault_labels(robot.joints(), robot.log.torque == TorqueMeaning::measured);
 }
 
 Model load_model(const std::string& path) { return model_from_json(read_file(path, kLargestModel), path); }

@@ -10,8 +10,9 @@
 #include "lib/classify/episode_classifier.hpp"
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/evidence/evidence_options.hpp"
 #include "lib/evidence/motion_model.hpp"
+#include "lib/explain/explain_log.hpp"
+#include "lib/fault/fault_labels.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/residual/relation/signal_relation.hpp"
 #include "lib/residual/residual_generator.hpp"
@@ -48,7 +49,7 @@ struct Reach {
 /// How good a model is, on runs of the identified robot (its parameters drawn from their uncertainty).
 struct Validation {
   std::vector<ValidationRow> rows;
-  std::vector<Reach> reach;  ///< in the order of the bank; also of the runs that were trained on
+  std::vector<Reach> reach;  ///< in the order of the labels; also of the runs that were trained on
   int early_alarms = 0;      ///< alarms before the onset, in the runs of `rows`
   double healthy_hours = 0.0;
   int false_alarms = 0;  ///< in them
@@ -91,8 +92,8 @@ struct Model {
   double sample_period_s = 0.0;  ///< usual one of the logs it was learned from
   bool has_velocity = true;      ///< those logs have dq
   MotionModel motion;
-  EvidenceOptions evidence;
-  std::vector<Hypothesis> bank;  ///< follows from the robot, not stored
+  ExplainModel explain;            ///< what explains its logs
+  std::vector<FaultLabel> labels;  ///< what may be wrong with it; follows from the robot, not stored
   ResidualGenerator residual;
   std::vector<SignalRelation>
       relations;  ///< second residuals, tracking; none where the logs lack the signals
@@ -110,17 +111,18 @@ struct Model {
   std::vector<ModelEdit> edits;
   std::vector<std::string> doubts;  ///< why it is not to be trusted as others are; each diagnosis says so
   std::vector<std::string> grave_doubts;  ///< those of them with which no log can be called healthy
-  bool has_digest = true;  ///< false where it was read from a file of an earlier program, which carries none
 
   /// False where it was learned from logs without torque: then only `relations` judge.
   bool has_mechanics() const { return residual.joints() > 0; }
 };
 
-/// The model as one JSON file, schema "faultline/model/3", with the digest of its content.
+/// What may be wrong with a robot whose torque is logged as its file says.
+std::vector<FaultLabel> labels_of(const Robot& robot);
+
+/// The model as one JSON file, schema "faultline/model/4", with the digest of its content.
 std::string model_to_json(const Model& model);
 /// Throws Error(input) for text that is no model, is cut, damaged or edited without a signature, is of a
-/// newer schema, has a number beyond its range or does not fit together. Schema 2, without digest, is read,
-/// too.
+/// newer schema, has a number beyond its range or does not fit together.
 Model model_from_json(const std::string& text, const std::string& where);
 /// Throws Error(input).
 Model load_model(const std::string& path);

@@ -49,10 +49,6 @@ std::vector<std::string> notes_of(const Model& model) {
   for (const ModelEdit& edit : model.edits)
     notes.push_back("the model was edited by hand after it was learned" +
                     (edit.why.empty() ? std::string(", why is not told") : ": " + edit.why));
-  if (!model.has_digest)
-    notes.push_back(
-        "the model is of an earlier program and carries no digest: damage to it, or a case base of another "
-        "model, would not be noticed; learn it again");
   return notes;
 }
 

@@ -47,22 +47,15 @@ Json parsed(const std::string& text, const std::string& where) {
   return json;
 }
 
-int checked_version(const Json& json, const std::string& where) {
+void check_version(const Json& json, const std::string& where) {
   const int version = version_of(json);
   if (version == 0) refuse(where, "is JSON but no faultline model; a model is made by `faultline learn`");
   const std::string schema = json["schema"].get<std::string>().substr(0, 40);
   if (version > kModelVersion)
     refuse(where, "has schema " + schema + ", this program knows " + model_schema(kModelVersion) +
                       "; use a newer faultline or learn the model again");
-  if (version < kModelVersionWithoutDigest)
-    refuse(where, "has the unknown schema \"" + valid_utf8(schema) + "\"; learn the model again");
-  return version;
-}
-
-/// A model of an earlier program has none of what came with the digest.
-bool is_of_earlier_program(const Json& json, int version) {
-  return version == kModelVersionWithoutDigest && !json.contains("digest") && !json.contains("identity") &&
-         !json.contains("edited");
+  if (version < kModelVersion)
+    refuse(where, "has the schema \"" + valid_utf8(schema) + "\" of an earlier program; learn the model again");
 }
 
 std::string digest_in(const Json& json) {
@@ -79,19 +72,19 @@ std::string sealed_model_text(const Json& content) {
   return with_digest(text.substr(0, text.size() - std::string(kEnd).size()));
 }
 
-ModelText read_model_text(const std::string& text, const std::string& where) {
+nlohmann::json read_model_text(const std::string& text, const std::string& where) {
   const Json json = parsed(text, where);
-  const int version = checked_version(json, where);
-  if (!is_of_earlier_program(json, version) && !digest_fits(text))
+  check_version(json, where);
+  if (!digest_fits(text))
     refuse(where,
            "does not fit the digest that it carries: it is a damaged model, or was edited. Restore it from a "
            "copy or learn it again; if it was edited on purpose, accept it with `faultline model sign`");
-  return {nlohmann::json(json), version};
+  return nlohmann::json(json);
 }
 
 std::string signed_model_text(const std::string& text, const std::string& why, const std::string& where) {
   Json json = parsed(text, where);
-  checked_version(json, where);
+  check_version(json, where);
   if (digest_fits(text)) return text;
   const Json edit = {{"digest_before", digest_in(json)}, {"why", valid_utf8(why)}};
   json.erase("digest");

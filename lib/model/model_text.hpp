@@ -8,23 +8,17 @@
 /// byte.
 namespace faultline {
 
-inline constexpr int kModelVersion = 3;
-inline constexpr int kModelVersionWithoutDigest = 2;  ///< still read
+inline constexpr int kModelVersion = 4;
 
-/// "faultline/model/3"
+/// "faultline/model/4"
 std::string model_schema(int version);
 
 /// A model as file text. `content` has no digest.
 std::string sealed_model_text(const nlohmann::ordered_json& content);
 
-struct ModelText {
-  nlohmann::json json;
-  int version = 0;
-};
-
 /// Throws Error(input) when the text is no JSON, no model, of another schema version, or not what its digest
 /// was made of.
-ModelText read_model_text(const std::string& text, const std::string& where);
+nlohmann::json read_model_text(const std::string& text, const std::string& where);
 
 /// The same text with a digest that fits, and with a note in it that it was edited and `why`; the same text
 /// where the digest fits as it is. Throws Error(input) when it is no JSON or no model; whether the content

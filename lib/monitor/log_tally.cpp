@@ -52,13 +52,6 @@ std::int64_t rows_lost(const Issues& issues) {
   return rows;
 }
 
-void note_rejected(Issues& issues, int count) {
-  if (count > 0)
-    issues.add({"short_disturbance", "", Severity::note,
-                "a disturbance looked like a fault but did not last (wild values?); it was not reported", 0,
-                std::numeric_limits<double>::quiet_NaN(), count, 0});
-}
-
 }  // namespace
 
 void check_joints(const Log& segment, const LogSource& log, const Model& model) {
@@ -86,7 +79,7 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   }
 }
 
-LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms) {
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model) {
   QualityOptions options;
   options.slides = sliding_joints(model.robot.chain);
   options.runs = log.identity().runs;
@@ -112,7 +105,6 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
   facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;
   facts.issues.merge(quality.issues);
-  note_rejected(facts.issues, rejected_alarms);
   return facts;
 }
 

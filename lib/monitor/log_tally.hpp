@@ -32,8 +32,7 @@ struct LogTally {
   void take(const Log& segment, const LogSource& log, const Model& model);
 };
 
-/// The facts of a log that was read to its end; a note tells of disturbances that raised an alarm and did not
-/// last.
-LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model, int rejected_alarms = 0);
+/// The facts of a log that was read to its end.
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model);
 
 }  // namespace faultline

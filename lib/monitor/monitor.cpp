@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/monitor.hpp"
 
-#include <limits>
 #include <utility>
 
-#include "lib/evidence/survey/survey_log.hpp"
-#include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/log/transformed/tapped_source.hpp"
-#include "lib/monitor/evidence_monitor.hpp"
+#include "lib/monitor/explain_monitor.hpp"
 #include "lib/monitor/log_tally.hpp"
 #include "lib/monitor/relation_monitor.hpp"
 #include "lib/monitor/sample_monitor.hpp"
@@ -47,53 +44,45 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   return out;
 }
 
-MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options,
-                     double enough_from_s) {
+}  // namespace
+
+MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
-  EmptyRowsSource surveyed(log);
-  LogDay day = by_samples ? LogDay{} : survey_log(surveyed, model.motion);
-  day.noise.repeats_say_nothing = model.has_velocity && !day.noise.has_velocity;
-  EvidenceMonitor evidence(model, by_samples ? model.motion : day.model, day.noise);
+  ExplainMonitor explained(model);
   SampleMonitor samples(model.samples, options);
   const std::vector<SignalRelation> none;
   RelationMonitor relations(by_samples ? none : model.relations, false);
   LogTally tally;
   TappedSource counted(log, [&](const Log& segment) { tally.take(segment, log, model); });
   EmptyRowsSource filled(counted);
-  TappedSource watched(filled, [&](const Log& segment) {
-    tally.thin.take(segment, log.identity().runs);
-    relations.take(segment);
-  });
-  DelayedTorqueSource in_time(watched, day.torque_delay_s);
-  LogSource& acting = day.torque_delay_s.empty() ? static_cast<LogSource&>(watched) : in_time;
   ResidualState state;
   ResidualSummary whole;
-  for (Log segment; acting.next(segment);) {
+  for (Log segment; filled.next(segment);) {
+    tally.thin.take(segment, log.identity().runs);
+    relations.take(segment);
     Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.add(residuals);
     if (by_samples)
       samples.take(residuals);
     else
-      evidence.take(segment, std::move(residuals));
-    if (evidence.has_alarmed_since(enough_from_s)) break;
+      explained.take(segment, std::move(residuals), log.identity().runs);
   }
-  evidence.finish();
+  explained.finish();
   samples.finish();
   relations.finish();
-  LogFacts facts = log_facts(log, tally, model, evidence.rejected_alarms());
-  facts.issues.merge(day.notes);
+  LogFacts facts = log_facts(log, tally, model);
   facts.is_whole = facts.is_whole && filled.rows_put_in() == 0;
-  return {std::move(facts),       whole.joints(),           evidence.episodes(),
-          samples.alarms(),       evidence.largest_ratio(), evidence.slow_estimates(),
-          evidence.slow_faults(), relations.episodes(),     relations.judged_s(),
-          relations.beyond_s(),   std::move(day.roughness)};
-}
-
-}  // namespace
-
-MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
-  return monitor(log, model, options, std::numeric_limits<double>::infinity());
+  return {.log = std::move(facts),
+          .residuals = whole.joints(),
+          .episodes = explained.episodes(),
+          .sample_alarms = samples.alarms(),
+          .largest_share = explained.largest_share(),
+          .day = explained.day(),
+          .relation_episodes = relations.episodes(),
+          .relations_judged_s = relations.judged_s(),
+          .relations_beyond_s = relations.beyond_s(),
+          .roughness = explained.loudness()};
 }
 
 MonitoredLog read_unjudged(LogSource& log, const Model& model) {
@@ -106,10 +95,6 @@ MonitoredLog read_unjudged(LogSource& log, const Model& model) {
   MonitoredLog out;
   out.log = log_facts(log, tally, model);
   return out;
-}
-
-MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s) {
-  return monitor(log, model, {}, enough_from_s);
 }
 
 }  // namespace faultline

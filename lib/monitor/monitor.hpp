@@ -9,14 +9,10 @@
 namespace faultline {
 
 /// The loop of the whole program: every segment goes through the residuals of the regenerated fault-free
-/// motion and on to the bank of hypotheses, or to the networks over single samples. Memory does not grow with
-/// the log, and where segments end changes nothing. Throws Error(input) when the log has other joints than
-/// the model's robot, or no torque.
+/// motion and on to the regression, or to the networks over single samples. Memory does not grow with the
+/// log, and where segments end changes nothing. Throws Error(input) when the log has other joints than the
+/// model's robot, or no torque.
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options = {});
-
-/// The same, but the log is read only until an episode was named whose alarm is at `enough_from_s` or later,
-/// to the end of that segment.
-MonitoredLog monitor_until_found(LogSource& log, const Model& model, double enough_from_s);
 
 /// What is known of a log whose rate or clock lets nothing of it be judged: read once, with no finding.
 MonitoredLog read_unjudged(LogSource& log, const Model& model);

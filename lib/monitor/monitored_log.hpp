@@ -6,7 +6,7 @@
 #include "lib/diagnosis/diagnosis.hpp"
 #include "lib/diagnosis/monitored_episode.hpp"
 #include "lib/diagnosis/sample_alarm.hpp"
-#include "lib/evidence/watch/slow_watch.hpp"
+#include "lib/explain/day_effects.hpp"
 #include "lib/residual/relation/relation_watch.hpp"
 
 namespace faultline {
@@ -15,11 +15,10 @@ namespace faultline {
 struct MonitoredLog {
   LogFacts log;
   std::vector<JointResidual> residuals;            ///< of the MLP, over the whole log
-  std::vector<MonitoredEpisode> episodes;          ///< found by the bank of hypotheses
+  std::vector<MonitoredEpisode> episodes;          ///< found by the regression
   std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
-  double largest_ratio = 0.0;                      ///< log likelihood ratio that raised no alarm
-  std::vector<SlowEstimate> slow;                  ///< empty where no hypotheses were followed
-  std::vector<SlowFault> slow_faults;              ///< likewise
+  double largest_share = 0.0;                      ///< of its limit, of evidence that raised no alarm
+  std::vector<DayEffect> day;                      ///< empty where nothing was explained
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
   std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged

@@ -19,8 +19,8 @@
 #include "lib/diagnosis/relation/relation_findings.hpp"
 #include "lib/diagnosis/relation/tracking_findings.hpp"
 #include "lib/diagnosis/verdict.hpp"
-#include "lib/evidence/reading/question_change.hpp"
-#include "lib/evidence/reading/question_reading.hpp"
+#include "lib/evidence/question_change.hpp"
+#include "lib/evidence/question_reading.hpp"
 #include "lib/log/recorder/mended_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/monitor/model_rate.hpp"
@@ -30,26 +30,23 @@ namespace faultline {
 
 namespace {
 
-/// Those that no hypothesis named.
-void add_slow_faults(const std::vector<SlowFault>& slow, const Model& model,
-                     std::vector<FaultFinding>& faults) {
+/// Those of joints in which no fault was found.
+void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
   const std::vector<FaultFinding> named = faults;
-  for (const SlowFault& fault : slow) {
-    FaultFinding finding = finding_of(fault, model.motion.chain);
-    if (std::none_of(named.begin(), named.end(),
-                     [&](const FaultFinding& other) { return other.label == finding.label; }))
-      faults.push_back(std::move(finding));
-  }
+  for (const LastingFriction& friction : lasting_friction(run.day, run.log.start_s, run.log.end_s))
+    if (std::none_of(named.begin(), named.end(), [&](const FaultFinding& other) {
+          return other.label.joint == friction.effect.joint;
+        }))
+      faults.push_back(finding_of(friction, model.robot.chain));
 }
 
 std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
   if (run.log.is_tracked) return tracking_findings(run.relation_episodes, model.robot.chain);
   std::vector<FaultFinding> faults;
   for (const MonitoredEpisode& episode : run.episodes)
-    if (FaultFinding finding = decide_episode(episode, model, cases); finding.label.kind != FaultKind::none)
-      faults.push_back(std::move(finding));
+    faults.push_back(decide_episode(episode, model, cases));
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
-  add_slow_faults(run.slow_faults, model, faults);
+  add_lasting_friction(run, model, faults);
   faults = with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
   for (FaultFinding& fault : faults)
     if (fault.decided_by == DecidedBy::actuator && fault.label.kind == FaultKind::torque_loss)
@@ -176,7 +173,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model), model.grave_doubts};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
-  diagnosis.condition = condition_of(run.slow, model.motion.chain);
+  diagnosis.condition = condition_of(run.day, model.robot.chain);
   diagnosis.roughness = run.roughness;
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));

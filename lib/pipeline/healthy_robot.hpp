@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,14 @@ struct HealthyRobot {
   std::vector<IdentifiedLog> given;      ///< all logs, as first identified
   TorqueReading reading;                 ///< of logs that were opened with the robot as given
   std::deque<DelayedTorqueSource> logs;  ///< those that agree
-  Model model;                           ///< robot, identification and motion
+  std::vector<LogSource*> days;          ///< the same; a single log is cut into several days
+  std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log
+  Model model;                                      ///< robot, identification, motion, rows
+  std::vector<RobotRows> without{};                 ///< rows learned without each of the days
 };
 
-/// Identifies the robot and learns the family of its healthy days. Where a work piece comes and goes, the
-/// robot is identified a second time, from the rows without it. `logs` outlive the result. Throws
+/// Identifies the robot and learns how its healthy days differ. Where a work piece comes and goes, the robot
+/// is identified a second time, from the rows without it. `logs` outlive the result. Throws
 /// Error(input) when they do not suffice.
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress);

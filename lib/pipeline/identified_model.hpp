@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/evidence/learn/learn_motion_model.hpp"
+#include "lib/evidence/usual_motion.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
 
-/// The beginning of a model: the identified robot, the usual sample period of its logs, and the bank of
-/// hypotheses that follows from them.
+/// Usual sample period of the logs.
+double identified_period_s(const Identification& identification);
+
+/// The beginning of a model: the identified robot and the usual sample period of its logs.
 Model identified_model(const Identification& identification);
 
-/// What the filters need of the identification.
+/// What the identification says of the motion.
 IdentifiedMotion identified_motion(const Identification& identification);
 
 }  // namespace faultline

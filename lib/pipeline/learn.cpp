@@ -10,7 +10,6 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
-#include "lib/evidence/learn/learn_motion_model.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/model/model_files.hpp"
@@ -34,11 +33,11 @@ constexpr int kHealthySampleRuns = 24;
 constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 
 // Shares of the work that are done after its stages, roughly.
-constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kCalibrated = 0.4, kSimulated = 0.8,
+constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8,
                  kTrained = 0.85;
 
 // Streams of seeds that never meet.
-constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthySeeds = 2'000'000,
+constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000,
                         kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
                         kSeedBlock = 10'000'000;
 
@@ -70,10 +69,9 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 
 /// A ratio exceeds t by chance with a probability of at most exp(-t) (Wald, 1945): so many nats more make
 /// false alarms so much rarer.
-EvidenceOptions thresholds_for(double alarms_per_hour) {
-  EvidenceOptions options;
-  options.threshold += elementary::log(kUsualAlarmsPerHour / alarms_per_hour);
-  return options;
+/// Nats beside the usual limits that fewer false alarms ask for.
+double more_nats(double alarms_per_hour) {
+  return elementary::log(kUsualAlarmsPerHour / alarms_per_hour);
 }
 
 void tell(const Progress& progress, const char* what, double share) {
@@ -92,9 +90,9 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
 }
 
 /// What the paper's classifiers train on: faults that show in every sample while they last, and healthy runs.
-std::vector<FaultLabel> sample_labels(const std::vector<Hypothesis>& bank,
+std::vector<FaultLabel> sample_labels(const std::vector<FaultLabel>& all,
                                       const std::vector<FaultKind>& kinds) {
-  std::vector<FaultLabel> labels = labels_to_simulate(bank, kSampleRunsPerLabel, kinds);
+  std::vector<FaultLabel> labels = labels_to_simulate(all, kSampleRunsPerLabel, kinds);
   std::erase_if(labels, [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
   labels.insert(labels.end(), kHealthySampleRuns, FaultLabel{});
   return labels;
@@ -111,13 +109,11 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part) {
     return monitored_twin_runs(twin, model, labels, seed + stream, options.threads, part);
   };
-  auto faults = [&](int each) { return labels_to_simulate(model.bank, each, options.kinds); };
+  auto faults = [&](int each) { return labels_to_simulate(model.labels, each, options.kinds); };
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
 
-  tell(progress, "simulating healthy runs", kResidualsLearned);
-  model.evidence.threshold = calm_threshold(model.evidence.threshold, runs_of(calm, kHealthySeeds, {}));
   std::vector<MonitoredRun> runs =
-      runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kCalibrated, kSimulated));
+      runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kResidualsLearned, kSimulated));
   const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
@@ -128,7 +124,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.episode_classifier = train_episode_classifier(training.episodes, classifying);
   out.cases = fill_case_base(training, model, classifying);
   tell(progress, "training networks on samples", kSimulated);
-  model.samples = learn_sample_mode(twin, model, sample_labels(model.bank, options.kinds),
+  model.samples = learn_sample_mode(twin, model, sample_labels(model.labels, options.kinds),
                                     seed + kSampleSeeds, options.threads);
   std::vector<MonitoredRun> checks =
       runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0));
@@ -183,10 +179,10 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
   TrustedRobot trusted = trusted_robot(logs.sources(), robot,
                                        {.identify = options.identify,
-                                        .start = thresholds_for(options.alarms_per_hour),
+                                        .more_nats = more_nats(options.alarms_per_hour),
                                         .threads = options.threads},
                                        part_of(progress, 0.0, kIdentified));
-  HealthyRobot& found = trusted.watched.robot;
+  HealthyRobot& found = trusted.explained.robot;
   doubts.add(doubts_about(found.identification));
   doubts.add({{}, trusted.doubts, {}});
   if (!options.keep_doubtful) refuse_grave(doubts);

@@ -23,18 +23,18 @@ struct LabelledLog {
   double onset_s = 0.0;
 };
 
-/// The budget that the threshold of EvidenceOptions is meant for.
+/// The budget that the limits of healthy logs are meant for.
 inline constexpr double kUsualAlarmsPerHour = 0.01;
 
 struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
   TwinOptions twin{};                            ///< how faults are simulated
-  int runs_per_label = 14;                       ///< simulated to train the networks and fill the case base
-  int validation_per_label = 5;                  ///< simulated to measure the model, trained on by nothing
-  double alarms_per_hour = kUsualAlarmsPerHour;  ///< that chance may raise, by the bank and by each relation
-  int healthy_runs = 40;           ///< simulated to calibrate thresholds; as many again measure false alarms
-  std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that the bank can name
+  int runs_per_label = 5;                        ///< simulated to train the networks and fill the case base
+  int validation_per_label = 3;                  ///< simulated to measure the model, trained on by nothing
+  double alarms_per_hour = kUsualAlarmsPerHour;  ///< that chance may raise, by the regression and by each relation
+  int healthy_runs = 20;           ///< simulated to measure false alarms
+  std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that can be named
   bool keep_doubtful = false;      ///< a model that is not to be trusted is marked rather than refused
   int threads = 0;                 ///< 0 = one a core; changes no byte of the result
   std::uint64_t seed = 1;

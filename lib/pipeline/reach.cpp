@@ -63,7 +63,7 @@ Reach reach_of(const FaultLabel& label, std::span<const MonitoredRun> runs) {
     ++reach.runs;
     if (episode) {
       ++reach.found;
-      delays.push_back(episode->evidence.alarm_s - run.onset_s);
+      delays.push_back(episode->alarm_s() - run.onset_s);
     }
     if (std::isfinite(run.size)) trials.push_back({std::abs(run.size), episode != nullptr});
   }

@@ -67,7 +67,7 @@ TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Mod
 
 CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
                         const EpisodeClassifierOptions& options) {
-  CaseBase cases(episode_feature_names(model.bank, model.robot.joints()));
+  CaseBase cases(episode_feature_names(model.labels, model.robot.joints()));
   const std::array<EpisodeClassifier, 2> half = trained_on_halves(training.episodes, options);
   for (std::size_t i = 0; i < training.episodes.size(); ++i) {
     Case c;

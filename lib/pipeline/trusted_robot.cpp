@@ -10,54 +10,51 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
-#include "lib/evidence/survey/survey_log.hpp"
-#include "lib/evidence/watch/episode_detector.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kRobotFirst = 0.6;  // share of the work that is done before logs are doubted
-// Nats that a fault may explain of a healthy log before it is worth the time of a robot of its own; the most
-// suspicious log is tried whatever they are.
-constexpr double kHint = 20.0;
+// Two logs that nobody else vouches for: a day that was not learned gives as much as kLeastEvidence times this.
+constexpr double kContradictory = 10.0;
 
-/// A fault that a robot learned from other logs sees in one.
-struct Sighting {
-  FaultLabel label;
-  double onset_s = 0.0;
-};
-
-std::optional<Sighting> sight(LogSource& log, const HealthyRobot& others) {
-  DelayedTorqueSource in_time = others.reading.of(log);
-  const MotionModel& motion = others.model.motion;
-  EpisodeDetector detector(motion, others.model.bank, others.model.evidence, survey_noise(in_time, motion));
-  in_time.rewind();
-  for (Log segment; detector.episodes().empty() && in_time.next(segment);) detector.take(segment);
-  detector.finish();
-  if (detector.episodes().empty()) return std::nullopt;
-  const EpisodeEvidence& first = detector.episodes().front();
-  return Sighting{others.model.bank[first.best].label, first.onset_s};
-}
-
-/// A log, and the robot of the others that names a fault in it.
+/// What a robot learned from the other logs sees in one of them.
 struct Contradiction {
   int log = 0;  ///< from 0
-  Sighting seen;
-  WatchedRobot others;
+  FaultLabel label;
+  double onset_s = 0.0;
+  std::optional<ExplainedRobot> others{};  ///< the robot that sees it, where it was learned anew
 };
 
-/// Logs given to learn from, by their index from 0, and the robot that those in use make.
+/// The strongest evidence in log `k`, as a share of what the other logs ask for.
+double suspicion(const std::vector<LogExplanation>& left_out, std::size_t k) {
+  std::vector<LogExplanation> others;
+  for (std::size_t i = 0; i < left_out.size(); ++i)
+    if (i != k) others.push_back(left_out[i]);
+  return largest_share(left_out[k], evidence_limits(others));
+}
+
+/// The log that the others contradict most, and whether they do at all.
+std::optional<std::size_t> suspect(const std::vector<LogExplanation>& left_out) {
+  std::size_t worst = 0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < left_out.size(); ++k)
+    if (const double share = suspicion(left_out, k); share > most) most = share, worst = k;
+  if (!(most > 1.0)) return std::nullopt;
+  return worst;
+}
+
 class LogTrial {
  public:
-  LogTrial(std::span<LogSource* const> logs, const Robot& robot, const WatchedRobotOptions& options)
+  LogTrial(std::span<LogSource* const> logs, const Robot& robot, const ExplainedRobotOptions& options)
       : logs_(logs), robot_(robot), options_(options), in_use_(logs.size()) {
     std::iota(in_use_.begin(), in_use_.end(), 0);
   }
 
   void learn(const Progress& progress) {
-    watched_ = watched_robot(logs_, robot_, options_, progress);
-    given_ = watched_.robot.given;
+    explained_ = explained_robot(logs_, robot_, options_, progress);
+    given_ = explained_.robot.given;
     std::erase_if(in_use_, [&](int log) { return given_[log].left_out; });
   }
 
@@ -71,59 +68,56 @@ class LogTrial {
   /// Doubts of two logs, or of logs that are all kept.
   void doubt(const Progress& progress) {
     if (in_use_.size() < 2) return;
-    if (const auto found = find_contradiction(progress))
-      doubts_.push_back(sentence(found->log, found->seen) + "; it was learned from all the same");
+    const auto found = in_use_.size() == 2 ? contradiction_of_two() : find_contradiction(progress);
+    if (found) doubts_.push_back(sentence(*found) + "; it was learned from all the same");
   }
 
   bool keeps_all() const { return options_.identify.keep_all || in_use_.size() == 2; }
 
   TrustedRobot result() && {
-    HealthyRobot& robot = watched_.robot;
+    HealthyRobot& robot = explained_.robot;
     robot.given = std::move(given_);
     for (Issue& issue : issues_) robot.identification.issues.add(std::move(issue));
-    return {std::move(watched_), std::move(doubts_)};
+    return {std::move(explained_), std::move(doubts_)};
   }
 
  private:
-  /// The most suspicious log in use, and others of which faults explain much, most suspicious first.
-  std::vector<int> suspects() const {
-    const auto& extremes = watched_.extremes;
-    std::vector<int> order(extremes.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return std::pair(extremes[a].largest_ratio(), extremes[a].trigger) >
-             std::pair(extremes[b].largest_ratio(), extremes[b].trigger);
-    });
-    const std::size_t most = in_use_.size() == 2 ? 2 : (in_use_.size() - 1) / 2;
-    if (order.size() > most) order.resize(most);
-    while (order.size() > 1 && in_use_.size() > 2 && extremes[order.back()].largest_ratio() < kHint)
-      order.pop_back();
-    for (int& log : order) log = in_use_[log];
-    return order;
-  }
-
-  std::optional<WatchedRobot> learned_without(int log, const Progress& progress) const {
+  std::optional<ExplainedRobot> learned_without(int log, const Progress& progress) const {
     if (progress) progress("judging " + given_[log].path + " by the other logs", kRobotFirst);
     std::vector<LogSource*> others;
     for (const int other : in_use_)
       if (other != log) others.push_back(logs_[other]);
     try {
-      return watched_robot(others, robot_, options_);
+      return explained_robot(others, robot_, options_);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::input) throw;
       return std::nullopt;  // they do not suffice without it
     }
   }
 
-  /// The first suspect in which a robot of the others names a fault.
-  std::optional<Contradiction> find_contradiction(const Progress& progress) const {
-    for (const int log : suspects()) {
-      auto others = learned_without(log, progress);
-      if (!others) continue;
-      if (const auto seen = sight(*logs_[log], others->robot))
-        return Contradiction{log, *seen, std::move(*others)};
-    }
+  std::optional<Contradiction> contradiction_of_two() const {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const FaultHypothesis& h : explained_.left_out[k].best)
+        if (h.gain > kContradictory * kLeastEvidence)
+          return Contradiction{in_use_[k], {h.kind, h.joint}, h.onset_s};
     return std::nullopt;
+  }
+
+  /// The suspect, if a robot of the others names a fault in it.
+  std::optional<Contradiction> find_contradiction(const Progress& progress) const {
+    const std::optional<std::size_t> found = suspect(explained_.left_out);
+    if (!found || explained_.left_out.size() != in_use_.size()) return std::nullopt;
+    const int log = in_use_[*found];
+    std::optional<ExplainedRobot> others = learned_without(log, progress);
+    if (!others) return std::nullopt;
+    DelayedTorqueSource in_time = others->robot.reading.of(*logs_[log]);
+    in_time.rewind();
+    const ExplainModel& model = others->robot.model.explain;
+    const ExplainedLog seen =
+        explain_whole_log(uniform_log(in_time, sample_period_s(model.robot)), model);
+    if (seen.faults.empty()) return std::nullopt;
+    const FaultClaim& first = seen.faults.front().claim;
+    return Contradiction{log, {first.kind, first.joint}, first.onset_s, std::move(others)};
   }
 
   bool leave_one_out(const Progress& progress) {
@@ -131,19 +125,19 @@ class LogTrial {
     if (!found) return false;
     issues_.push_back(make_issue(
         fmt::format("suspicious_log_{}", found->log + 1), Severity::warning,
-        sentence(found->log, found->seen) +
+        sentence(*found) +
             "; it was left out. If it is faulty, diagnose it or name its fault with --labels; if it is "
             "healthy, --keep-all learns from it, too"));
-    leave_out(found->log, std::move(found->others));
+    leave_out(found->log, std::move(*found->others));
     return true;
   }
 
   /// Goes on with the robot that the others made, and without what that left out by itself.
-  void leave_out(int log, WatchedRobot others) {
-    watched_ = std::move(others);
+  void leave_out(int log, ExplainedRobot others) {
+    explained_ = std::move(others);
     given_[log].left_out = true;
     std::erase(in_use_, log);
-    const std::vector<IdentifiedLog>& given = watched_.robot.given;
+    const std::vector<IdentifiedLog>& given = explained_.robot.given;
     std::vector<int> kept;
     for (std::size_t i = 0; i < in_use_.size(); ++i) {
       given_[in_use_[i]].left_out = given[i].left_out;
@@ -152,17 +146,17 @@ class LogTrial {
     in_use_ = std::move(kept);
   }
 
-  std::string sentence(int log, const Sighting& seen) const {
+  std::string sentence(const Contradiction& found) const {
     return fmt::format("a robot learned from the other {} shows {} from {:.2f} s on in {}",
-                       in_use_.size() == 2 ? "log" : "logs", label_text(seen.label, " at joint "),
-                       seen.onset_s, given_[log].path);
+                       in_use_.size() == 2 ? "log" : "logs", label_text(found.label, " at joint "),
+                       found.onset_s, given_[found.log].path);
   }
 
   std::span<LogSource* const> logs_;
   const Robot& robot_;
-  WatchedRobotOptions options_;
+  ExplainedRobotOptions options_;
   std::vector<int> in_use_;
-  WatchedRobot watched_;
+  ExplainedRobot explained_;
   std::vector<IdentifiedLog> given_;
   std::vector<Issue> issues_;
   std::vector<std::string> doubts_;
@@ -171,7 +165,7 @@ class LogTrial {
 }  // namespace
 
 TrustedRobot trusted_robot(std::span<LogSource* const> logs, const Robot& robot,
-                           const WatchedRobotOptions& options, const Progress& progress) {
+                           const ExplainedRobotOptions& options, const Progress& progress) {
   LogTrial trial(logs, robot, options);
   trial.learn(part_of(progress, 0.0, kRobotFirst));
   if (trial.keeps_all())

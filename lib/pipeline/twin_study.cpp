@@ -14,21 +14,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kCalmMargin = 1.3;  // the threshold lies this much above what healthy twins reach
 constexpr double kSecondsPerHour = 3600.0;
 constexpr int kRowsAtATime = 64;
-constexpr double kMostRaised = 2.0;  // times the threshold before
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
-                     [&](const MonitoredEpisode& episode) { return episode.evidence.alarm_s < run.onset_s; });
-}
-
-double largest_ratio(const MonitoredRun& run) {
-  double largest = run.log.largest_ratio;
-  for (const MonitoredEpisode& episode : run.log.episodes)
-    largest = std::max(largest, episode.evidence.hypotheses[episode.evidence.best].log_likelihood_ratio);
-  return largest;
+                     [&](const MonitoredEpisode& episode) { return episode.alarm_s() < run.onset_s; });
 }
 
 void count(const MonitoredRun& run, double alarm_s, const FaultFinding& finding, ValidationRow& row,
@@ -42,12 +33,6 @@ void count(const MonitoredRun& run, double alarm_s, const FaultFinding& finding,
   row.right_kind_and_joint += kind && joint;
   row.right_or_named += (kind && joint) || named;
   delays.push_back(alarm_s - run.onset_s);
-}
-
-/// Of a faulty run only the episode of its fault is asked for, and what came before.
-MonitoredLog monitored(LogSource& log, const TwinRun& run, const Model& model) {
-  return run.label.kind == FaultKind::none ? monitor(log, model)
-                                           : monitor_until_found(log, model, run.onset_s);
 }
 
 double size_of(const TwinRun& run) {
@@ -68,7 +53,7 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    runs[i] = {run.label,   run.onset_s, length_s, kSimulatedOrigin, monitored(source, run, model),
+    runs[i] = {run.label,   run.onset_s, length_s, kSimulatedOrigin, monitor(source, model),
                size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)
@@ -77,27 +62,19 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
   return runs;
 }
 
-std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
+std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,
                                            const std::vector<FaultKind>& kinds) {
-  std::vector<FaultLabel> labels;
-  for (const FaultLabel& label : labels_of(bank).labels) {
-    const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), label.kind) != kinds.end();
-    if (wanted && label.kind != FaultKind::unknown && label.joint > 0)
-      labels.insert(labels.end(), count, label);
-  }
-  return labels;
+  std::vector<FaultLabel> out;
+  for (const FaultLabel& label : labels)
+    if (kinds.empty() || std::find(kinds.begin(), kinds.end(), label.kind) != kinds.end())
+      out.insert(out.end(), count, label);
+  return out;
 }
 
 const MonitoredEpisode* episode_of_fault(const MonitoredRun& run) {
   for (const MonitoredEpisode& episode : run.log.episodes)
-    if (episode.evidence.alarm_s >= run.onset_s) return &episode;
+    if (episode.alarm_s() >= run.onset_s) return &episode;
   return nullptr;
-}
-
-double calm_threshold(double threshold, std::span<const MonitoredRun> healthy) {
-  double largest = 0.0;
-  for (const MonitoredRun& run : healthy) largest = std::max(largest, largest_ratio(run));
-  return std::max(threshold, std::min(kCalmMargin * largest, kMostRaised * threshold));
 }
 
 Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
@@ -114,8 +91,7 @@ Validated validate(std::span<const MonitoredRun> faulty, std::span<const Monitor
     const MonitoredEpisode* episode = episode_of_fault(run);
     if (!episode) continue;
     const FaultFinding finding = decide_episode(*episode, model, cases);
-    if (finding.label.kind == FaultKind::none) continue;
-    count(run, episode->evidence.alarm_s, finding, row, delays[run.label.kind]);
+    count(run, episode->alarm_s(), finding, row, delays[run.label.kind]);
     if (finding.label.kind != FaultKind::unknown)
       out.judged.push_back(
           {confidence_source(finding.decided_by), finding.confidence, finding.label == run.label});

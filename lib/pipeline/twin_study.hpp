@@ -29,18 +29,13 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
                                               const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
                                               int threads, const Progress& progress = {});
 
-/// Every label the bank can name `count` times: of the kinds asked for, all if none is; joint by joint.
-std::vector<FaultLabel> labels_to_simulate(const std::vector<Hypothesis>& bank, int count,
+/// Each of the labels `count` times: of the kinds asked for, all if none is.
+std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,
                                            const std::vector<FaultKind>& kinds);
 
 /// The episode that belongs to the run's fault: the first alarm not before its onset; null when there is
 /// none.
 const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
-
-/// The alarm threshold raised above what simulated healthy runs reach, but not to where it would hide faults
-/// because a controller of the twin went astray; the false alarms of the validation tell whether that was
-/// enough.
-double calm_threshold(double threshold, std::span<const MonitoredRun> healthy);
 
 struct Validated {
   Validation validation;

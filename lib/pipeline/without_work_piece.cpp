@@ -1,70 +1,70 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/without_work_piece.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include "lib/core/parallel.hpp"
-#include "lib/core/statistics.hpp"
-#include "lib/evidence/learn/work_pieces.hpp"
-
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kSpareRows = 20;  // beside a change, whose row is not told better
-constexpr double kFewestOfAll = 0.15;    // share of the rows
+constexpr double kFewestOfAll = 0.15;  // share of the rows
 constexpr std::int64_t kFewestRows = 1000;
-constexpr std::int64_t kToTheEnd = std::numeric_limits<std::int64_t>::max();
+constexpr double kSpare_s = 0.05;  // beside a change
 
-bool is_picked_up(const WorkPieceChange& change) { return change.kg > 0.0; }
+/// Times at which the tip is empty.
+struct EmptyTimes {
+  double begin_s = 0.0, end_s = 0.0;
+};
 
-/// The tip's mass at the start of logs that began without a work piece, against what was identified.
-double empty_tip(const std::vector<WorkPieceHistory>& histories) {
-  std::vector<double> masses;
-  for (const WorkPieceHistory& log : histories)
-    if (!log.changes.empty()) masses.push_back(log.at_first_kg + std::min(log.changes.front().kg, 0.0));
-  return masses.empty() ? 0.0 : upper_median(masses);
-}
-
-/// Between a piece put down, or the log's start, and a piece picked up, or its end.
-std::vector<RowRange> empty_rows(const std::vector<WorkPieceChange>& changes) {
-  std::vector<RowRange> out;
-  for (std::size_t i = 0; i <= changes.size(); ++i) {
-    const bool after = i == 0 || !is_picked_up(changes[i - 1]);
-    const bool before = i == changes.size() || is_picked_up(changes[i]);
-    const RowRange range{i == 0 ? 0 : changes[i - 1].row + kSpareRows,
-                         i == changes.size() ? kToTheEnd : changes[i].row - kSpareRows};
-    if (after && before && range.begin < range.end) out.push_back(range);
+std::vector<EmptyTimes> empty_times(const PieceTimes& piece) {
+  std::vector<EmptyTimes> out;
+  const auto rows = static_cast<int>(piece.path.size());
+  for (int k = 0; k < rows; ++k) {
+    if (piece.path[k] != 0) continue;
+    const int first = k;
+    while (k + 1 < rows && piece.path[k + 1] == 0) ++k;
+    out.push_back({piece.time_s[first] + (first > 0 ? kSpare_s : -kSpare_s),
+                   piece.time_s[k] + (k + 1 < rows ? -kSpare_s : kSpare_s)});
   }
   return out;
 }
 
-std::int64_t rows_in(const std::vector<RowRange>& ranges, std::int64_t rows) {
-  std::int64_t sum = 0;
-  for (const RowRange& range : ranges)
-    sum += std::max<std::int64_t>(std::min(range.end, rows) - range.begin, 0);
-  return sum;
+/// Rows of a log, and those of them at these times.
+struct EmptyRows {
+  std::int64_t all = 0;
+  std::vector<RowRange> empty;
+};
+
+EmptyRows rows_within(LogSource& log, const std::vector<EmptyTimes>& times) {
+  EmptyRows out;
+  std::size_t next = 0;
+  bool is_open = false;
+  log.rewind();
+  for (Log segment; log.next(segment);)
+    for (int k = 0; k < segment.rows(); ++k, ++out.all) {
+      const double t = segment.time[k];
+      while (next < times.size() && t > times[next].end_s) {
+        ++next;
+        is_open = false;
+      }
+      const bool is_empty = next < times.size() && t >= times[next].begin_s;
+      if (!is_empty) continue;
+      if (!is_open) out.empty.push_back({out.all, out.all});
+      is_open = true;
+      out.empty.back().end = out.all + 1;
+    }
+  return out;
 }
 
 }  // namespace
 
 std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
-                                                           const MotionModel& model, int threads) {
-  if (model.work_pieces_kg.empty()) return {};
-  const auto count = static_cast<int>(logs.size());
-  std::vector<WorkPieceHistory> histories(logs.size());
-  parallel_for(count, threads, [&](int i) { histories[i] = work_piece_history(*logs[i], model); });
-  const double empty = empty_tip(histories);
-  const double piece = *std::min_element(model.work_pieces_kg.begin(), model.work_pieces_kg.end());
-  std::vector<std::vector<RowRange>> out(logs.size());
+                                                           const FittedDays& days) {
+  if (!(days.model.piece_kg > 0.0)) return {};
+  std::vector<std::vector<RowRange>> out;
   std::int64_t all = 0, told = 0;
-  for (int i = 0; i < count; ++i) {
-    const WorkPieceHistory& log = histories[i];
-    const bool carries_throughout = log.changes.empty() && log.at_first_kg - empty > 0.5 * piece;
-    if (!carries_throughout) out[i] = empty_rows(log.changes);
-    const std::int64_t rows = logs[i]->identity().rows_read;
-    all += rows;
-    told += rows_in(out[i], rows);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    EmptyRows rows = rows_within(*logs[i], empty_times(days.pieces[i]));
+    all += rows.all;
+    for (const RowRange& range : rows.empty) told += range.end - range.begin;
+    out.push_back(std::move(rows.empty));
   }
   const bool enough =
       told >= kFewestRows && static_cast<double>(told) >= kFewestOfAll * static_cast<double>(all);

@@ -51,7 +51,7 @@ struct RunCurves {
   std::vector<char> turns;               ///< 1 for a revolute joint
   bool by_reference = false;  ///< what is called predicted is the reference: the log was only tracked
   TorqueMeaning torque = TorqueMeaning::measured;  ///< what `tau` is
-  double alarm_ratio = 0.0;                        ///< log likelihood ratio that raises the alarm
+  double alarm_ratio = 0.0;                        ///< least log likelihood ratio that raises an alarm
 
   bool empty() const { return whole.bins == 0; }
 };

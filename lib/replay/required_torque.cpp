@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "lib/evidence/slow_state.hpp"
+#include "lib/explain/day_effects.hpp"
 #include "lib/identify/motion/log_survey.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
 #include "lib/robot/dynamics.hpp"
@@ -232,20 +232,18 @@ RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionIt
   RobotOfTheDay robot{model.motion.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
                       model.motion.torque_phi};
   for (const ConditionItem& item : condition) {
-    const auto is = [&](SlowKind kind) { return item.name.starts_with(to_string(kind)); };
+    const auto is = [&](DayEffectKind kind) { return item.name.starts_with(to_string(kind)); };
     const int j = item.joint - 1;
     if (!std::isfinite(item.value)) continue;
-    if (is(SlowKind::friction)) {
+    if (is(DayEffectKind::friction)) {
       const double scale = std::max(1.0 + item.value / kPercent, kLeastFriction);
       robot.chain.friction[j].viscous *= scale;
       robot.chain.friction[j].coulomb *= scale;
       robot.chain.friction[j].load *= scale;
-    } else if (is(SlowKind::torque_gain)) {
+    } else if (is(DayEffectKind::torque_gain)) {
       robot.gain[j] += item.value / kPercent;
-    } else if (is(SlowKind::torque_offset)) {
+    } else if (is(DayEffectKind::torque_offset)) {
       robot.offset[j] += item.value;
-    } else if (is(SlowKind::tip_mass)) {
-      robot.chain = with_tip_mass(robot.chain, item.value);
     }
   }
   return robot;

@@ -74,7 +74,7 @@ RunCurves without_curves(const Model& model, const LogFacts& log) {
   }
   curves.by_reference = log.is_tracked;
   curves.torque = model.robot.log.torque;
-  curves.alarm_ratio = model.evidence.threshold;
+  curves.alarm_ratio = least_limit(model.explain.limits);
   return curves;
 }
 

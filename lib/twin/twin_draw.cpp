@@ -113,8 +113,7 @@ ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random) 
 NoiseSpec draw_noise(const Twin& twin, Random& random) {
   const MotionModel& motion = *twin.motion;
   NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
-  if (motion.usual_noise.q.empty()) return noise;
-  const auto& [low, high] = motion.noise_range;
+  const auto& [low, high] = twin.identification->robot.normal.noise;
   const double level = low * elementary::exp(random.uniform() * elementary::log(high / low));
   noise.q = scaled(motion.q_std, level);
   if (!noise.dq.empty()) noise.dq = scaled(motion.dq_std, level);

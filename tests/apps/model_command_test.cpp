@@ -11,7 +11,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"
-#include "tests/support/older_model.hpp"
+#include "tests/support/resealed_model.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -156,7 +156,7 @@ TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
 }
 
 TEST_F(ModelCommand, FilesOfEarlierProgramsGoTogetherAndAreTold) {
-  write_file(model_, older_model_text(nlohmann::ordered_json::parse(read_file(model_))));
+  write_file(model_, resealed_model_text(nlohmann::ordered_json::parse(read_file(model_))));
   EXPECT_EQ(diagnose().status, 3) << "the case base is of a model that had an identity";
   change_case_base(base_, [](CaseBase& base) { base.belong_to(""); });
   const ProgramRun run = diagnose();

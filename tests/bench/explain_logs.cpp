@@ -69,7 +69,7 @@ struct FineCore {
   }
   static std::vector<ExplainedFault> faults(LogSource& log, const Model& model,
                                             const EvidenceLimits& limits) {
-    return explain_faults(whole(log, model.setting.period_s), model, limits);
+    return explain_faults(whole(log, model.setting.period_s), model, limits).faults;
   }
 };
 
@@ -92,14 +92,7 @@ struct CoarseCore {
   /// One fault at most.
   static std::vector<ExplainedFault> faults(LogSource& log, const Model& model,
                                             const EvidenceLimits& limits) {
-    const CoarseLog read = coarse_log(whole(log, model.setting.period_s), model);
-    const auto alarm = [&](const FaultHypothesis& h, double limit) {
-      return coarse_alarm_time(read, h, limit);
-    };
-    const LogExplanation e = explain_coarse(read);
-    const auto misfit = [&e](const FaultHypothesis& h) { return coarse_misfit(e, h); };
-    const std::optional<ExplainedFault> fault = decide_log(e, limits, {alarm, misfit});
-    return fault ? std::vector<ExplainedFault>{*fault} : std::vector<ExplainedFault>{};
+    return explain_whole_log(whole(log, model.setting.period_s), {model, limits}).faults;
   }
 };
 

@@ -19,10 +19,10 @@ class FeatureReadingOf : public testing::Test {
   }
 
   Model model_ = hand_made_rrp();
-  std::vector<EpisodeFeature> list_ = episode_feature_list(model_.bank, 3);
+  std::vector<EpisodeFeature> list_ = episode_feature_list(model_.labels, 3);
   std::vector<double> features_ = [this] {
-    EpisodeEvidence episode = episode_of_fault(model_, kBias3, 100.0, 0.02);
-    explain(episode, model_, kLoss1, 88.0, 0.4);
+    MonitoredEpisode episode = episode_of_fault(kBias3, 100.0, 0.02);
+    explain(episode, kLoss1, 88.0, 0.4);
     return seen(episode, model_, residuals_of({1.0, 2.0, 20.0})).features;
   }();
 };
@@ -44,8 +44,7 @@ TEST_F(FeatureReadingOf, SizesInTheirUnits) {
 
 TEST_F(FeatureReadingOf, StrengthTimeAndResiduals) {
   EXPECT_NEAR(read("strength").value, 100.0, 1e-9);
-  EXPECT_EQ(read("samples").value, 70.0);
-  EXPECT_NEAR(read("duration").value, 0.7, 1e-9);
+  EXPECT_NEAR(read("duration").value, 2.0, 1e-9);
   EXPECT_NEAR(read("mlp residual 3").value, 20.0, 1e-9);
   EXPECT_EQ(read("mlp residual 3").what, "MLP residual of joint 3");
 }

@@ -37,17 +37,17 @@ inline EpisodeClassifier classifier_that_says(const Opinion& mlp, const Opinion&
   return classifier;
 }
 
-/// An RRP robot with its bank, no classifier yet.
+/// An RRP robot with its labels, no classifier yet.
 inline Model hand_made_rrp() {
   Model model;
   model.robot = known_rrp();
   model.motion = hand_made_model(model.robot);
-  model.bank = hypotheses_of(3, TorqueMeaning::commanded);
+  model.labels = fault_labels(3, false);
   return model;
 }
 
 inline std::vector<std::string> features_of(const Model& model) {
-  return episode_feature_names(model.bank, model.robot.joints());
+  return episode_feature_names(model.labels, model.robot.joints());
 }
 
 /// The same with classifier of a fixed opinion.
@@ -57,30 +57,36 @@ inline Model hand_made_rrp(const Opinion& mlp, const Opinion& rbfn) {
   return model;
 }
 
-/// Sets the first hypothesis of `label` and returns it, to be refined.
-inline HypothesisEvidence& explain(EpisodeEvidence& episode, const Model& model, const FaultLabel& label,
-                                   double ratio, double size = 0.0, double second_size = 0.0) {
-  std::size_t h = 0;
-  while (model.bank[h].label != label) ++h;
-  episode.hypotheses[h].log_likelihood_ratio = ratio;
-  episode.hypotheses[h].size = {size, second_size};
-  if (ratio > episode.hypotheses[episode.best].log_likelihood_ratio) episode.best = static_cast<int>(h);
-  return episode.hypotheses[h];
+/// The log explained by `label`, too; the best of all comes first.
+inline void explain(MonitoredEpisode& episode, const FaultLabel& label, double nats, double size = 0.0,
+                    double second_size = 0.0) {
+  ExplainedFault& fault = episode.fault;
+  LabelScore score{.claim = {label.kind, label.joint, 2.0}, .nats = nats};
+  const int sizes = describe(label.kind).size_count;
+  if (sizes > 0) score.claim.size = Eigen::Vector2d(size, second_size).head(sizes);
+  std::erase_if(fault.scores, [&](const LabelScore& s) { return s.label() == label; });
+  fault.scores.push_back(score);
+  std::stable_sort(fault.scores.begin(), fault.scores.end(),
+                   [](const LabelScore& x, const LabelScore& y) { return x.nats > y.nats; });
+  if (fault.scores.front().label() != label) return;
+  fault.claim = score.claim;
+  fault.evidence = nats;
 }
 
-/// An episode that `label` explains by `ratio` nats and nothing else explains at all.
-inline EpisodeEvidence episode_of_fault(const Model& model, const FaultLabel& label, double ratio = 100.0,
-                                        double size = 0.0, double second_size = 0.0) {
-  EpisodeEvidence episode;
-  episode.onset_s = 2.0;
-  episode.alarm_s = 2.1;
-  episode.isolated_s = 2.7;
+/// The same by a fault that explains the log almost as well as the best.
+inline void explain_alike(MonitoredEpisode& episode, const FaultLabel& label, double nats) {
+  explain(episode, label, nats);
+  episode.fault.could_also_be.push_back(label);
+}
+
+/// An episode that `label` explains by `nats` and nothing else explains at all.
+inline MonitoredEpisode episode_of_fault(const FaultLabel& label, double nats = 100.0, double size = 0.0,
+                                         double second_size = 0.0) {
+  MonitoredEpisode episode;
+  explain(episode, label, nats, size, second_size);
+  episode.fault.alarm_s = 2.1;
+  episode.fault.limit = 21.0;
   episode.end_s = 4.0;
-  episode.samples = 70;
-  episode.best = 0;
-  episode.hypotheses.resize(model.bank.size());
-  for (HypothesisEvidence& evidence : episode.hypotheses) evidence.log_likelihood_ratio = -200.0;
-  explain(episode, model, label, ratio, size, second_size);
   return episode;
 }
 
@@ -97,16 +103,17 @@ inline std::vector<JointResidual> residuals_of(const std::vector<double>& veloci
 }
 
 /// The episode as the case base compares it.
-inline Episode seen(const EpisodeEvidence& episode, const Model& model,
+inline Episode seen(MonitoredEpisode episode, const Model& model,
                     const std::vector<JointResidual>& residuals = {}) {
-  return describe_episode({episode, residuals}, model).episode;
+  episode.residuals = residuals;
+  return describe_episode(episode, model).episode;
 }
 
 /// An empty case base that compares what the model's classifier are shown.
 inline CaseBase empty_base(const Model& model) { return CaseBase(features_of(model)); }
 
 /// `count` confirmed cases that look exactly like `episode`.
-inline CaseBase base_of(const Model& model, const EpisodeEvidence& episode, const FaultLabel& label,
+inline CaseBase base_of(const Model& model, const MonitoredEpisode& episode, const FaultLabel& label,
                         int count) {
   CaseBase base = empty_base(model);
   Case c;

@@ -23,13 +23,13 @@ Model slide(const std::string& more = "") {
   model.motion.q_low = {0.0};
   model.motion.q_high = {0.5};
   model.motion.torque_scale = {10.0};
-  model.bank = hypotheses_of(1, TorqueMeaning::commanded);
+  model.labels = fault_labels(1, false);
   return model;
 }
 
 FaultExtent of_payload(double kg, const Model& model) {
   const FaultLabel label{FaultKind::payload_change, 1};
-  return extent_of(label, {{label, 50.0, {kg / model.motion.priors.payload, 0.0}, {}}}, model);
+  return extent_of(label, {{label, 50.0, {kg / model.motion.priors.payload, 0.0}}}, model);
 }
 
 TEST(LeastSize, IsAShareOfWhatTheRobotCarries) {
@@ -66,7 +66,7 @@ TEST(LeastSize, IsSaidOfEachKindAndJoint) {
 
 TEST(LeastSize, AKindWithoutASizeHasNone) {
   const FaultLabel locked{FaultKind::locked, 1};
-  EXPECT_TRUE(std::isnan(extent_of(locked, {{locked, 50.0, {}, {}}}, slide()).times_least));
+  EXPECT_TRUE(std::isnan(extent_of(locked, {{locked, 50.0}}, slide()).times_least));
 }
 
 }  // namespace

@@ -22,10 +22,14 @@ class Precedents : public testing::Test {
     return base_.retain(c);
   }
 
-  FaultFinding finding() const { return decide_episode({episode_, {}}, model_, base_); }
+  FaultFinding finding() const { return decide_episode(episode_, model_, base_); }
 
   Model model_ = hand_made_rrp({kLocked2, 0.9}, {kStuck2, 0.8});
-  EpisodeEvidence episode_ = episode_of_fault(model_, kLocked2);
+  MonitoredEpisode episode_ = [] {
+    MonitoredEpisode episode = episode_of_fault(kLocked2);
+    explain_alike(episode, kStuck2, 99.0);
+    return episode;
+  }();
   CaseBase base_ = empty_base(model_);
 };
 
@@ -72,7 +76,7 @@ TEST_F(Precedents, WhatIsNotNearIsNotShownWhateverItsOrigin) {
 TEST_F(Precedents, SayWhatAgreesAndWhatDoesNot) {
   for (const FaultLabel& label : {kBias3, kPush1, kLoss1}) {  // so that some things are unusual
     Case c;
-    c.episode = seen(episode_of_fault(model_, label), model_);
+    c.episode = seen(episode_of_fault(label), model_);
     c.decision = c.label = label;
     c.origin = kSimulatedOrigin;
     base_.retain(c);

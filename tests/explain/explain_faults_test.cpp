@@ -31,7 +31,7 @@ Log with_loss(Log log, int joint, double share, double onset_s, double end_s = k
 }
 
 std::vector<ExplainedFault> faults_of(Log log) {
-  return explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({}));
+  return explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({})).faults;
 }
 
 std::string said(const std::vector<ExplainedFault>& faults) {

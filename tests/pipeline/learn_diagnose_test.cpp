@@ -7,7 +7,7 @@
 #include "lib/pipeline/diagnose.hpp"
 #include "lib/report/json.hpp"
 #include "tests/pipeline/small_robot.hpp"
-#include "tests/support/older_model.hpp"
+#include "tests/support/resealed_model.hpp"
 
 namespace faultline {
 namespace {
@@ -56,9 +56,9 @@ TEST(LearnDiagnose, AModelTellsWhatItWasSimulatedWithAndOlderOnesStillLoad) {
   EXPECT_EQ(model_from_json(text, "model").twin, options.twin);
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
   json.erase("twin");
-  EXPECT_EQ(model_from_json(older_model_text(json), "model").twin, std::nullopt);
+  EXPECT_EQ(model_from_json(resealed_model_text(json), "model").twin, std::nullopt);
   json["twin"] = {{"pd_share", "half"}};
-  EXPECT_THROW(model_from_json(older_model_text(json), "model"), Error);
+  EXPECT_THROW(model_from_json(resealed_model_text(json), "model"), Error);
 }
 
 TEST(LearnDiagnose, RoundTripAndSegmentBordersChangeNoByte) {

@@ -17,7 +17,7 @@ MonitoredRun run(const FaultLabel& label, double size, bool found) {
   out.size = size;
   if (found) {
     MonitoredEpisode episode;
-    episode.evidence.alarm_s = 2.1;
+    episode.fault.alarm_s = 2.1;
     out.log.episodes.push_back(episode);
   }
   return out;
@@ -52,7 +52,7 @@ TEST(Reach, OneMissAmongManyLargeOnesIsNoReasonToDoubt) {
 
 TEST(Reach, AnAlarmBeforeTheOnsetFindsNothing) {
   std::vector<MonitoredRun> runs = runs_found_from(0.0);
-  for (MonitoredRun& each : runs) each.log.episodes[0].evidence.alarm_s = 1.0;
+  for (MonitoredRun& each : runs) each.log.episodes[0].fault.alarm_s = 1.0;
   EXPECT_EQ(reach_of(runs)[0].found, 0);
 }
 

@@ -36,7 +36,7 @@ TEST(TrustedRobot, ALogWithAFaultAmongHealthyOnesIsNamedAndLeftOut) {
   given.add("weak.csv", {weak_drive()});
   given.add("c.csv", {});
   const TrustedRobot trusted = trusted_robot(given.sources, unknown_small_robot(), {});
-  const HealthyRobot& robot = trusted.watched.robot;
+  const HealthyRobot& robot = trusted.explained.robot;
   ASSERT_EQ(robot.given.size(), 3u);
   EXPECT_FALSE(robot.given[0].left_out);
   EXPECT_TRUE(robot.given[1].left_out);
@@ -53,7 +53,7 @@ TEST(TrustedRobot, HealthyLogsAreAllKept) {
   Given given;
   for (const char* name : {"a.csv", "b.csv", "c.csv", "d.csv"}) given.add(name, {});
   const TrustedRobot trusted = trusted_robot(given.sources, unknown_small_robot(), {});
-  for (const IdentifiedLog& log : trusted.watched.robot.given) EXPECT_FALSE(log.left_out) << log.path;
+  for (const IdentifiedLog& log : trusted.explained.robot.given) EXPECT_FALSE(log.left_out) << log.path;
   EXPECT_TRUE(trusted.doubts.empty());
 }
 
@@ -62,7 +62,7 @@ TEST(TrustedRobot, TwoLogsThatContradictEachOtherAreKeptWithADoubt) {
   given.add("a.csv", {});
   given.add("weak.csv", {weak_drive()});
   const TrustedRobot trusted = trusted_robot(given.sources, unknown_small_robot(), {});
-  for (const IdentifiedLog& log : trusted.watched.robot.given) EXPECT_FALSE(log.left_out) << log.path;
+  for (const IdentifiedLog& log : trusted.explained.robot.given) EXPECT_FALSE(log.left_out) << log.path;
   ASSERT_EQ(trusted.doubts.size(), 1u);
   EXPECT_NE(trusted.doubts[0].find(".csv"), std::string::npos) << trusted.doubts[0];
 }
@@ -72,10 +72,10 @@ TEST(TrustedRobot, AskedToKeepAllLogsItDoubtsInsteadOfLeavingOut) {
   given.add("a.csv", {});
   given.add("b.csv", {});
   given.add("weak.csv", {weak_drive()});
-  WatchedRobotOptions options;
+  ExplainedRobotOptions options;
   options.identify.keep_all = true;
   const TrustedRobot trusted = trusted_robot(given.sources, unknown_small_robot(), options);
-  EXPECT_EQ(trusted.watched.robot.logs.size(), 3u);
+  EXPECT_EQ(trusted.explained.robot.logs.size(), 3u);
   EXPECT_EQ(trusted.doubts.size(), 1u);
 }
 

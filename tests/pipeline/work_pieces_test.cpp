@@ -26,27 +26,27 @@ SimulationSpec carrying(SimulationSpec spec, const std::vector<Carried>& pieces)
 }
 
 TEST(WorkPieces, RowsWithoutThemAreThoseBeforeAndAfterTheyAreCarried) {
-  MotionModel model = rrp_motion_model();
-  model.work_pieces_kg = {kPiece_kg};
-  MemorySource often(simulate(known_rrp(), carrying(rrp_run(20.0), {{4.0, 8.0}, {12.0, 16.0}}), 71).log),
-      never(simulate(known_rrp(), rrp_run(10.0), 72).log);
+  MemorySource often(simulate(known_rrp(), rrp_run(20.0), 71).log), never(simulate(known_rrp(), rrp_run(20.0), 72).log);
   const std::vector<LogSource*> logs = {&often, &never};
-  const auto rows = rows_without_work_piece(logs, model, 0);
+  FittedDays days;
+  days.model.piece_kg = kPiece_kg;
+  const Eigen::VectorXd time_s = Eigen::VectorXd::LinSpaced(200, 0.05, 19.95);
+  PiecePath path(200, 0);
+  for (int k = 40; k < 80; ++k) path[k] = 1;
+  for (int k = 120; k < 160; ++k) path[k] = 1;
+  days.pieces = {{time_s, path}, {time_s, PiecePath(200, 0)}};
+  const auto rows = rows_without_work_piece(logs, days);
   ASSERT_EQ(rows.size(), 2u);
   ASSERT_EQ(rows[0].size(), 3u);
   EXPECT_EQ(rows[0][0].begin, 0);
-  EXPECT_NEAR(static_cast<double>(rows[0][0].end), 400.0, 60.0);
-  EXPECT_NEAR(static_cast<double>(rows[0][1].begin), 800.0, 60.0);
-  EXPECT_NEAR(static_cast<double>(rows[0][1].end), 1200.0, 60.0);
-  EXPECT_NEAR(static_cast<double>(rows[0][2].begin), 1600.0, 60.0);
-  ASSERT_EQ(rows[1].size(), 1u) << "a log in which nothing changes and nothing is carried";
+  EXPECT_NEAR(static_cast<double>(rows[0][0].end), 400.0, 20.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][1].begin), 800.0, 20.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][1].end), 1200.0, 20.0);
+  EXPECT_NEAR(static_cast<double>(rows[0][2].begin), 1600.0, 20.0);
+  ASSERT_EQ(rows[1].size(), 1u) << "a log in which nothing is carried";
   EXPECT_EQ(rows[1][0].begin, 0);
-}
-
-TEST(WorkPieces, ARobotThatKnowsOfNoneKeepsAllRows) {
-  MemorySource log(simulate(known_rrp(), rrp_run(10.0), 73).log);
-  const std::vector<LogSource*> logs = {&log};
-  EXPECT_TRUE(rows_without_work_piece(logs, rrp_motion_model(), 0).empty());
+  days.model.piece_kg = 0.0;
+  EXPECT_TRUE(rows_without_work_piece(logs, days).empty()) << "a robot that knows of none keeps all rows";
 }
 
 TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
@@ -62,8 +62,7 @@ TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
   const double with_pieces = mass_of(identify(logs, unknown_small_robot()));
   for (MemorySource& source : sources) source.rewind();
   const HealthyRobot robot = healthy_robot(logs, unknown_small_robot(), {}, {});
-  ASSERT_EQ(robot.model.motion.work_pieces_kg.size(), 1u);
-  EXPECT_NEAR(robot.model.motion.work_pieces_kg.front(), kPiece_kg, 0.03);
+  EXPECT_NEAR(std::get<BalanceModel>(robot.model.explain.robot).piece_kg, kPiece_kg, 0.03);
   EXPECT_GT(with_pieces, 2.2) << "the piece is carried half of the time";
   EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
 }

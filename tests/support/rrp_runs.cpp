@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/rrp_runs.hpp"
 
-#include <map>
-
-#include "lib/evidence/learn/learn_motion_model.hpp"
+#include "lib/evidence/usual_motion.hpp"
 
 namespace faultline {
-namespace {
 
-Robot rrp_with(double mass_factor) {
+Robot known_rrp() {
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {8.0 * mass_factor, 5.0 * mass_factor, 2.5 * mass_factor}, {0.35, 0.3, 0.0});
+  set_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
   robot.chain.friction = {{2.0, 3.0, 0.0, 0.02}, {1.0, 2.0, 0.0, 0.02}, {20.0, 8.0, 0.0, 0.01}};
   return robot;
 }
-
-}  // namespace
-
-Robot known_rrp() { return rrp_with(1.0); }
 
 SimulationSpec rrp_run(double duration_s) {
   SimulationSpec spec;
@@ -43,19 +36,19 @@ std::vector<std::unique_ptr<MemorySource>> healthy_rrp_logs() {
   return logs;
 }
 
-const MotionModel& rrp_motion_model(double mass_factor) {
-  static std::map<double, MotionModel> models;
-  const auto known = models.find(mass_factor);
-  if (known != models.end()) return known->second;
-  const auto owners = healthy_rrp_logs();
-  std::vector<LogSource*> logs;
-  for (const auto& log : owners) logs.push_back(log.get());
-  IdentifiedMotion identified;
-  identified.chain = rrp_with(mass_factor).chain;
-  identified.torque_is_held = true;
-  identified.q_std = {1e-4, 1e-4, 2e-5};
-  identified.dq_std = {5e-3, 5e-3, 1e-3};
-  return models[mass_factor] = learn_motion_model(logs, identified, {});
+const MotionModel& rrp_motion_model() {
+  static const MotionModel model = [] {
+    const auto owners = healthy_rrp_logs();
+    std::vector<LogSource*> logs;
+    for (const auto& log : owners) logs.push_back(log.get());
+    IdentifiedMotion identified;
+    identified.chain = known_rrp().chain;
+    identified.torque_is_held = true;
+    identified.q_std = {1e-4, 1e-4, 2e-5};
+    identified.dq_std = {5e-3, 5e-3, 1e-3};
+    return usual_motion(logs, identified);
+  }();
+  return model;
 }
 
 }  // namespace faultline

@@ -20,11 +20,10 @@ SimulationSpec rrp_run(double duration_s);
 SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double size = 0.0,
                             double length_s = 1e9);
 
-/// A filter's model of `robot`, matched to healthy simulated runs of known_rrp(); the same object every time
-/// for the same `mass_factor`, by which the masses of the filter's robot differ from the true ones.
-const MotionModel& rrp_motion_model(double mass_factor = 1.0);
+/// The robot with ranges and scales of healthy simulated runs of it; the same object every time.
+const MotionModel& rrp_motion_model();
 
-/// Healthy runs of known_rrp() that rrp_motion_model() is matched to.
+/// The healthy runs of rrp_motion_model().
 std::vector<std::unique_ptr<MemorySource>> healthy_rrp_logs();
 
 }  // namespace faultline

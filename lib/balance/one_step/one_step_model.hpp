@@ -22,6 +22,7 @@ struct OneStepModel {
   /// Prior variance of the effects of a day: relative change of each base parameter, then of each joint's
   /// friction, then force beside the torque of each joint (N m or N).
   Eigen::VectorXd day_variance;
+  bool torque_is_measured = false;  ///< behind the drive: then a loss of torque does not show
 
   // What the healthy logs looked like, by joint.
   Eigen::VectorXd torque_rms, q_low, q_high, top_speed;  ///< speed that 1 in 200 rows exceeds

@@ -10,7 +10,7 @@
 
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
-#include "lib/evidence/slow_state.hpp"
+#include "lib/explain/day_effects.hpp"
 #include "lib/plot/line_plot.hpp"
 
 namespace faultline {
@@ -79,7 +79,7 @@ double value_in(const std::vector<ParameterValue>& values, const std::string& na
 PlotPanel condition_panel(const std::vector<const BatchRow*>& judged, int joints) {
   PlotPanel panel{"friction, % from identified", {}};
   for (int j = 1; j <= std::min(joints, kJoints); ++j) {
-    const std::string name = fmt::format("{}_{}", to_string(SlowKind::friction), j);
+    const std::string name = fmt::format("{}_{}", to_string(DayEffectKind::friction), j);
     PlotSeries series = curve(fmt::format("joint {}", j), judged, false,
                               [&](const BatchRow& row) { return value_in(row.condition, name); });
     if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); }))

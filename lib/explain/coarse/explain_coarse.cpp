@@ -85,6 +85,7 @@ struct CoarseBench {
 
   /// Judges a guess as it is and, where its onset matters, from where its best onset is.
   void try_from(const CoarseGuess& guess) {
+    if (guess.kind == FaultKind::torque_loss && log.model->torque_is_measured) return;
     go(guess, kRounds);
     if (moves_with_onset(guess.kind)) go(approached(log, guess), kRounds);
   }
@@ -270,15 +271,17 @@ LogExplanation explain_coarse(const CoarseLog& log) {
   return out;
 }
 
-double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis, double threshold) {
+EvidenceCourse coarse_course(const CoarseLog& log, const FaultHypothesis& hypothesis) {
   int onset = 0;
   while (onset < log.samples() && log.time_s(onset) < hypothesis.onset_s) ++onset;
+  EvidenceCourse out;
   double sum = 0.0;
   for (int k = std::max(0, onset - 1) + 1; k < log.samples(); ++k) {
     sum += hypothesis.fit.row_gain[k];
-    if (sum > threshold) return log.time_s(k);
+    out.time_s.push_back(log.time_s(k));
+    out.nats.push_back(sum);
   }
-  return log.end_s();
+  return out;
 }
 
 double coarse_misfit(const LogExplanation& e, const FaultHypothesis& h) {

@@ -9,8 +9,8 @@ namespace faultline {
 /// What a log at a coarse rate says: the best hypothesis of each kind and joint, best first.
 LogExplanation explain_coarse(const CoarseLog& log);
 
-/// When the evidence of `hypothesis` from its onset on passes `threshold` (nats).
-double coarse_alarm_time(const CoarseLog& log, const FaultHypothesis& hypothesis, double threshold);
+/// Evidence of `hypothesis` from its onset on.
+EvidenceCourse coarse_course(const CoarseLog& log, const FaultHypothesis& hypothesis);
 
 /// Whether a hypothesis leaves so much that the fault is none of the kinds: 0, or without bound.
 double coarse_misfit(const LogExplanation& explanation, const FaultHypothesis& hypothesis);

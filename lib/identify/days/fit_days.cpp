@@ -75,6 +75,7 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
     m.theta = robot.theta;
     m.day_variance = prior_of_a_day(m, variance_between_days(m, robot.moments));
   }
+  for (HealthyDay& day : draft.days) out.pieces.push_back({day.rows.time_s, std::move(day.path)});
   draft.model.day_variance = prior_of_a_day(draft.model, between);
   out.model = std::move(draft.model);
   return out;

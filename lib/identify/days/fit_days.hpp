@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/balance/balance_model.hpp"
+#include "lib/balance/work_piece.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/log/log_source.hpp"
 
@@ -19,11 +20,18 @@ struct DayFitOptions {
   bool springs = true, ripples = true, pieces = true;
 };
 
+/// When a work piece was carried in a log.
+struct PieceTimes {
+  Eigen::VectorXd time_s;  ///< of the rows
+  PiecePath path;          ///< level in each; empty without a work piece
+};
+
 /// A robot from its healthy logs, and the same by all of them but each one in turn: what a log shows that was
 /// not learned from. Only what is linear is fitted anew: terms, widths and noise stay.
 struct FittedDays {
   BalanceModel model;
   std::vector<BalanceModel> without;  ///< by log
+  std::vector<PieceTimes> pieces;     ///< by log
 };
 
 /// The robot, how it differs from day to day and the noise of its rows, from healthy logs (at least two of

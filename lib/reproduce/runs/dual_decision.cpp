@@ -45,15 +45,9 @@ std::vector<Value> thinned(const std::vector<Value>& values, int most) {
   return out;
 }
 
-DecisionOptions decision_options() {
-  DecisionOptions options;
-  options.thin_evidence = 0.0;  // the thresholds decide what is thin
-  return options;
-}
-
 /// By networks and cases alone.
-Decision decision_of(const Episode& episode, const CaseBase& cases, const DecisionOptions& options) {
-  return decide({{}, episode, votes_on(episode, cases, options.votes)}, options);
+Decision decision_of(const Episode& episode, const CaseBase& cases) {
+  return opinion_on(episode, votes_on(episode, cases));
 }
 
 Opinion opinion_of(const Eigen::VectorXd& outputs, const std::vector<FaultLabel>& classes) {
@@ -108,7 +102,6 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
                                       const std::vector<FaultLabel>& classes, const CaseBase& cases,
                                       std::span<const double> thresholds) {
   std::vector<Alarms> alarms(thresholds.size());
-  const DecisionOptions options = decision_options();
   for (std::size_t t = 0; t < thresholds.size(); ++t) {
     const Suspicion* open = nullptr;  // the last one of the alarm that still stands
     for (const Suspicion& s : suspicions) {
@@ -118,7 +111,7 @@ std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
       }
       open = nullptr;
       if (s.largest() < thresholds[t]) continue;
-      const Decision decision = decision_of(episode_of(s, classes, thresholds[t]), cases, options);
+      const Decision decision = decision_of(episode_of(s, classes, thresholds[t]), cases);
       if (decision.label.joint == 0) continue;
       alarms[t].push_back({s.time_s, decision.label});
       open = &s;
@@ -152,7 +145,6 @@ CaseBase cases_of_samples(const SampleDetector& detector, std::span<const Experi
 Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<FaultLabel>& classes,
                                const CaseBase& cases) {
   Eigen::MatrixXd decided = Eigen::MatrixXd::Zero(outputs.mlp.rows(), outputs.mlp.cols());
-  const DecisionOptions options = decision_options();
   for (Index i = 0; i < decided.cols(); ++i) {
     if (!says_something(outputs, i)) {
       decided.col(i).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -160,7 +152,7 @@ Eigen::MatrixXd decide_samples(const SampleOutputs& outputs, const std::vector<F
     }
     const Episode episode = sample_episode(outputs, i, classes);
     const bool agree = episode.mlp.label == episode.rbfn.label;
-    const FaultLabel label = agree ? episode.mlp.label : decision_of(episode, cases, options).label;
+    const FaultLabel label = agree ? episode.mlp.label : decision_of(episode, cases).label;
     decided(class_of(classes, label), i) = 1.0;
   }
   return decided;

@@ -32,7 +32,7 @@ DetectorResult watch_with_filters(const std::string& detector, const MotionModel
 }
 
 std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test) {
-  const double threshold = learned.model.evidence.threshold;
+  const double threshold = learned.model.explain.limits.of(FaultKind::free_swinging);
   std::vector<DetectorResult> results;
   for (const char* name : {detector_name::kBankMlp, detector_name::kBankRbfn, detector_name::kBankCases})
     results.push_back({name, decision_name::kBank, threshold, {}});

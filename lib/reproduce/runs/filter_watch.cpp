@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lib/evidence/bank.hpp"
+#include "lib/reproduce/filter/bank.hpp"
 
 namespace faultline {
 namespace {

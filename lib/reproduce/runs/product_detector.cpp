@@ -6,7 +6,8 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
-#include "lib/evidence/learn/learn_motion_model.hpp"
+#include "lib/reproduce/filter/match_noise.hpp"
+#include "lib/evidence/usual_motion.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
 
@@ -18,6 +19,9 @@ constexpr std::uint64_t kDetectorNoise = 100;
 constexpr int kMatchedRows = 2000;
 constexpr int kHealthyRuns = 10;      // simulated to calibrate the threshold
 constexpr double kLeastSigma = 1e-5;  // a filter needs some measurement noise
+constexpr double kSafety = 1.25;      // other days are worse than those that the noise was matched to
+// Floors that keep a model of perfect logs from trusting itself too much.
+constexpr double kLeastTorqueShare = 0.003, kLeastRestShare = 0.05;
 
 /// Healthy logs as the stages read them.
 class Sources {
@@ -92,7 +96,17 @@ MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healt
     motion.dq_std.push_back(std::max(sigma, kLeastSigma) * ranges.dq[j]);
   }
   const Sources sources(healthy);
-  return learn_motion_model(sources.all(), motion, {.excerpt_rows = kMatchedRows, .normal = std::nullopt});
+  MotionModel model = usual_motion(sources.all(), motion);
+  std::vector<HealthyExcerpt> excerpts;
+  const int each = kMatchedRows / static_cast<int>(healthy.logs.size());
+  for (const Log& log : healthy.logs) excerpts.push_back({slice(log, 0, std::min(log.rows(), each))});
+  match_noise(model, excerpts, {.held = motion.torque_is_held, .threads = 1});
+  ProcessNoise& noise = model.noise;
+  noise.torque_share = std::max(kSafety * noise.torque_share, kLeastTorqueShare);
+  noise.rest_share = std::max(kSafety * noise.rest_share, kLeastRestShare);
+  noise.step_share *= kSafety;
+  for (double& floor : noise.floor) floor *= kSafety;
+  return model;
 }
 
 ProductAlarms product_alarms(const Learned& learned, const Log& log) {
@@ -100,10 +114,10 @@ ProductAlarms product_alarms(const Learned& learned, const Log& log) {
   MemorySource source(log, "run");
   ProductAlarms alarms;
   for (const MonitoredEpisode& observed : monitor(source, model).episodes) {
-    const double alarm_s = observed.evidence.alarm_s;
-    const auto [evidence, episode] = describe_episode(observed, model);
-    alarms.mlp.push_back({alarm_s, named_by_size(episode.mlp.label, evidence)});
-    alarms.rbfn.push_back({alarm_s, named_by_size(episode.rbfn.label, evidence)});
+    const double alarm_s = observed.alarm_s();
+    const Episode episode = describe_episode(observed, model).episode;
+    alarms.mlp.push_back({alarm_s, episode.mlp.label});
+    alarms.rbfn.push_back({alarm_s, episode.rbfn.label});
     alarms.cases.push_back({alarm_s, decide_episode(observed, model, learned.cases).label});
   }
   return alarms;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "lib/balance/balance_model.hpp"
+#include "lib/balance/one_step/one_step_model.hpp"
+#include "lib/balance/uniform_log.hpp"
+#include "lib/explain/day_effects.hpp"
+#include "lib/explain/decide_log.hpp"
+
+namespace faultline {
+
+/// A robot as its logs show it: from 50 Hz on by rows of the torque balance, below by one-step predictions.
+using RobotRows = std::variant<BalanceModel, OneStepModel>;
+
+/// What explains the logs of a robot: the robot, and the evidence that a fault needs.
+struct ExplainModel {
+  RobotRows robot;
+  EvidenceLimits limits;
+};
+
+double sample_period_s(const RobotRows& robot);
+
+/// What the whole of a log says.
+struct ExplainedLog {
+  std::vector<ExplainedFault> faults;  ///< by onset
+  std::vector<DayEffect> day;          ///< effects of the day beside the faults
+  std::vector<double> loudness;        ///< by joint: the noise of its rows, times that of the healthy logs
+  double largest_share = 0.0;          ///< of its limit, that the strongest evidence without a fault has
+};
+
+/// Whether a log is long enough to say anything.
+bool can_explain(const UniformLog& log, const RobotRows& robot);
+
+/// Explains a log for which can_explain() is true.
+ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model);
+
+/// What a healthy log says, for evidence_limits().
+LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot);
+
+}  // namespace faultline

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/fault/fault_catalogue.hpp"
+
+namespace faultline {
+
+/// What may be wrong with a robot of so many joints: each kind at each joint it can have, in the order of the
+/// catalogue, but the unknown fault. `torque_is_measured`: behind the drive, which hides some kinds.
+std::vector<FaultLabel> fault_labels(int joints, bool torque_is_measured);
+
+}  // namespace faultline

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "lib/monitor/explain_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/log/memory_source.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kWindow_s = 120.0;
+constexpr double kOverlap_s = 10.0;    // of two windows; the middle parts what each decides
+constexpr double kLongestGap_s = 2.0;  // that a window spans
+constexpr double kResiduals_s = 3.0;   // from an onset on, over which its residuals are told
+constexpr int kFewestRows = 2;
+
+/// By which a healthy day may differ as the robot file says, or by default.
+double stated_range(const DayEffect& effect, const Model& model) {
+  const NormalRange& normal = model.robot.normal;
+  switch (effect.kind) {
+    case DayEffectKind::friction:
+      return normal.friction;
+    case DayEffectKind::torque_gain:
+      return normal.torque_constant;
+    case DayEffectKind::torque_offset:
+      return normal.torque_offset * model.motion.torque_scale[effect.joint - 1];
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
+  if (residuals.count() > 0) residuals_.push_back(std::move(residuals));
+  int begin = 0;
+  for (int k = 0; k < segment.rows(); ++k) {
+    const double t = segment.time[k];
+    bool is_new_run = false;
+    while (run_ + 1 < runs.size() && runs[run_ + 1].is_read && t >= runs[run_ + 1].start_s) {
+      ++run_;
+      is_new_run = true;
+    }
+    const double last_s = k > begin                ? segment.time[k - 1]
+                          : window_.rows() > 0     ? window_.time.back()
+                                                   : t;
+    const double first_s = window_.rows() > 0 ? window_.time.front() : segment.time[begin];
+    const bool is_gap = is_new_run || t - last_s > kLongestGap_s;
+    if (!is_gap && t - first_s < kWindow_s) continue;
+    take_rows(segment, begin, k);
+    explain_window(!is_gap);
+    begin = k;
+  }
+  take_rows(segment, begin, segment.rows());
+}
+
+void ExplainMonitor::take_rows(const Log& segment, int begin, int end) {
+  if (begin == end) return;
+  if (window_.rows() == 0)
+    window_ = slice(segment, begin, end);
+  else
+    append(window_, slice(segment, begin, end));
+}
+
+void ExplainMonitor::finish() { explain_window(false); }
+
+/// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
+void ExplainMonitor::explain_window(bool is_followed) {
+  if (window_.rows() < kFewestRows) return;
+  const double end_s = window_.time.back();
+  const double from_s = decided_s_.value_or(window_.time.front());
+  const double until_s = is_followed ? end_s - 0.5 * kOverlap_s : end_s;
+  MemorySource source(window_);
+  const UniformLog log = uniform_log(source, model_.sample_period_s);
+  ExplainedLog explained;
+  if (can_explain(log, model_.explain.robot)) explained = explain_whole_log(log, model_.explain);
+  std::vector<Lasting> before;
+  std::swap(before, lasting_);
+  for (const ExplainedFault& fault : explained.faults) {
+    const auto known = std::find_if(before.begin(), before.end(),
+                                    [&](const Lasting& l) { return l.label.joint == fault.claim.joint; });
+    const bool goes_on = known != before.end() && fault.claim.onset_s < from_s;
+    if (goes_on) {
+      episodes_[known->episode].end_s = std::min(fault.claim.end_s, until_s);
+      if (fault.claim.end_s > end_s) lasting_.push_back(*known);
+    } else if (fault.claim.onset_s >= from_s && fault.claim.onset_s <= until_s) {
+      episodes_.push_back({fault, std::min(fault.claim.end_s, until_s),
+                           residuals_between(fault.claim.onset_s, fault.claim.onset_s + kResiduals_s)});
+      if (fault.claim.end_s > end_s) lasting_.push_back({fault.label(), episodes_.size() - 1});
+    }
+  }
+  add_day(explained.day);
+  loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
+  for (std::size_t j = 0; j < explained.loudness.size(); ++j)
+    loudness_[j] = std::max(loudness_[j], explained.loudness[j]);
+  largest_share_ = std::max(largest_share_, explained.largest_share);
+  if (!is_followed) {
+    decided_s_.reset();
+    lasting_.clear();
+    window_ = {};
+    residuals_.clear();
+    return;
+  }
+  decided_s_ = until_s;
+  const double kept_s = end_s - kOverlap_s;
+  const auto first = std::lower_bound(window_.time.begin(), window_.time.end(), kept_s);
+  window_ = slice(window_, static_cast<int>(first - window_.time.begin()), window_.rows());
+  while (!residuals_.empty() && residuals_.front().time[residuals_.front().count() - 1] < kept_s)
+    residuals_.pop_front();
+}
+
+void ExplainMonitor::add_day(const std::vector<DayEffect>& day) {
+  if (day_.empty()) {
+    day_ = day;
+    for (DayEffect& sum : day_) sum.value = sum.std = 0.0;
+  }
+  for (std::size_t i = 0; i < day.size(); ++i) {
+    const double weight = 1.0 / (day[i].std * day[i].std);
+    day_[i].value += weight * day[i].value;
+    day_[i].std += weight;
+  }
+}
+
+std::vector<DayEffect> ExplainMonitor::day() const {
+  std::vector<DayEffect> out = day_;
+  for (DayEffect& effect : out) {
+    effect.value /= effect.std;
+    effect.std = 1.0 / std::sqrt(effect.std);
+    effect.day_std = std::max(effect.day_std, stated_range(effect, model_) / DayEffect::kStdsInRange);
+  }
+  return out;
+}
+
+std::vector<JointResidual> ExplainMonitor::residuals_between(double from_s, double to_s) const {
+  ResidualSummary summary(from_s, to_s);
+  for (const Residuals& residuals : residuals_) summary.add(residuals);
+  return summary.joints();
+}
+
+}  // namespace faultline

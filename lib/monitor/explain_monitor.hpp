@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "lib/diagnosis/monitored_episode.hpp"
+#include "lib/log/log.hpp"
+#include "lib/log/log_run.hpp"
+#include "lib/model/model.hpp"
+#include "lib/residual/residuals.hpp"
+
+namespace faultline {
+
+/// Gathers the rows of a log in windows of some minutes and explains each of them. Windows overlap, so that
+/// an onset has rows before and behind it; a gap or a restart of the clock ends a window. Where segments end
+/// changes nothing, and memory does not grow with the log.
+class ExplainMonitor {
+ public:
+  /// The model outlives this.
+  explicit ExplainMonitor(const Model& model) : model_(model) {}
+
+  /// The next rows with their residuals; `runs` are those known so far.
+  void take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs);
+  /// After the last segment.
+  void finish();
+
+  /// By onset.
+  const std::vector<MonitoredEpisode>& episodes() const { return episodes_; }
+  /// What the log tells of the effects of its day; empty where nothing could be explained.
+  std::vector<DayEffect> day() const;
+  /// By joint: the noise of the rows, times that of the healthy logs, in the loudest window.
+  const std::vector<double>& loudness() const { return loudness_; }
+  /// Of its limit, that the strongest evidence without a fault has.
+  double largest_share() const { return largest_share_; }
+
+ private:
+  void take_rows(const Log& segment, int begin, int end);
+  void explain_window(bool is_followed);
+  void add_day(const std::vector<DayEffect>& day);
+  std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
+
+  /// A fault that lasts to the end of the window before.
+  struct Lasting {
+    FaultLabel label;
+    std::size_t episode = 0;
+  };
+
+  const Model& model_;
+  Log window_;
+  std::deque<Residuals> residuals_;  ///< of the window
+  std::optional<double> decided_s_;  ///< up to which the windows before have decided
+  std::size_t run_ = 0;
+  std::vector<Lasting> lasting_;
+  std::vector<MonitoredEpisode> episodes_;
+  std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
+  std::vector<double> loudness_;
+  double largest_share_ = 0.0;
+};
+
+}  // namespace faultline

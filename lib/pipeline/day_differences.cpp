@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "lib/pipeline/day_differences.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/elementary/elementary.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // of a torque that the model misses
+
+void add(std::vector<SlowState>& states, SlowKind kind, int joint, double variance) {
+  if (variance > 0.0) states.push_back({.kind = kind, .joint = joint, .day_std = std::sqrt(variance)});
+}
+
+/// The torque that the rows leave, as one that is forgotten within some time.
+void add_missed_torque(std::vector<SlowState>& states, const BalanceModel& m, int joint) {
+  const Eigen::VectorXd covariance = autocovariance(m.noise.joint[joint]);
+  const double variance = m.noise.joint[joint].base * covariance[0];
+  if (!(variance > 0.0)) return;
+  const double again = covariance.size() > 1 ? covariance[1] / covariance[0] : 0.0;
+  const double memory_s = again > 0.0 ? -m.setting.row_s() / elementary::log(again) : kLeastMemory_s;
+  states.push_back({.kind = SlowKind::coloured_torque,
+                    .joint = joint,
+                    .day_std = std::sqrt(variance),
+                    .memory_s = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s)});
+}
+
+struct DayDifferences {
+  std::vector<SlowState> operator()(const BalanceModel& m) const {
+    const DayLayout at = day_layout(m.rigid);
+    std::vector<SlowState> states;
+    for (int j = 0; j < m.joints(); ++j) {
+      add(states, SlowKind::torque_offset, j, m.day_variance[at.offset(j)]);
+      add(states, SlowKind::friction, j, m.day_variance[at.friction(j)]);
+      add(states, SlowKind::torque_gain, j, m.day_variance[at.gain(j)]);
+      add_missed_torque(states, m, j);
+    }
+    return states;
+  }
+  std::vector<SlowState> operator()(const OneStepModel& m) const {
+    const int base = m.layout().base, n = m.joints();
+    std::vector<SlowState> states;
+    for (int j = 0; j < n; ++j) {
+      add(states, SlowKind::torque_offset, j, m.day_variance[base + n + j]);
+      add(states, SlowKind::friction, j, m.day_variance[base + j]);
+    }
+    return states;
+  }
+};
+
+double variance_of_range(double range) { return Eigen::numext::abs2(range / kStdsInRange); }
+
+struct Widen {
+  const NormalRange& stated;
+  const std::vector<double>& torque_scale;
+
+  void friction(double& variance) const {
+    if (stated.friction != NormalRange{}.friction)
+      variance = std::max(variance, variance_of_range(stated.friction));
+  }
+  void offset(double& variance, int joint) const {
+    if (stated.torque_offset != NormalRange{}.torque_offset)
+      variance = std::max(variance, variance_of_range(stated.torque_offset * torque_scale[joint]));
+  }
+  void operator()(BalanceModel& m) const {
+    const DayLayout at = day_layout(m.rigid);
+    for (int j = 0; j < m.joints(); ++j) {
+      friction(m.day_variance[at.friction(j)]);
+      offset(m.day_variance[at.offset(j)], j);
+      double& gain = m.day_variance[at.gain(j)];
+      if (stated.torque_constant != NormalRange{}.torque_constant)
+        gain = std::max(gain, variance_of_range(stated.torque_constant));
+    }
+  }
+  void operator()(OneStepModel& m) const {
+    const int base = m.layout().base, n = m.joints();
+    for (int j = 0; j < n; ++j) {
+      friction(m.day_variance[base + j]);
+      offset(m.day_variance[base + n + j], j);
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<SlowState> day_differences(const RobotRows& robot) { return std::visit(DayDifferences{}, robot); }
+
+RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
+                             const std::vector<double>& torque_scale) {
+  std::visit(Widen{stated, torque_scale}, robot);
+  return robot;
+}
+
+}  // namespace faultline

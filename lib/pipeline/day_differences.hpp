@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/evidence/motion_model.hpp"
+#include "lib/explain/explain_log.hpp"
+#include "lib/robot/normal_range.hpp"
+
+namespace faultline {
+
+/// How far healthy days of a robot differ, and the torque that its model misses, as the twin draws them.
+std::vector<SlowState> day_differences(const RobotRows& robot);
+
+/// The robot with at least the ranges that its file states; ranges that stand at their defaults say nothing.
+RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated, const std::vector<double>& torque_scale);
+
+}  // namespace faultline
