@@ -14,8 +14,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kSizeFades = 20.0;       // the size of a label this far behind hardly counts
-constexpr double kNotJudged = -1e3;       // nats of a label that did not stand out
+constexpr double kSizeFades = 20.0;  // the size of a label this far behind hardly counts
+constexpr double kNotJudged = -1e3;  // nats of a label that did not stand out
 constexpr double kMeanOfHalfSine = 2.0 / std::numbers::pi;
 constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations that differ
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
@@ -127,7 +127,8 @@ std::string name_of(const EpisodeFeature& feature) {
 
 std::vector<std::string> episode_feature_names(std::span<const FaultLabel> labels, int joints) {
   std::vector<std::string> names;
-  for (const EpisodeFeature& feature : episode_feature_list(labels, joints)) names.push_back(name_of(feature));
+  for (const EpisodeFeature& feature : episode_feature_list(labels, joints))
+    names.push_back(name_of(feature));
   return names;
 }
 

@@ -19,9 +19,12 @@ double calibrated(const Decision& decision, const ConfidenceCalibration& calibra
 
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
   DescribedEpisode described = describe_episode(observed, model);
-  DecisionBasis basis{observed.fault.label(),        observed.fault.could_also_be,
-                      std::move(described.evidence), std::move(described.episode),
-                      {},                            observed.fault.limit};
+  DecisionBasis basis{observed.fault.label(),
+                      observed.fault.could_also_be,
+                      std::move(described.evidence),
+                      std::move(described.episode),
+                      {},
+                      observed.fault.limit};
   basis.votes = votes_on(basis.episode, cases);
   Decision decision = decide(basis);
   decision.confidence = calibrated(decision, model.confidence);

@@ -36,8 +36,8 @@ Decision decide(const DecisionBasis& basis, const DecisionOptions& options) {
   if (basis.likeliest.kind == FaultKind::unknown)
     return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::no_known_form, opinion.label};
   if (explains_the_log(opinion.label, basis)) return opinion;
-  const DecisionReason reason = opinion.label.kind == FaultKind::none ? DecisionReason::evidence_alone
-                                                                      : DecisionReason::log_excludes;
+  const DecisionReason reason =
+      opinion.label.kind == FaultKind::none ? DecisionReason::evidence_alone : DecisionReason::log_excludes;
   return {basis.likeliest, posterior_of(basis.likeliest, basis.evidence), DecidedBy::evidence, reason,
           opinion.label};
 }

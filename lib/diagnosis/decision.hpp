@@ -10,17 +10,18 @@ namespace faultline {
 
 struct DecisionOptions {
   VoteOptions votes{};
-  double thin_confidence = 0.2;  ///< two agreeing networks that are on average less sure than this say nothing
-  double clear_share = 0.5;      ///< more than this share of the votes settles a disagreement, or warns
+  double thin_confidence =
+      0.2;                   ///< two agreeing networks that are on average less sure than this say nothing
+  double clear_share = 0.5;  ///< more than this share of the votes settles a disagreement, or warns
 };
 
 /// Why a label was decided on.
 enum class DecisionReason {
-  networks_agree,   ///< both networks say so
-  votes_settle,     ///< the networks disagree and the votes settle it
-  evidence_alone,   ///< neither networks nor votes settle it; the fault explains the log best
-  log_excludes,     ///< what networks or votes say explains the log much worse than the likeliest fault
-  no_known_form,    ///< unknown: a change of any form explains the log much better than every known fault
+  networks_agree,  ///< both networks say so
+  votes_settle,    ///< the networks disagree and the votes settle it
+  evidence_alone,  ///< neither networks nor votes settle it; the fault explains the log best
+  log_excludes,    ///< what networks or votes say explains the log much worse than the likeliest fault
+  no_known_form,   ///< unknown: a change of any form explains the log much better than every known fault
 };
 
 /// What an episode is, decided once; all texts follow from it.
@@ -38,9 +39,9 @@ Decision opinion_on(const Episode& episode, const Votes& votes, const DecisionOp
 
 /// Case-based decision on one episode (the paper's "dual classification with robust decision", figure 2, at
 /// the level of the episode). The regression says which faults explain the log (DecisionBasis::likeliest and
-/// as_likely). Among these, networks and cases choose (opinion_on()). Where they settle nothing, or name a fault
-/// that the log excludes, the likeliest fault gives the name. Where a change of any form explains the log much better than every
-/// known fault, the fault is unknown.
+/// as_likely). Among these, networks and cases choose (opinion_on()). Where they settle nothing, or name a
+/// fault that the log excludes, the likeliest fault gives the name. Where a change of any form explains the
+/// log much better than every known fault, the fault is unknown.
 Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
 
 }  // namespace faultline

@@ -36,18 +36,18 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   items.push_back(remark("decision", reason_in_words(decision, basis)));
   for (std::string& warning : warnings_of_cases(decision, basis.votes))
     items.push_back(remark("warning", std::move(warning)));
-  items.push_back({"log_likelihood_ratio", basis.episode.evidence, "nats",
-                   fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)",
-                               basis.limit)});
+  items.push_back(
+      {"log_likelihood_ratio", basis.episode.evidence, "nats",
+       fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)", basis.limit)});
   if (decision.label.joint > 0)
     if (std::string size = size_words(decided, model); !size.empty())
       items.push_back(remark("size", std::move(size)));
   const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),
                                   [&](const LabelEvidence& e) { return e.label == decision.label; });
   if (label != basis.evidence.end() && std::isfinite(label->left))
-    items.push_back({"left_over", label->left, "times noise",
-                     fmt::format("what {} leaves of the motion (1 is noise)",
-                                 label_text(label->label, " at joint "))});
+    items.push_back(
+        {"left_over", label->left, "times noise",
+         fmt::format("what {} leaves of the motion (1 is noise)", label_text(label->label, " at joint "))});
   if (decision.label.kind == FaultKind::unknown)
     items.push_back({"misfit", observed.fault.misfit, "nats",
                      "by which a change of any form explains the log better than the nearest known fault"});

@@ -12,7 +12,7 @@ namespace faultline {
 /// is made from.
 struct MonitoredEpisode {
   ExplainedFault fault;
-  double end_s = 0.0;  ///< when the fault ended, or the last sample that was judged
+  double end_s = 0.0;                      ///< when the fault ended, or the last sample that was judged
   std::vector<JointResidual> residuals{};  ///< of the MLP, a joint each, over some seconds from the onset on
 
   double onset_s() const { return fault.claim.onset_s; }

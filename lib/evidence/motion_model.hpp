@@ -52,7 +52,7 @@ struct MotionModel {
   /// coarse codes): farther ones count for less, in the filters and in the evidence. One a joint; empty for
   /// none.
   std::vector<double> q_tail, dq_tail;
-  std::vector<double> q_low;                    ///< range seen in healthy logs
+  std::vector<double> q_low;  ///< range seen in healthy logs
   std::vector<double> q_high;
   std::vector<double> velocity_scale;  ///< root mean square of the healthy velocity
   std::vector<double> torque_scale;    ///< largest healthy torque

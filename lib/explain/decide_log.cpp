@@ -6,12 +6,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kBeyondHealthy = 3.0;  // times the evidence of healthy logs
-constexpr double kLeastLoss = 0.08;     // share of the torque: less is the gain of another day
-constexpr double kOfNoKind = 200.0;     // nats by which a change of any form explains more
-constexpr double kAlmost = 5.0;         // nats, in units of the mean square left: as good as the best
-constexpr double kAlmostShare = 0.95;   // of the best evidence
-constexpr std::size_t kTraced = 4;      // hypotheses whose evidence is traced
+constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
+constexpr double kLeastLoss = 0.08;      // share of the torque: less is the gain of another day
+constexpr double kOfNoKind = 200.0;      // nats by which a change of any form explains more
+constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
+constexpr double kAlmostShare = 0.95;    // of the best evidence
+constexpr std::size_t kTraced = 4;       // hypotheses whose evidence is traced
 constexpr double kTracedBeyond_s = 1.0;  // their alarm
 
 bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
@@ -21,8 +21,7 @@ bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
 
 std::vector<LabelScore> scores_of(const LogExplanation& e) {
   std::vector<LabelScore> out;
-  for (const FaultHypothesis& h : e.best)
-    out.push_back({h, h.gain, h.fit.size_std, h.fit.mean_square()});
+  for (const FaultHypothesis& h : e.best) out.push_back({h, h.gain, h.fit.size_std, h.fit.mean_square()});
   return out;
 }
 

@@ -24,6 +24,7 @@ constexpr double kMuchLess = 0.5;       // of what a lost torque leaves, that a 
 constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
+constexpr double kMayWin = 0.3;         // of the best evidence so far, that a better onset may make the best
 
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
   std::vector<Candidate> out;
@@ -106,21 +107,10 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   }
 }
 
-/// The best of each kind and joint, best first.
-std::vector<FaultHypothesis> ranked(const std::vector<FaultHypothesis>& all) {
-  std::vector<FaultHypothesis> out;
-  for (const FaultHypothesis& h : all) {
-    auto known = std::find_if(out.begin(), out.end(), [&](const FaultHypothesis& o) {
-      return o.kind == h.kind && o.joint == h.joint;
-    });
-    if (known == out.end())
-      out.push_back(h);
-    else if (h.gain > known->gain)
-      *known = h;
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
-  return out;
+double best_gain(const JudgedHypotheses& bench) {
+  double best = 0.0;
+  for (const FaultHypothesis& h : bench.judged) best = std::max(best, h.gain);
+  return best;
 }
 
 /// Whether anything is worth judging: an onset that the search found, or a change of any form.
@@ -143,24 +133,24 @@ LogExplanation explain_log(const LogFit& fit) {
   const std::vector<Candidate> found = search(fit);
   if (!stands_out(fit, out.free_form, found)) return out;
   judge_candidates(found, out.free_form, bench);
-  std::vector<FaultHypothesis> top = ranked(bench.judged);
+  std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
   for (const FaultHypothesis& h : top)
-    if (h.gain >= kWorthRefining) refine(h, bench);
-  out.best = ranked(bench.judged);
+    if (h.gain >= std::max(kWorthRefining, kMayWin * best_gain(bench))) refine(h, bench);
+  out.best = best_of_each(bench.judged);
   if (!out.best.empty()) {
     FaultClaim other = out.best.front();
     if (other.kind == FaultKind::locked || other.kind == FaultKind::stuck_encoder) {
       other.kind = other.kind == FaultKind::locked ? FaultKind::stuck_encoder : FaultKind::locked;
       bench.go(other);
-      out.best = ranked(bench.judged);
+      out.best = best_of_each(bench.judged);
     }
   }
   if (!out.best.empty() && out.best.front().kind == FaultKind::collision) {
     FaultClaim loss = out.best.front();  // a joint that falls to its end stop loses its torque for a moment
     loss.kind = FaultKind::torque_loss;
     if (const FaultHypothesis* judged = bench.go(loss)) refine(FaultHypothesis(*judged), bench);
-    out.best = ranked(bench.judged);
+    out.best = best_of_each(bench.judged);
   }
   if (!out.best.empty() && column_kind(out.best.front().kind) == FaultKind::torque_loss) {
     FaultClaim claim = out.best.front();
@@ -171,7 +161,7 @@ LogExplanation explain_log(const LogFit& fit) {
       if (clipped.fit.mean_square() - 1.0 < kMuchLess * (left - 1.0))
         bench.judged.push_back(std::move(clipped));
     }
-    out.best = ranked(bench.judged);
+    out.best = best_of_each(bench.judged);
   }
   return out;
 }

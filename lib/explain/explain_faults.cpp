@@ -43,8 +43,8 @@ std::vector<DayEffect> effects_of(const LogFit& fit) {
 std::vector<double> loudness_of(const LogFit& fit) {
   std::vector<double> out;
   for (int j = 0; j < fit.joints(); ++j)
-    out.push_back(std::sqrt(autocovariance(fit.noise().joint[j])[0] /
-                            autocovariance(fit.model().noise.joint[j])[0]));
+    out.push_back(
+        std::sqrt(autocovariance(fit.noise().joint[j])[0] / autocovariance(fit.model().noise.joint[j])[0]));
   return out;
 }
 
@@ -54,8 +54,8 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
   return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
 }
 
-NextFault next_fault(const UniformLog& log, const BalanceModel& model,
-                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& known) {
+NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
+                     const std::vector<FaultClaim>& known) {
   const LogFit fit(log, model, known);
   const LogExplanation e = explain_log(fit);
   const LogEvidence evidence = log_evidence(fit, e);

@@ -9,7 +9,6 @@ namespace faultline {
 
 /// A log and its faults: each is looked for with those that were found before as known; then each is judged
 /// again with all others known, and is left out where they explain the log without it.
-ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model,
-                                           const EvidenceLimits& limits);
+ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits);
 
 }  // namespace faultline

@@ -10,18 +10,17 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortest_s = 1.5;    // from 50 Hz on: the lead in which no onset is looked for, and some moves
-constexpr int kFewestCoarse = 20;      // samples
+constexpr double kShortest_s =
+    1.5;                           // from 50 Hz on: the lead in which no onset is looked for, and some moves
+constexpr int kFewestCoarse = 20;  // samples
 
 /// One fault at most.
 ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
                                     const EvidenceLimits& limits) {
   const CoarseLog read = coarse_log(log, model);
   const LogExplanation e = explain_coarse(read);
-  const LogEvidence evidence{[&](const FaultHypothesis& h) { return coarse_course(read, h); },
-                             [&](const FaultHypothesis& h) { return coarse_misfit(e, h); }};
   ExplainedLog out;
-  if (std::optional<ExplainedFault> fault = decide_log(e, limits, evidence))
+  if (std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e)))
     out.faults.push_back(std::move(*fault));
   else
     out.largest_share = largest_share(e, limits);

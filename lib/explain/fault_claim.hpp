@@ -21,8 +21,10 @@ struct FaultClaim {
   /// that is logged beside the one that acts (N m or N); false position (rad or m) or drift (rad/s or m/s).
   /// Empty for kinds without a size, and where it is not known.
   Eigen::VectorXd size{};
-  bool grows =
-      false;  ///< from nothing at the onset; then `size` is that of each second, as friction that creeps
+  /// From nothing at the onset; then `size` is that of each second, as friction that creeps.
+  bool grows = false;
+  /// Of a drift: the velocity is measured apart from the position and does not drift with it.
+  bool velocity_is_true = false;
 };
 
 /// Whether a fault makes a position read wrong and moves nothing.

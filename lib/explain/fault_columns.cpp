@@ -167,7 +167,7 @@ UniformLog without_false_reading(UniformLog log, const FaultClaim& claim) {
       log.q(k, j) -= size;
     } else {
       log.q(k, j) -= size * std::max(late, 0.0);
-      if (log.dq.rows() > 0) log.dq(k, j) -= size;
+      if (log.dq.rows() > 0 && !claim.velocity_is_true) log.dq(k, j) -= size;
     }
   }
   return log;

@@ -139,6 +139,16 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
+/// A drift that the velocity shows, too, or does not where it is measured apart.
+FaultHypothesis judge_drift(const LogFit& fit, FaultClaim claim) {
+  FaultHypothesis best = judge_reading(fit, claim);
+  const bool is_apart = fit.log().dq.rows() > 0 && !fit.model().setting.velocity_is_difference;
+  if (claim.velocity_is_true || !is_apart) return best;
+  claim.velocity_is_true = true;
+  FaultHypothesis other = judge_reading(fit, claim);
+  return other.gain > best.gain ? other : best;
+}
+
 /// Nats by which a joint that is said to be locked moves, but for its spring.
 double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   const BalanceModel& m = fit.model();
@@ -278,8 +288,9 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
     case FaultKind::collision:
       return judge_collision(fit, claim);
     case FaultKind::sensor_bias:
-    case FaultKind::sensor_drift:
       return judge_reading(fit, claim);
+    case FaultKind::sensor_drift:
+      return judge_drift(fit, claim);
     case FaultKind::locked:
     case FaultKind::stuck_encoder:
     case FaultKind::unknown:

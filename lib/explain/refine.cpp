@@ -118,6 +118,22 @@ const FaultHypothesis* JudgedHypotheses::go_from(const Candidate& c) {
   return go({c.kind, c.joint, c.onset_s, c.end_s, VectorXd::Constant(1, c.start)});
 }
 
+std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all) {
+  std::vector<FaultHypothesis> out;
+  for (const FaultHypothesis& h : all) {
+    auto known = std::find_if(out.begin(), out.end(), [&](const FaultHypothesis& o) {
+      return o.kind == h.kind && o.joint == h.joint;
+    });
+    if (known == out.end())
+      out.push_back(h);
+    else if (h.gain > known->gain)
+      *known = h;
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
+  return out;
+}
+
 void refine(const FaultHypothesis& h, JudgedHypotheses& bench) {
   FaultHypothesis best = can_move(h.kind) ? moved(h, &FaultClaim::onset_s, bench) : h;
   if (best.end_s < kNeverEnds && can_move(h.kind))

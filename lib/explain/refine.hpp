@@ -22,6 +22,9 @@ struct JudgedHypotheses {
   const FaultHypothesis* go_from(const Candidate& candidate);
 };
 
+/// The best of each kind and joint, best first.
+std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all);
+
 /// Adds the hypothesis with onset and end at their best; where the log shows that the fault is gone, the one
 /// that ends takes the place of the one that does not.
 void refine(const FaultHypothesis& hypothesis, JudgedHypotheses& bench);

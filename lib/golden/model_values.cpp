@@ -36,7 +36,8 @@ std::vector<ParameterValue> values_of(const Model& model) {
   const double no_std = std::numeric_limits<double>::quiet_NaN();
   for (int k = 1; k < kFaultKinds; ++k) {
     const auto kind = static_cast<FaultKind>(k);
-    values.push_back({std::string("threshold_") + to_string(kind), model.explain.limits.of(kind), no_std, "nats"});
+    values.push_back(
+        {std::string("threshold_") + to_string(kind), model.explain.limits.of(kind), no_std, "nats"});
   }
   return values;
 }

@@ -152,10 +152,10 @@ Eigen::Vector3d place_from_json(const nlohmann::json& json, const char* key, con
 RigidColumns rigid_from_json(const nlohmann::json& json, const std::string& where) {
   RigidColumns rigid;
   for (const nlohmann::json& joint : json.at("joints"))
-    rigid.chain.geometry.push_back(
-        {joint.at("slides").get<bool>() ? AxisKind::prismatic : AxisKind::revolute,
-         place_from_json(joint, "axis", where), place_from_json(joint, "offset", where),
-         place_from_json(joint, "direction", where)});
+    rigid.chain.geometry.push_back({joint.at("slides").get<bool>() ? AxisKind::prismatic : AxisKind::revolute,
+                                    place_from_json(joint, "axis", where),
+                                    place_from_json(joint, "offset", where),
+                                    place_from_json(joint, "direction", where)});
   const auto n = rigid.chain.geometry.size();
   rigid.chain.length = json.at("length").get<std::vector<double>>();
   rigid.chain.rotor_inertia = json.at("rotor_inertia").get<std::vector<double>>();
@@ -193,12 +193,13 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   m.rigid = rigid_from_json(json.at("rigid"), where);
   for (const nlohmann::json& ripple : json.at("ripples"))
     m.setting.ripples.push_back({ripple.at("joint").get<int>() - 1, ripple.at("rate").get<double>()});
-  for (const nlohmann::json& noise : json.at("noise")) read_value(noise, where, m.noise.joint.emplace_back(), kNoise);
+  for (const nlohmann::json& noise : json.at("noise"))
+    read_value(noise, where, m.noise.joint.emplace_back(), kNoise);
   const Eigen::Index n = m.rigid.joints();
   check_sizes(where, n,
-              {m.setting.friction_width.size(), m.setting.compliance.size(), std::ssize(m.noise.joint), m.q_noise.size(), m.q_low.size(), m.q_high.size(),
-               m.top_speed.size(), m.torque_rms.size(), m.longest_repeat.size(), m.repeat_share.size(),
-               m.payload.cols()});
+              {m.setting.friction_width.size(), m.setting.compliance.size(), std::ssize(m.noise.joint),
+               m.q_noise.size(), m.q_low.size(), m.q_high.size(), m.top_speed.size(), m.torque_rms.size(),
+               m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols()});
   if (m.setting.fusion.size() > 0) check_sizes(where, n, {m.setting.fusion.size()});
   check_sizes(where, m.layout().count(), {m.theta.size()});
   check_sizes(where, day_layout(m.rigid).count(), {m.day_variance.size()});
@@ -221,8 +222,8 @@ OneStepModel one_step_from_json(const nlohmann::json& json, const std::string& w
   OneStepModel m;
   read_value(json, where, m, kOneStep);
   read_value(json.at("setting"), where, m.setting, kSteps);
-  m.body = MotionBody(rigid_from_json(json.at("rigid"), where),
-                      vector_from_json(json, "friction_width", where));
+  m.body =
+      MotionBody(rigid_from_json(json.at("rigid"), where), vector_from_json(json, "friction_width", where));
   const Eigen::Index n = m.joints();
   check_sizes(where, n,
               {m.body.friction_width().size(), m.q_low.size(), m.q_high.size(), m.top_speed.size(),

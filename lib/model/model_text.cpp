@@ -55,7 +55,8 @@ void check_version(const Json& json, const std::string& where) {
     refuse(where, "has schema " + schema + ", this program knows " + model_schema(kModelVersion) +
                       "; use a newer faultline or learn the model again");
   if (version < kModelVersion)
-    refuse(where, "has the schema \"" + valid_utf8(schema) + "\" of an earlier program; learn the model again");
+    refuse(where,
+           "has the schema \"" + valid_utf8(schema) + "\" of an earlier program; learn the model again");
 }
 
 std::string digest_in(const Json& json) {

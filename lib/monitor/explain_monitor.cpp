@@ -12,7 +12,6 @@ namespace {
 constexpr double kWindow_s = 120.0;
 constexpr double kOverlap_s = 10.0;    // of two windows; the middle parts what each decides
 constexpr double kLongestGap_s = 2.0;  // that a window spans
-constexpr double kResiduals_s = 3.0;   // from an onset on, over which its residuals are told
 constexpr int kFewestRows = 2;
 
 /// By which a healthy day may differ as the robot file says, or by default.
@@ -41,9 +40,7 @@ void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::ve
       ++run_;
       is_new_run = true;
     }
-    const double last_s = k > begin                ? segment.time[k - 1]
-                          : window_.rows() > 0     ? window_.time.back()
-                                                   : t;
+    const double last_s = k > begin ? segment.time[k - 1] : window_.rows() > 0 ? window_.time.back() : t;
     const double first_s = window_.rows() > 0 ? window_.time.front() : segment.time[begin];
     const bool is_gap = is_new_run || t - last_s > kLongestGap_s;
     if (!is_gap && t - first_s < kWindow_s) continue;
@@ -84,8 +81,9 @@ void ExplainMonitor::explain_window(bool is_followed) {
       episodes_[known->episode].end_s = std::min(fault.claim.end_s, until_s);
       if (fault.claim.end_s > end_s) lasting_.push_back(*known);
     } else if (fault.claim.onset_s >= from_s && fault.claim.onset_s <= until_s) {
-      episodes_.push_back({fault, std::min(fault.claim.end_s, until_s),
-                           residuals_between(fault.claim.onset_s, fault.claim.onset_s + kResiduals_s)});
+      episodes_.push_back(
+          {fault, std::min(fault.claim.end_s, until_s),
+           residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
       if (fault.claim.end_s > end_s) lasting_.push_back({fault.label(), episodes_.size() - 1});
     }
   }

@@ -13,6 +13,9 @@
 
 namespace faultline {
 
+/// From an onset on, over which the residuals of an episode are told.
+inline constexpr double kEpisodeResiduals_s = 3.0;
+
 /// Gathers the rows of a log in windows of some minutes and explains each of them. Windows overlap, so that
 /// an onset has rows before and behind it; a gap or a restart of the clock ends a window. Where segments end
 /// changes nothing, and memory does not grow with the log.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/monitor/monitor.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "lib/explain/explain_at.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/log/transformed/tapped_source.hpp"
 #include "lib/monitor/explain_monitor.hpp"
@@ -83,6 +86,21 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .relations_judged_s = relations.judged_s(),
           .relations_beyond_s = relations.beyond_s(),
           .roughness = explained.loudness()};
+}
+
+MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, double end_s) {
+  const UniformLog uniform = uniform_log(log, model.sample_period_s);
+  MonitoredLog out;
+  if (!can_explain(uniform, model.explain.robot)) return out;
+  std::optional<ExplainedFault> fault = explain_at(uniform, model.explain, onset_s, end_s);
+  if (!fault) return out;
+  ResidualState state;
+  ResidualSummary summary(onset_s, onset_s + kEpisodeResiduals_s);
+  log.rewind();
+  for (Log segment; log.next(segment);) summary.add(compute_residuals(model.residual, segment, state));
+  const double until_s = std::min(fault->claim.end_s, uniform.time_s(uniform.rows() - 1));
+  out.episodes.push_back({std::move(*fault), until_s, summary.joints()});
+  return out;
 }
 
 MonitoredLog read_unjudged(LogSource& log, const Model& model) {

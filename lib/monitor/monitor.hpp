@@ -14,6 +14,10 @@ namespace faultline {
 /// model's robot, or no torque.
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options = {});
 
+/// The same of a simulated log whose fault is known to last from `onset_s` to `end_s`: nothing is searched
+/// (explain_at()), and of the log's facts none are told.
+MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, double end_s);
+
 /// What is known of a log whose rate or clock lets nothing of it be judged: read once, with no finding.
 MonitoredLog read_unjudged(LogSource& log, const Model& model);
 

@@ -13,6 +13,7 @@ namespace faultline {
 std::vector<SlowState> day_differences(const RobotRows& robot);
 
 /// The robot with at least the ranges that its file states; ranges that stand at their defaults say nothing.
-RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated, const std::vector<double>& torque_scale);
+RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
+                             const std::vector<double>& torque_scale);
 
 }  // namespace faultline

@@ -34,9 +34,8 @@ namespace {
 void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
   const std::vector<FaultFinding> named = faults;
   for (const LastingFriction& friction : lasting_friction(run.day, run.log.start_s, run.log.end_s))
-    if (std::none_of(named.begin(), named.end(), [&](const FaultFinding& other) {
-          return other.label.joint == friction.effect.joint;
-        }))
+    if (std::none_of(named.begin(), named.end(),
+                     [&](const FaultFinding& other) { return other.label.joint == friction.effect.joint; }))
       faults.push_back(finding_of(friction, model.robot.chain));
 }
 

@@ -130,8 +130,8 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
   if (progress) progress("learning what differs from day to day", kFirst);
   const bool is_coarse = identified_period_s(identification) > kCoarse_s;
   const bool doubtful = robot.payloads.empty() && has_doubtful_delay(identification, robot) && !is_coarse;
-  HealthyRobot first = with_identification(
-      logs, robot, doubtful ? as_stated(identification, robot) : identification, given);
+  HealthyRobot first =
+      with_identification(logs, robot, doubtful ? as_stated(identification, robot) : identification, given);
   set_days(first);
   if (is_coarse) {
     learn_steps(first, first.days, options.threads);
@@ -151,8 +151,7 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
     identification.issues.add(work_piece_issue(fit.model.piece_kg));
   }
   if (progress) progress("learning what differs from day to day", kSecond);
-  HealthyRobot second =
-      with_identification(logs, robot, std::move(identification), std::move(given));
+  HealthyRobot second = with_identification(logs, robot, std::move(identification), std::move(given));
   set_days(second);
   take_rows(second, fitted_days(second, second.days));
   return second;

@@ -16,10 +16,10 @@ namespace faultline {
 /// What healthy logs tell of the robot before faults are thought of.
 struct HealthyRobot {
   Identification identification;
-  std::vector<IdentifiedLog> given;      ///< all logs, as first identified
-  TorqueReading reading;                 ///< of logs that were opened with the robot as given
-  std::deque<DelayedTorqueSource> logs;  ///< those that agree
-  std::vector<LogSource*> days;          ///< the same; a single log is cut into several days
+  std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
+  TorqueReading reading;                            ///< of logs that were opened with the robot as given
+  std::deque<DelayedTorqueSource> logs;             ///< those that agree
+  std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
   std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log
   Model model;                                      ///< robot, identification, motion, rows
   std::vector<RobotRows> without{};                 ///< rows learned without each of the days

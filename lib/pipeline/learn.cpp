@@ -33,13 +33,11 @@ constexpr int kHealthySampleRuns = 24;
 constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 
 // Shares of the work that are done after its stages, roughly.
-constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8,
-                 kTrained = 0.85;
+constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8, kTrained = 0.85;
 
 // Streams of seeds that never meet.
-constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000,
-                        kHealthyValidationSeeds = 3'000'000, kSampleSeeds = 4'000'000,
-                        kSeedBlock = 10'000'000;
+constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthyValidationSeeds = 3'000'000,
+                        kSampleSeeds = 4'000'000, kSeedBlock = 10'000'000;
 
 /// The logs with an empty row for each that was lost, as diagnose() reads them.
 class FilledLogs {
@@ -70,9 +68,7 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// A ratio exceeds t by chance with a probability of at most exp(-t) (Wald, 1945): so many nats more make
 /// false alarms so much rarer.
 /// Nats beside the usual limits that fewer false alarms ask for.
-double more_nats(double alarms_per_hour) {
-  return elementary::log(kUsualAlarmsPerHour / alarms_per_hour);
-}
+double more_nats(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
 void tell(const Progress& progress, const char* what, double share) {
   if (progress) progress(what, share);
@@ -106,14 +102,15 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
                   options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
-  auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part) {
-    return monitored_twin_runs(twin, model, labels, seed + stream, options.threads, part);
+  auto runs_of = [&](const std::vector<FaultLabel>& labels, TwinJudging judging, std::uint64_t stream,
+                     const Progress& part) {
+    return monitored_twin_runs(twin, model, labels, judging, seed + stream, options.threads, part);
   };
   auto faults = [&](int each) { return labels_to_simulate(model.labels, each, options.kinds); };
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
 
-  std::vector<MonitoredRun> runs =
-      runs_of(faults(options.runs_per_label), kTrainingSeeds, part_of(progress, kResidualsLearned, kSimulated));
+  std::vector<MonitoredRun> runs = runs_of(faults(options.runs_per_label), TwinJudging::known, kTrainingSeeds,
+                                           part_of(progress, kResidualsLearned, kSimulated));
   const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
@@ -126,9 +123,10 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   tell(progress, "training networks on samples", kSimulated);
   model.samples = learn_sample_mode(twin, model, sample_labels(model.labels, options.kinds),
                                     seed + kSampleSeeds, options.threads);
-  std::vector<MonitoredRun> checks =
-      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0));
-  Validated validated = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}), model, out.cases);
+  std::vector<MonitoredRun> checks = runs_of(faults(options.validation_per_label), TwinJudging::searched,
+                                             kValidationSeeds, part_of(progress, kTrained, 1.0));
+  Validated validated =
+      validate(checks, runs_of(calm, TwinJudging::searched, kHealthyValidationSeeds, {}), model, out.cases);
   model.validation = std::move(validated.validation);
   model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());

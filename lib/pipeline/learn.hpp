@@ -29,10 +29,11 @@ inline constexpr double kUsualAlarmsPerHour = 0.01;
 struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
-  TwinOptions twin{};                            ///< how faults are simulated
-  int runs_per_label = 5;                        ///< simulated to train the networks and fill the case base
-  int validation_per_label = 3;                  ///< simulated to measure the model, trained on by nothing
-  double alarms_per_hour = kUsualAlarmsPerHour;  ///< that chance may raise, by the regression and by each relation
+  TwinOptions twin{};            ///< how faults are simulated
+  int runs_per_label = 6;        ///< simulated to train the networks and fill the case base
+  int validation_per_label = 2;  ///< simulated to measure the model, trained on by nothing
+  double alarms_per_hour =
+      kUsualAlarmsPerHour;         ///< that chance may raise, by the regression and by each relation
   int healthy_runs = 20;           ///< simulated to measure false alarms
   std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that can be named
   bool keep_doubtful = false;      ///< a model that is not to be trusted is marked rather than refused

@@ -16,7 +16,8 @@ namespace faultline {
 namespace {
 
 constexpr double kRobotFirst = 0.6;  // share of the work that is done before logs are doubted
-// Two logs that nobody else vouches for: a day that was not learned gives as much as kLeastEvidence times this.
+// Two logs that nobody else vouches for: a day that was not learned gives as much as kLeastEvidence times
+// this.
 constexpr double kContradictory = 10.0;
 
 /// What a robot learned from the other logs sees in one of them.
@@ -113,8 +114,7 @@ class LogTrial {
     DelayedTorqueSource in_time = others->robot.reading.of(*logs_[log]);
     in_time.rewind();
     const ExplainModel& model = others->robot.model.explain;
-    const ExplainedLog seen =
-        explain_whole_log(uniform_log(in_time, sample_period_s(model.robot)), model);
+    const ExplainedLog seen = explain_whole_log(uniform_log(in_time, sample_period_s(model.robot)), model);
     if (seen.faults.empty()) return std::nullopt;
     const FaultClaim& first = seen.faults.front().claim;
     return Contradiction{log, {first.kind, first.joint}, first.onset_s, std::move(others)};

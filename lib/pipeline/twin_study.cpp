@@ -44,8 +44,9 @@ double size_of(const TwinRun& run) {
 }  // namespace
 
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
-                                              int threads, const Progress& progress) {
+                                              const std::vector<FaultLabel>& labels, TwinJudging judging,
+                                              std::uint64_t first_seed, int threads,
+                                              const Progress& progress) {
   std::vector<MonitoredRun> runs(labels.size());
   std::mutex reporting;
   int done = 0;
@@ -53,8 +54,9 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    runs[i] = {run.label,   run.onset_s, length_s, kSimulatedOrigin, monitor(source, model),
-               size_of(run)};
+    MonitoredLog judged = judging == TwinJudging::known ? monitor_at(source, model, run.onset_s, run.end_s)
+                                                        : monitor(source, model);
+    runs[i] = {run.label, run.onset_s, length_s, kSimulatedOrigin, std::move(judged), size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));

@@ -24,10 +24,17 @@ struct MonitoredRun {
   double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
 };
 
-/// One run of the twin for each label, monitored with the model; run i has the seed stream `first_seed + i`.
+/// How a run of the twin is judged.
+enum class TwinJudging {
+  searched,  ///< as a log is that somebody recorded
+  known,     ///< at the times of its fault (monitor_at()): a tenth of the time
+};
+
+/// One run of the twin for each label, judged with the model; run i has the seed stream `first_seed + i`.
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
-                                              int threads, const Progress& progress = {});
+                                              const std::vector<FaultLabel>& labels, TwinJudging judging,
+                                              std::uint64_t first_seed, int threads,
+                                              const Progress& progress = {});
 
 /// Each of the labels `count` times: of the kinds asked for, all if none is.
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,

@@ -30,10 +30,10 @@ TEST(Condition, SharesAreInPercentAndTorquesInTheUnitOfTheJoint) {
 }
 
 TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
-  const auto items = condition_of(
-      {estimate(DayEffectKind::friction, 1, 0.15, 0.52, 0.01), estimate(DayEffectKind::friction, 2, 0.15, 0.35, 0.1),
-       estimate(DayEffectKind::torque_gain, 1, 0.01, -0.05, 0.01)},
-      preset_robot("RRP").chain);
+  const auto items = condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.52, 0.01),
+                                   estimate(DayEffectKind::friction, 2, 0.15, 0.35, 0.1),
+                                   estimate(DayEffectKind::torque_gain, 1, 0.01, -0.05, 0.01)},
+                                  preset_robot("RRP").chain);
   EXPECT_TRUE(items[0].is_beyond());
   EXPECT_FALSE(items[1].is_beyond());
   EXPECT_TRUE(items[2].is_beyond());
@@ -44,9 +44,9 @@ TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
 }
 
 TEST(Condition, IsToldWhereTheLogSaysMoreThanTheNormalRange) {
-  const auto items = condition_of(
-      {estimate(DayEffectKind::friction, 1, 0.15, 0.0, 0.14), estimate(DayEffectKind::friction, 2, 0.15, 0.0, 0.16)},
-      preset_robot("RRP").chain);
+  const auto items = condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.0, 0.14),
+                                   estimate(DayEffectKind::friction, 2, 0.15, 0.0, 0.16)},
+                                  preset_robot("RRP").chain);
   EXPECT_TRUE(items[0].is_told());
   EXPECT_FALSE(items[1].is_told());
 }

@@ -58,11 +58,7 @@ TEST(Decide, ARejectedPrecedentWarns) {
 Decision decided_with(const FaultLabel& likeliest, const std::vector<FaultLabel>& as_likely) {
   const CaseBase base = example_base();
   const Episode episode = episode_at(2, 0, {kLocked, 0.9}, {kLocked, 0.7});
-  return decide({likeliest,
-                 as_likely,
-                 {{kLocked, 40.0}, {kBias, 45.0}},
-                 episode,
-                 votes_on(episode, base)});
+  return decide({likeliest, as_likely, {{kLocked, 40.0}, {kBias, 45.0}}, episode, votes_on(episode, base)});
 }
 
 TEST(Decide, NetworksChooseAmongTheFaultsThatExplainTheLog) {

@@ -26,7 +26,8 @@ SimulationSpec carrying(SimulationSpec spec, const std::vector<Carried>& pieces)
 }
 
 TEST(WorkPieces, RowsWithoutThemAreThoseBeforeAndAfterTheyAreCarried) {
-  MemorySource often(simulate(known_rrp(), rrp_run(20.0), 71).log), never(simulate(known_rrp(), rrp_run(20.0), 72).log);
+  MemorySource often(simulate(known_rrp(), rrp_run(20.0), 71).log),
+      never(simulate(known_rrp(), rrp_run(20.0), 72).log);
   const std::vector<LogSource*> logs = {&often, &never};
   FittedDays days;
   days.model.piece_kg = kPiece_kg;

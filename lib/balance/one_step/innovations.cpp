@@ -81,12 +81,12 @@ Innovations innovations(const LinearSteps& steps, const FilterInput& in) {
 }
 
 MatrixXd white_columns(const LinearSteps& steps, const Innovations& filter, const MatrixXd& column,
-                       const MatrixXd& read, int columns, int first) {
-  const int states = filter.states, samples = filter.samples;
-  MatrixXd out = MatrixXd::Zero(states * samples, columns), x = MatrixXd::Zero(states, columns),
+                       const MatrixXd& read, int columns, int first, int end) {
+  const int states = filter.states;
+  MatrixXd out = MatrixXd::Zero(states * (end - first), columns), x = MatrixXd::Zero(states, columns),
            moved(states, columns);
   Eigen::RowVectorXd off(columns);
-  for (int k = first; k < samples; ++k) {
+  for (int k = first; k < end; ++k) {
     if (k > first) {
       moved.noalias() = steps.slope_of(k - 1) * x;
       x = moved + column.middleCols((k - 1) * columns, columns);
@@ -95,7 +95,7 @@ MatrixXd white_columns(const LinearSteps& steps, const Innovations& filter, cons
       const double s = filter.variance(i, k);
       if (std::isnan(s)) continue;
       off = read.block(i, k * columns, 1, columns) + x.row(i);
-      out.row(k * states + i) = off / std::sqrt(s);
+      out.row((k - first) * states + i) = off / std::sqrt(s);
       x.noalias() -= filter.gain.col(k * states + i) * off;
     }
   }

@@ -42,10 +42,11 @@ struct Innovations {
 Innovations innovations(const LinearSteps& steps, const FilterInput& input);
 
 /// What columns that begin in interval `first` (and whose readings begin with sample `first`) take away from
-/// the innovations, with the gains of `filter`: (states * samples) x columns, zero before.
+/// the innovations of samples `first` to `end` (exclusive), with the gains of `filter`:
+/// (states * (end - first)) x columns.
 Eigen::MatrixXd white_columns(const LinearSteps& steps, const Innovations& filter,
                               const Eigen::MatrixXd& column, const Eigen::MatrixXd& read, int columns,
-                              int first);
+                              int first, int end);
 
 /// The trajectory's correction given all readings (Rauch, Tung and Striebel 1965), the columns as large as
 /// `size` says: states x samples. `variance`, if wanted, receives that of the correction.

@@ -17,11 +17,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kUsualOffset = 0.6;  // of the usual torque, that a torque may be logged beside the true one
 constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
 constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
 constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory
 constexpr double kAbsurd = 1e6;           // derivative of a state by the one before: the integration diverged
-constexpr double kMostSizes = 4.0;        // prior standard deviations that a size may start from
+constexpr double kMostColumns = 4.0;      // prior standard deviations that a size may start from
 constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
 constexpr double kMostLoss = 1.05;
 constexpr double kMostPayload = 2.5;  // of the tip's mass
@@ -195,7 +196,7 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
 VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
   VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
   if (reads_wrong(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
-  VectorXd out = size.cwiseMax(-kMostSizes * std).cwiseMin(kMostSizes * std);
+  VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLoss);
   if (guess.kind == FaultKind::payload_change)
     out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->tip_mass);
@@ -239,6 +240,10 @@ FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int join
     make(1);
     out.direction.col(0).head(at.base) = m.payload;
     out.std << 0.6 * m.tip_mass;
+  } else if (kind == FaultKind::torque_sensor_error) {
+    make(1);
+    out.direction(at.force(j), 0) = -1.0;
+    out.std << kUsualOffset * m.torque_rms[j];
   } else if (kind == FaultKind::collision) {
     make(at.joints);
     for (int i = 0; i < at.joints; ++i) out.direction(at.force(i), i) = 1.0;

@@ -14,13 +14,14 @@ struct CoarseGuess {
   FaultKind kind = FaultKind::none;
   int joint = 0;  ///< from 1
   double onset_s = 1e9;
-  double duration_s = 0.0;  ///< 0: to the end of the log
-  Eigen::VectorXd start;    ///< sizes to begin with; empty: none
+  double duration_s = 0.0;        ///< 0: to the end of the log
+  Eigen::VectorXd start;          ///< sizes to begin with; empty: none
+  bool velocity_is_true = false;  ///< of a drift, see FaultClaim
 };
 
 /// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
 /// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each
-/// joint; empty for kinds that move nothing.
+/// joint; torque logged beside the true one; empty for kinds that move nothing.
 struct FaultDirections {
   Eigen::MatrixXd direction;  ///< numbers x sizes
   Eigen::VectorXd std;

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/core/error.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
@@ -30,9 +31,22 @@ constexpr int kFewestRepeats = 3;       // samples: a position that repeats long
 constexpr double kTellingNoise = 2e-5;  // rad or m: without noise a joint at rest repeats its code
 constexpr int kFewestSamples = 16;      // of a log that anything can be said of
 
+/// First interval through which the robot cannot be integrated; their number where there is none.
+int first_wild(const LinearSteps& steps) {
+  for (int k = 0; k < steps.intervals; ++k)
+    if (!steps.miss.col(k).allFinite() || !steps.slope_of(k).allFinite()) return k;
+  return steps.intervals;
+}
+
+/// A smoothed trajectory, or the interval through which the robot cannot be integrated.
+struct SmoothedLog {
+  Trajectory about;
+  std::optional<int> wild{};
+};
+
 /// The trajectory smoothed under the healthy robot, any torque in doubt. The steps are linear about the force
 /// that the trajectory asks for, too: it may be as large as the torque.
-Trajectory smoothed_log(const CoarseLog& log) {
+SmoothedLog smoothed_log(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
   const int n = m.joints(), force = m.layout().force(0);
   const MotionLaw law(m.body, log.numbers);
@@ -47,8 +61,7 @@ Trajectory smoothed_log(const CoarseLog& log) {
   in.variance = log.variance;
   for (int round = 0; round < kSmoothings; ++round) {
     LinearSteps steps = linear_steps(log.log, about, m.setting, {.usual = &law, .force = &missing});
-    if (!steps.miss.allFinite() || !steps.slope.allFinite())
-      throw Error(ErrorCode::input, "", "moves so that the robot cannot be integrated through it");
+    if (const int wild = first_wild(steps); wild < steps.intervals) return {{}, wild};
     for (int k = 0; k < steps.intervals; ++k)
       steps.miss.col(k) -= steps.number_of(k).middleCols(force, n) * missing.col(k);
     in.process = process_covariance(steps, m.layout(), doubt.cwiseSqrt());
@@ -61,7 +74,14 @@ Trajectory smoothed_log(const CoarseLog& log) {
     }
     about += change;
   }
-  return about;
+  return {std::move(about)};
+}
+
+UniformLog first_rows(UniformLog log, int rows) {
+  for (MatrixXd* values : {&log.q, &log.dq, &log.tau})
+    if (values->rows() > rows) values->conservativeResize(rows, Eigen::NoChange);
+  log.lost.resize(static_cast<std::size_t>(rows));
+  return log;
 }
 
 /// Whether joint `j` came in fast and stays, from sample k on within a stretch outside its range.
@@ -130,7 +150,9 @@ CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
   out.read = readings(out.log);
   out.variance = model.variance_of_readings(out.log);
   out.force_std = model.force_std(out.log, out.read);
-  out.about = smoothed_log(out);
+  SmoothedLog smooth = smoothed_log(out);
+  if (smooth.wild) return coarse_log(first_rows(std::move(out.log), *smooth.wild), model);
+  out.about = std::move(smooth.about);
   out.force_std = model.force_std(out.log, out.about);
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);

@@ -48,7 +48,8 @@ struct CoarseLog {
   int first_onset() const;  ///< sample before which no onset is looked for
 };
 
-/// The model must outlive it.
+/// A robot that runs away so fast that it cannot be integrated is followed up to there. The model must
+/// outlive it. Throws Error(input) when too few rows are left to be explained.
 CoarseLog coarse_log(UniformLog log, const OneStepModel& model);
 
 /// Whether repeated codes of a position say anything: in healthy logs it hardly repeats, for its noise.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "lib/core/elementary/elementary.hpp"
 
@@ -17,6 +18,8 @@ using Eigen::VectorXd;
 constexpr std::array<double, 3> kBlow_s = {0.05, 0.15, 0.4};  // lengths of a collision that are tried
 constexpr double kOnsetStep_s = 0.05;                         // between two onsets at least
 constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
+constexpr double kWindow_s = 6.0;                             // behind an onset, in which the search looks
+constexpr int kFewestWindow = 60;                             // samples of it
 constexpr double kWorthASecond = 2.0;                         // nats
 constexpr double kStrikes = 10.0;  // mean square of one sample's innovations that no noise has
 constexpr std::size_t kOnsetsTried = 3;
@@ -43,7 +46,7 @@ Catalogue catalogue(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
   const int n = log.joints(), numbers = m.layout().count();
   Catalogue out;
-  out.direction = MatrixXd::Zero(numbers, 8 * n + 1);
+  out.direction = MatrixXd::Zero(numbers, (6 + static_cast<int>(std::size(kBlow_s))) * n + 1);
   int next = 0;
   const auto add = [&](FaultKind kind, int joint, double duration) {
     const FaultDirections fault = fault_directions(m, kind, joint);
@@ -57,6 +60,7 @@ Catalogue catalogue(const CoarseLog& log) {
   };
   for (int j = 1; j <= n; ++j) add(FaultKind::torque_loss, j, 0.0);
   for (int j = 1; j <= n; ++j) add(FaultKind::friction_increase, j, 0.0);
+  for (int j = 1; j <= n; ++j) add(FaultKind::torque_sensor_error, j, 0.0);
   add(FaultKind::payload_change, n, 0.0);
   for (const double length : kBlow_s)
     add(FaultKind::collision, n, std::max(1.0, std::round(length / log.period_s())) * log.period_s());
@@ -103,7 +107,7 @@ Base base_of(const CoarseLog& log) {
   return out;
 }
 
-/// Sums of all columns from one onset on, the day's effects taken away.
+/// Sums of all columns over a while from one onset on, the day's effects taken away.
 struct OnsetSums {
   MatrixXd square;
   VectorXd vector;
@@ -112,25 +116,28 @@ struct OnsetSums {
 OnsetSums sums_from(const CoarseLog& log, const Base& base, const Catalogue& all, const MatrixXd& column,
                     int from) {
   const int width = static_cast<int>(all.length.size()), states = log.healthy_steps.states;
-  const int rows = states * (log.samples() - from);
-  MatrixXd pulse = MatrixXd::Zero(states, width * log.healthy_steps.intervals);
-  MatrixXd read = MatrixXd::Zero(states, width * log.samples());
-  for (int k = from; k < log.healthy_steps.intervals; ++k)
+  const int window = std::max(kFewestWindow, static_cast<int>(kWindow_s / log.period_s()));
+  const int end = std::min(log.samples(), from + window), rows = states * (end - from);
+  // Blocks before the onset are never read.
+  MatrixXd pulse(states, width * log.healthy_steps.intervals), read(states, width * log.samples());
+  pulse.middleCols(width * from, width * (std::min(end, log.healthy_steps.intervals) - from)).setZero();
+  read.middleCols(width * from, width * (end - from)).setZero();
+  for (int k = from; k < std::min(end, log.healthy_steps.intervals); ++k)
     for (int c = 0; c < width; ++c)
       if (all.length[c] == 0 || k < from + all.length[c])
         pulse.col(k * width + c) = column.col(k * width + c);
-  for (int k = from; k < log.samples(); ++k)
+  for (int k = from; k < end; ++k)
     for (int j = 0; j < log.joints(); ++j) {
       read(j, k * width + all.bias[j]) = 1.0;
       read(j, k * width + all.drift[j]) = (k - from) * log.period_s();
       read(log.joints() + j, k * width + all.drift[j]) = 1.0;
     }
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
-  const MatrixXd x = keep.tail(rows).asDiagonal() *
-                     white_columns(log.healthy_steps, base.filter, pulse, read, width, from).bottomRows(rows);
-  const MatrixXd cross = x.transpose() * base.day.bottomRows(rows);
+  const MatrixXd x = keep.segment(states * from, rows).asDiagonal() *
+                     white_columns(log.healthy_steps, base.filter, pulse, read, width, from, end);
+  const MatrixXd cross = x.transpose() * base.day.middleRows(states * from, rows);
   return {x.transpose() * x - cross * base.covariance * cross.transpose(),
-          x.transpose() * base.left.tail(rows)};
+          x.transpose() * base.left.segment(states * from, rows)};
 }
 
 CoarseCandidate candidate(const CoarseLog& log, const Group& group, const OnsetSums& sums, int sample) {
@@ -166,6 +173,14 @@ void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<Coarse
   }
 }
 
+/// The first sample that no noise explains.
+std::optional<int> first_strike(const CoarseLog& log, const Base& base) {
+  const int states = log.healthy_steps.states;
+  for (int k = log.first_onset(); k < log.samples(); ++k)
+    if (base.left.segment(k * states, states).squaredNorm() > kStrikes * states) return k;
+  return std::nullopt;
+}
+
 /// Onsets of the best candidates, before them the first sample that no noise explains.
 std::vector<int> common_samples(const CoarseLog& log, const Base& base,
                                 const std::vector<CoarseCandidate>& all, int step) {
@@ -176,13 +191,11 @@ std::vector<int> common_samples(const CoarseLog& log, const Base& base,
     if (apart) out.push_back(c.sample);
     if (out.size() == kOnsetsTried) break;
   }
-  const int states = log.healthy_steps.states;
-  for (int k = log.first_onset(); k < log.samples(); ++k) {
-    if (base.left.segment(k * states, states).squaredNorm() <= kStrikes * states) continue;
-    const bool apart = std::all_of(out.begin(), out.end(), [&](int o) { return std::abs(k - 1 - o) > 1; });
-    if (apart) out.insert(out.begin(), std::max(log.first_onset(), k - 1));
-    break;
-  }
+  const std::optional<int> strike = first_strike(log, base);
+  if (!strike) return out;
+  const bool apart =
+      std::all_of(out.begin(), out.end(), [&](int o) { return std::abs(*strike - 1 - o) > 1; });
+  if (apart) out.insert(out.begin(), std::max(log.first_onset(), *strike - 1));
   return out;
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
-#include "lib/explain/coarse/coarse_judge.hpp"
-#include "lib/explain/coarse/coarse_price.hpp"
+#include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/coarse_search.hpp"
+#include "lib/fault/fault_labels.hpp"
 
 namespace faultline {
 namespace {
@@ -16,118 +16,60 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchLeft = 3.0;     // mean square from which an explanation may be none,
-constexpr double kUnexplained = 0.3;  // and share of what the log leaves without it
-constexpr double kFreeShare = 0.9;    // of the torque lost, from which a joint swings freely
-constexpr std::size_t kJudged = 14;   // candidates
+constexpr double kMuchLeft = 3.0;          // mean square from which an explanation may be none,
+constexpr double kUnexplained = 0.3;       // and share of what the log leaves without it
+constexpr double kMayWinAtCoarse = 0.3;    // of the best evidence, that a better onset may make the best
+constexpr std::size_t kJudged = 14;        // candidates
+constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
+constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
 constexpr std::size_t kOnsetsForAllKinds = 2;
-constexpr int kSameSamples = 3;       // between two onsets that count as one
-constexpr int kRounds = 3;            // of a judgement
 constexpr std::size_t kMoved = 4;     // hypotheses whose onset is refined
 constexpr double kWorthMoving = 5.0;  // nats
 constexpr int kMostMoves = 24;
-constexpr int kNewton = 6;              // steps of onset and size together
-constexpr double kLongSample_s = 0.05;  // from which an onset moves by shares of a sample
+constexpr int kNewton = 6;  // steps of onset and size together
 constexpr double kMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
-/// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
-constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
-constexpr int kStepsForEach = 2;
-constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03, kSettled_s = 2e-4;
 constexpr double kStandsFor_s = 0.3;  // at the end of a log: where a locked joint stands
 constexpr double kStillWithin = 5.0;  // standard deviations of a reading
 constexpr double kStillRounding = 1e-6;
 constexpr int kFewestRepeated = 4;  // samples that repeat a code to the end
 
-bool moves_with_onset(FaultKind kind) {
-  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
-         kind != FaultKind::stuck_encoder && kind != FaultKind::unknown;
-}
+bool more(const JudgedGuess& a, const JudgedGuess& b) { return a.gain > b.gain; }
 
-/// A step of Newton on onset and size together; false where the guess cannot be integrated. `step_s` receives
-/// by how much the onset wanted to move.
-bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s) {
-  const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
-  const CoarseExplanation fit =
-      judge_coarse(log, guess, {.rounds = 1, .move_onset = true, .forgiven = forgiven});
-  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return false;
-  guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
-                             log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
-  guess.start = fit.size;
-  *step_s = fit.onset_step_s;
-  return true;
-}
-
-/// The guess brought near its best onset and size. What a wrong onset leaves is first forgiven, then ever
-/// less, so that the steps of Newton find their way from a sample away.
-CoarseGuess approached(const CoarseLog& log, CoarseGuess guess) {
-  for (const double forgiven : kForgivenInTurn)
-    for (int k = 0; k < kStepsForEach; ++k) {
-      double step = 0.0;
-      if (!newton_step(log, forgiven, guess, &step)) return guess;
-      if (std::abs(step) < kSettled_s) break;
-    }
-  return guess;
-}
-
-/// A hypothesis that was judged.
-struct Judged {
-  CoarseGuess guess;
-  FaultKind kind = FaultKind::none;  ///< as it is called: a lost torque may be a free joint
-  double gain = -1e300;
-  CoarseExplanation fit;
-};
-
-/// Judges hypotheses of one log; keeps the best of each kind and joint, and the onsets of all.
-struct CoarseBench {
-  const CoarseLog& log;
-  std::vector<Judged> best;
-  std::vector<CoarseGuess> tried;
-
-  /// Judges a guess as it is and, where its onset matters, from where its best onset is.
-  void try_from(const CoarseGuess& guess) {
-    if (guess.kind == FaultKind::torque_loss && log.model->torque_is_measured) return;
-    go(guess, kRounds);
-    if (moves_with_onset(guess.kind)) go(approached(log, guess), kRounds);
-  }
-  Judged go(const CoarseGuess& guess, int rounds) {
-    Judged out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds})};
-    out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
-    if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
-      out.kind = FaultKind::free_swinging;
-    tried.push_back(guess);
-    const auto known = std::find_if(best.begin(), best.end(), [&](const Judged& o) {
-      return o.kind == out.kind && o.guess.joint == out.guess.joint;
-    });
-    if (known == best.end())
-      best.push_back(out);
-    else if (out.gain > known->gain)
-      *known = out;
-    return out;
-  }
-  bool tried_near(FaultKind kind, int joint, double onset_s) const {
-    return std::any_of(tried.begin(), tried.end(), [&](const CoarseGuess& g) {
-      return g.kind == kind && g.joint == joint &&
-             std::abs(g.onset_s - onset_s) < kSameSamples * log.period_s();
-    });
-  }
-};
-
-bool more(const Judged& a, const Judged& b) { return a.gain > b.gain; }
-
-void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
+/// What the search found, and every linear kind at the onsets that stand out most.
+std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const int n = log.joints();
+  std::vector<CoarseGuess> out;
   for (std::size_t k = 0; k < std::min(kJudged, search.candidates.size()); ++k)
-    bench.try_from(search.candidates[k].guess);
+    out.push_back(search.candidates[k].guess);
   for (std::size_t k = 0; k < std::min(kOnsetsForAllKinds, search.onsets.size()); ++k) {
     const double onset = log.time_s(search.onsets[k]);
-    const auto try_one = [&](FaultKind kind, int joint) {
-      if (!bench.tried_near(kind, joint, onset)) bench.try_from({kind, joint, onset, 0.0, {}});
-    };
-    for (int j = 1; j <= n; ++j) try_one(FaultKind::torque_loss, j);
-    for (int j = 1; j <= n; ++j) try_one(FaultKind::friction_increase, j);
-    try_one(FaultKind::payload_change, n);
+    for (const FaultLabel& label : fault_labels(n, log.model->torque_is_measured))
+      if (is_linear_at_coarse(label.kind)) out.push_back({label.kind, label.joint, onset, 0.0, {}});
     for (int j = 1; j <= n; ++j) bench.go({FaultKind::unknown, j, onset, 0.0, {}}, 1);
+  }
+  return out;
+}
+
+/// Judges those that explain the log best where a wrong onset is forgiven, from where their best onset is.
+void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
+  struct Rated {
+    CoarseGuess guess;
+    double log_likelihood = 0.0;
+  };
+  std::vector<Rated> rated;
+  for (const CoarseGuess& guess : guesses_of(search, bench))
+    rated.push_back(
+        {guess, judge_coarse(bench.log, guess, {.rounds = 1, .forgiven = kForgivenAtFirst}).log_likelihood});
+  std::stable_sort(rated.begin(), rated.end(),
+                   [](const Rated& a, const Rated& b) { return a.log_likelihood > b.log_likelihood; });
+  std::size_t approached = 0;
+  for (const Rated& r : rated) {
+    if (approached == kApproached) break;
+    if (bench.tried_near(r.guess.kind, r.guess.joint, r.guess.onset_s)) continue;
+    bench.go(r.guess);
+    bench.go_near(r.guess);
+    ++approached;
   }
 }
 
@@ -164,10 +106,10 @@ bool may_begin(const CoarseLog& log, double onset_s) {
 }
 
 /// Moves the onset by halved steps while it explains more.
-Judged moved(Judged best, CoarseBench& bench) {
+JudgedGuess moved(JudgedGuess best, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const double period = log.period_s();
-  const int rounds = best.guess.kind == FaultKind::locked ? 1 : kRounds;
+  const int rounds = best.guess.kind == FaultKind::locked ? 1 : CoarseBench::kCoarseRounds;
   int moves = 0;
   double step = period > kLongSample_s ? period : kMove_s;
   while (step > kLeastMove * period && step > kLeastMove_s && moves < kMostMoves) {
@@ -178,7 +120,7 @@ Judged moved(Judged best, CoarseBench& bench) {
       guess.start = best.fit.size;
       if (!may_begin(log, guess.onset_s)) continue;
       ++moves;
-      Judged now = bench.go(guess, rounds);
+      JudgedGuess now = bench.go(guess, rounds);
       if (now.gain <= best.gain) continue;
       best = std::move(now);
       better = true;
@@ -190,23 +132,23 @@ Judged moved(Judged best, CoarseBench& bench) {
 }
 
 /// Steps of Newton on onset and size together.
-Judged settled(Judged best, CoarseBench& bench) {
+JudgedGuess settled(JudgedGuess best, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
-  Judged at = best;
+  JudgedGuess at = best;
   for (int k = 0; k < kNewton; ++k) {
     CoarseGuess guess = at.guess;
     guess.start = at.fit.size;
     double step = 0.0;
     if (!newton_step(log, 0.0, guess, &step)) break;
-    at = bench.go(guess, kRounds - 1);
+    at = bench.go(guess, CoarseBench::kCoarseRounds - 1);
     if (at.gain > best.gain) best = at;
     if (std::abs(step) < kSettled_s) break;
   }
   return best;
 }
 
-void refine(const Judged& start, CoarseBench& bench) {
-  Judged best = moved(start, bench);
+void refine(const JudgedGuess& start, CoarseBench& bench) {
+  JudgedGuess best = moved(start, bench);
   const FaultKind kind = best.guess.kind;
   if (moves_with_onset(kind)) best = settled(std::move(best), bench);
   if (kind != FaultKind::collision) return;
@@ -214,17 +156,17 @@ void refine(const Judged& start, CoarseBench& bench) {
     CoarseGuess guess = best.guess;
     guess.start = best.fit.size;
     guess.duration_s *= factor;
-    Judged now = bench.go(guess, kRounds - 1);
+    JudgedGuess now = bench.go(guess, CoarseBench::kCoarseRounds - 1);
     if (now.gain > best.gain) best = std::move(now);
   }
 }
 
 /// The best of each kind and joint; a free joint and a lost torque are one.
-std::vector<Judged> to_refine(const std::vector<Judged>& all) {
-  std::vector<Judged> sorted = all, out;
+std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
+  std::vector<JudgedGuess> sorted = all, out;
   std::stable_sort(sorted.begin(), sorted.end(), more);
-  for (Judged& j : sorted) {
-    const bool known = std::any_of(out.begin(), out.end(), [&](const Judged& o) {
+  for (JudgedGuess& j : sorted) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const JudgedGuess& o) {
       return o.guess.kind == j.guess.kind && o.guess.joint == j.guess.joint;
     });
     if (!known) out.push_back(std::move(j));
@@ -233,45 +175,7 @@ std::vector<Judged> to_refine(const std::vector<Judged>& all) {
   return out;
 }
 
-FaultHypothesis hypothesis_of(const CoarseLog& log, const Judged& judged) {
-  FaultHypothesis out;
-  out.kind = judged.kind;
-  out.joint = judged.guess.joint;
-  out.onset_s = judged.guess.onset_s;
-  if (judged.guess.duration_s > 0.0) out.end_s = out.onset_s + judged.guess.duration_s;
-  out.gain = judged.gain;
-  out.size = judged.fit.size;
-  out.fit.log_likelihood = judged.fit.log_likelihood;
-  out.fit.day = judged.fit.day;
-  out.fit.size = judged.fit.size;
-  out.fit.left = Eigen::Map<const VectorXd>(judged.fit.left.data(), judged.fit.left.size());
-  out.fit.row_gain = 0.5 * (log.healthy.left.cwiseAbs2() - judged.fit.left.cwiseAbs2() - judged.fit.log_ratio)
-                               .colwise()
-                               .sum()
-                               .transpose();
-  return out;
-}
-
-}  // namespace
-
-LogExplanation explain_coarse(const CoarseLog& log) {
-  CoarseBench bench{log, {}, {}};
-  judge_candidates(search_coarse(log), bench);
-  for (int j = 0; j < log.joints(); ++j) judge_standstill(j, bench);
-  for (const Judged& j : to_refine(bench.best)) {
-    const FaultKind kind = j.guess.kind;
-    const bool fixed = kind == FaultKind::stuck_encoder || kind == FaultKind::sensor_bias ||
-                       kind == FaultKind::unknown;  // begins at a sample, or says nothing of its onset
-    if (j.gain >= kWorthMoving && !fixed) refine(j, bench);
-  }
-  LogExplanation out;
-  std::stable_sort(bench.best.begin(), bench.best.end(), more);
-  for (const Judged& j : bench.best) out.best.push_back(hypothesis_of(log, j));
-  out.healthy_square = log.healthy.mean_square();
-  return out;
-}
-
-EvidenceCourse coarse_course(const CoarseLog& log, const FaultHypothesis& hypothesis) {
+EvidenceCourse course_of(const CoarseLog& log, const FaultHypothesis& hypothesis) {
   int onset = 0;
   while (onset < log.samples() && log.time_s(onset) < hypothesis.onset_s) ++onset;
   EvidenceCourse out;
@@ -284,10 +188,34 @@ EvidenceCourse coarse_course(const CoarseLog& log, const FaultHypothesis& hypoth
   return out;
 }
 
-double coarse_misfit(const LogExplanation& e, const FaultHypothesis& h) {
+double misfit_of(const LogExplanation& e, const FaultHypothesis& h) {
   const double left = h.fit.mean_square();
   const bool much = left > kMuchLeft && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
   return much ? std::numeric_limits<double>::infinity() : 0.0;
+}
+
+}  // namespace
+
+LogExplanation explain_coarse(const CoarseLog& log) {
+  CoarseBench bench(log);
+  judge_candidates(search_coarse(log), bench);
+  for (int j = 0; j < log.joints(); ++j) judge_standstill(j, bench);
+  for (const JudgedGuess& j : to_refine(bench.best)) {
+    const FaultKind kind = j.guess.kind;
+    const bool fixed = kind == FaultKind::stuck_encoder || kind == FaultKind::sensor_bias ||
+                       kind == FaultKind::unknown;  // begins at a sample, or says nothing of its onset
+    const double enough = std::max(kWorthMoving, kMayWinAtCoarse * bench.best_gain());
+    if (j.gain >= enough && !fixed) refine(j, bench);
+  }
+  LogExplanation out;
+  out.best = bench.ranked();
+  out.healthy_square = log.healthy.mean_square();
+  return out;
+}
+
+LogEvidence coarse_evidence(const CoarseLog& log, const LogExplanation& e) {
+  return {[&log](const FaultHypothesis& h) { return course_of(log, h); },
+          [&e](const FaultHypothesis& h) { return misfit_of(e, h); }};
 }
 
 }  // namespace faultline

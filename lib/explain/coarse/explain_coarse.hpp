@@ -2,17 +2,15 @@
 #pragma once
 
 #include "lib/explain/coarse/coarse_log.hpp"
-#include "lib/explain/explain.hpp"
+#include "lib/explain/decide_log.hpp"
 
 namespace faultline {
 
 /// What a log at a coarse rate says: the best hypothesis of each kind and joint, best first.
 LogExplanation explain_coarse(const CoarseLog& log);
 
-/// Evidence of `hypothesis` from its onset on.
-EvidenceCourse coarse_course(const CoarseLog& log, const FaultHypothesis& hypothesis);
-
-/// Whether a hypothesis leaves so much that the fault is none of the kinds: 0, or without bound.
-double coarse_misfit(const LogExplanation& explanation, const FaultHypothesis& hypothesis);
+/// What decides about the hypotheses of a log at a coarse rate. A hypothesis leaves so much that the fault is
+/// none of the kinds, or it does not: its misfit is 0 or without bound.
+LogEvidence coarse_evidence(const CoarseLog& log, const LogExplanation& explanation);
 
 }  // namespace faultline

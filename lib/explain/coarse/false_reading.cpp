@@ -14,7 +14,7 @@ Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int 
   const int j = guess.joint - 1, n = log.joints();
   for (int k = from; k < log.samples(); ++k) {
     out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
-    if (guess.kind == FaultKind::sensor_drift) out(n + j, k) = 1.0;
+    if (guess.kind == FaultKind::sensor_drift && !guess.velocity_is_true) out(n + j, k) = 1.0;
   }
   return out;
 }

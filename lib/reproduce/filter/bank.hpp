@@ -9,9 +9,9 @@ namespace faultline {
 
 /// One hypothesis from one onset on: its filter and its log likelihood ratio against the healthy filter.
 struct RunningHypothesis {
-  int hypothesis = 0;       ///< index into the bank
-  std::int64_t onset = 0;   ///< the fault begins within the step into this sample (index into the history)
-  double onset_s = 0.0;     ///< middle of that step
+  int hypothesis = 0;      ///< index into the bank
+  std::int64_t onset = 0;  ///< the fault begins within the step into this sample (index into the history)
+  double onset_s = 0.0;    ///< middle of that step
   double log_likelihood_ratio = 0.0;
   GaussianState state;
 };

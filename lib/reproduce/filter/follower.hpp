@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "lib/reproduce/filter/fault_load.hpp"
-#include "lib/reproduce/filter/prediction.hpp"
-#include "lib/reproduce/filter/log_noise.hpp"
 #include "lib/log/log.hpp"
+#include "lib/reproduce/filter/fault_load.hpp"
+#include "lib/reproduce/filter/log_noise.hpp"
+#include "lib/reproduce/filter/prediction.hpp"
 
 namespace faultline {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "lib/reproduce/filter/joint_array.hpp"
 #include "lib/evidence/slow_state.hpp"
+#include "lib/reproduce/filter/joint_array.hpp"
 
 namespace faultline {
 

@@ -18,7 +18,7 @@ struct Hypothesis {
   FaultLabel label;         ///< joint from 1; 0 for a push on all joints
   double duration_s = 0.0;  ///< of a collision's pulse, at most; 0 for faults that stay
   HypothesisForm form = HypothesisForm::usual;
-  int sizes = 0;               ///< numbers in the state that say how large it is
+  int sizes = 0;  ///< numbers in the state that say how large it is
 
   int joint_index() const { return label.joint - 1; }
 };

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "lib/reproduce/filter/log_noise.hpp"
 #include "lib/evidence/motion_model.hpp"
 #include "lib/log/log.hpp"
+#include "lib/reproduce/filter/log_noise.hpp"
 
 namespace faultline {
 

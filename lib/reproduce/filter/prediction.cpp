@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/evidence/size_scale.hpp"
 #include "lib/reproduce/filter/process_noise.hpp"
 #include "lib/reproduce/filter/transition.hpp"
-#include "lib/evidence/size_scale.hpp"
 
 namespace faultline {
 namespace {

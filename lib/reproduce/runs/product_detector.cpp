@@ -6,10 +6,10 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
-#include "lib/reproduce/filter/match_noise.hpp"
 #include "lib/evidence/usual_motion.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
+#include "lib/reproduce/filter/match_noise.hpp"
 
 namespace faultline {
 namespace {

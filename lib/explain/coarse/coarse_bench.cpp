@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/coarse_bench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/explain/coarse/coarse_price.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kFreeShare = 0.9;  // of the torque lost, from which a joint swings freely
+constexpr int kSameSamples = 3;     // between two onsets that count as one
+/// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
+constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
+constexpr int kStepsForEach = 2;
+constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
+
+/// The guess brought near its best onset and size. What a wrong onset leaves is first forgiven, then ever
+/// less, so that the steps of Newton find their way from a sample away.
+CoarseGuess approached(const CoarseLog& log, CoarseGuess guess) {
+  for (const double forgiven : kForgivenInTurn)
+    for (int k = 0; k < kStepsForEach; ++k) {
+      double step = 0.0;
+      if (!newton_step(log, forgiven, guess, &step)) return guess;
+      if (std::abs(step) < kSettled_s) break;
+    }
+  return guess;
+}
+
+FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
+  FaultHypothesis out;
+  out.kind = judged.kind;
+  out.joint = judged.guess.joint;
+  if (out.kind == FaultKind::collision) {  // it belongs to the joint that it pushes most, by its torque
+    judged.fit.size.cwiseQuotient(log.model->torque_rms).cwiseAbs().maxCoeff(&out.joint);
+    ++out.joint;
+  }
+  out.onset_s = judged.guess.onset_s;
+  if (judged.guess.duration_s > 0.0) out.end_s = out.onset_s + judged.guess.duration_s;
+  out.gain = judged.gain;
+  out.size = judged.fit.size;
+  out.fit.log_likelihood = judged.fit.log_likelihood;
+  out.fit.day = judged.fit.day;
+  out.fit.size = judged.fit.size;
+  out.fit.left = Eigen::Map<const VectorXd>(judged.fit.left.data(), judged.fit.left.size());
+  out.fit.row_gain = 0.5 * (log.healthy.left.cwiseAbs2() - judged.fit.left.cwiseAbs2() - judged.fit.log_ratio)
+                               .colwise()
+                               .sum()
+                               .transpose();
+  return out;
+}
+
+}  // namespace
+
+bool moves_with_onset(FaultKind kind) {
+  return kind != FaultKind::sensor_bias && kind != FaultKind::sensor_drift &&
+         kind != FaultKind::stuck_encoder && kind != FaultKind::unknown;
+}
+
+bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s) {
+  const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
+  const CoarseExplanation fit =
+      judge_coarse(log, guess, {.rounds = 1, .move_onset = true, .forgiven = forgiven});
+  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return false;
+  guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
+                             log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
+  guess.start = fit.size;
+  *step_s = fit.onset_step_s;
+  return true;
+}
+
+JudgedGuess CoarseBench::go(const CoarseGuess& guess, int rounds) {
+  JudgedGuess out = judge_and_keep(guess, rounds);
+  if (guess.kind != FaultKind::sensor_drift || guess.velocity_is_true || log.log.dq.rows() == 0) return out;
+  CoarseGuess apart = guess;
+  apart.velocity_is_true = true;
+  JudgedGuess other = judge_and_keep(apart, rounds);
+  return other.gain > out.gain ? other : out;
+}
+
+JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds) {
+  JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds})};
+  out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
+  if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
+    out.kind = FaultKind::free_swinging;
+  tried.push_back(guess);
+  const auto known = std::find_if(best.begin(), best.end(), [&](const JudgedGuess& o) {
+    return o.kind == out.kind && o.guess.joint == out.guess.joint;
+  });
+  if (known == best.end())
+    best.push_back(out);
+  else if (out.gain > known->gain)
+    *known = out;
+  return out;
+}
+
+void CoarseBench::go_near(const CoarseGuess& guess) {
+  if (moves_with_onset(guess.kind)) go(approached(log, guess));
+}
+
+bool CoarseBench::tried_near(FaultKind kind, int joint, double onset_s) const {
+  return std::any_of(tried.begin(), tried.end(), [&](const CoarseGuess& g) {
+    return g.kind == kind && g.joint == joint &&
+           std::abs(g.onset_s - onset_s) < kSameSamples * log.period_s();
+  });
+}
+
+double CoarseBench::best_gain() const {
+  double out = 0.0;
+  for (const JudgedGuess& j : best) out = std::max(out, j.gain);
+  return out;
+}
+
+std::vector<FaultHypothesis> CoarseBench::ranked() const {
+  std::vector<FaultHypothesis> out;
+  for (const JudgedGuess& j : best) out.push_back(hypothesis_of(log, j));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
+  return out;
+}
+
+}  // namespace faultline

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/explain/coarse/coarse_judge.hpp"
+#include "lib/explain/hypothesis.hpp"
+
+namespace faultline {
+
+/// A hypothesis at a coarse rate that was judged.
+struct JudgedGuess {
+  CoarseGuess guess;
+  FaultKind kind = FaultKind::none;  ///< as it is called: a lost torque may be a free joint
+  double gain = -1e300;
+  CoarseExplanation fit;
+};
+
+/// Judges hypotheses of one log at a coarse rate; keeps the best of each kind and joint, and the onsets of
+/// all.
+class CoarseBench {
+ public:
+  explicit CoarseBench(const CoarseLog& of) : log(of) {}
+
+  const CoarseLog& log;
+  std::vector<JudgedGuess> best{};
+  std::vector<CoarseGuess> tried{};
+
+  /// Judges a guess with so many rounds of integration and regression.
+  JudgedGuess go(const CoarseGuess& guess, int rounds = kCoarseRounds);
+  /// The same from where its best onset is, if that matters.
+  void go_near(const CoarseGuess& guess);
+  bool tried_near(FaultKind kind, int joint, double onset_s) const;
+  double best_gain() const;
+  /// The best of each kind and joint, best first.
+  std::vector<FaultHypothesis> ranked() const;
+
+  static constexpr int kCoarseRounds = 3;
+
+ private:
+  JudgedGuess judge_and_keep(const CoarseGuess& guess, int rounds);
+};
+
+inline constexpr double kLongSample_s = 0.05;  ///< from which an onset moves by shares of a sample
+inline constexpr double kSettled_s = 2e-4;     ///< an onset that moves less is settled
+
+/// Whether a fault of the kind changes numbers that move the robot, and stays.
+inline bool is_linear_at_coarse(FaultKind kind) {
+  return kind == FaultKind::torque_loss || kind == FaultKind::friction_increase ||
+         kind == FaultKind::payload_change || kind == FaultKind::torque_sensor_error;
+}
+
+/// Whether the onset of a kind lies between samples.
+bool moves_with_onset(FaultKind kind);
+
+/// A step of Newton on onset and size together; false where the guess cannot be integrated. `step_s` receives
+/// by how much the onset wanted to move.
+bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s);
+
+}  // namespace faultline

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/explain_at.hpp"
+
+#include <algorithm>
+
+#include "lib/explain/coarse/coarse_bench.hpp"
+#include "lib/explain/coarse/explain_coarse.hpp"
+#include "lib/explain/refine.hpp"
+#include "lib/explain/sensor_jumps.hpp"
+#include "lib/fault/fault_labels.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLongestPush_s = 1.2;
+constexpr int kRoundsAtKnownTimes = 2;  // of integration and regression at coarse rates
+
+/// Times of a fault. Kinds that pass have an end in any case; those that repeat or jump begin with a sample.
+struct FaultTimes {
+  double onset_s = 0.0, end_s = kNeverEnds;
+  double sample_s = 0.0;  ///< first sample from the onset on
+};
+
+FaultTimes times_of(const UniformLog& log, double onset_s, double end_s) {
+  const double row = (onset_s - log.start_s) / log.period_s;
+  return {onset_s, end_s, log.time_s(std::clamp(std::ceil(row - 1e-6), 0.0, log.rows() - 1.0))};
+}
+
+/// The jump of a joint's reading next to a time, as a size to begin with; 0 where there is none.
+double jump_near(const LogFit& fit, int joint, double time_s) {
+  double size = 0.0, nearest = 4.0 * fit.log().period_s;
+  for (const SensorJump& jump : sensor_jumps(fit, joint))
+    if (std::abs(jump.onset_s - time_s) < nearest)
+      nearest = std::abs(jump.onset_s - time_s), size = jump.size;
+  return size;
+}
+
+std::optional<ExplainedFault> first_of(const LogExplanation& e, const EvidenceLimits& limits,
+                                       const LogEvidence& evidence) {
+  std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
+  if (named.empty()) return std::nullopt;
+  return std::move(named.front());
+}
+
+std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& model,
+                                   const EvidenceLimits& limits, const FaultTimes& at) {
+  const LogFit fit(log, model);
+  JudgedHypotheses bench{fit, {}};
+  bench.judged.reserve(256);
+  for (const LinearFault& fault : fit.linear())
+    bench.go({fault.kind, fault.joint, at.onset_s, at.end_s, {}, fault.columns.grow});
+  bench.go({FaultKind::collision, fit.joints(), at.onset_s,
+            at.end_s - at.onset_s < kLongestPush_s ? at.end_s : kNeverEnds});
+  for (int joint = 1; joint <= fit.joints(); ++joint) {
+    bench.go({FaultKind::locked, joint, at.onset_s, at.end_s});
+    bench.go({FaultKind::stuck_encoder, joint, at.sample_s, at.end_s});
+    bench.go({FaultKind::sensor_drift, joint, at.onset_s, at.end_s});
+    const double jump = jump_near(fit, joint, at.sample_s);
+    bench.go({FaultKind::sensor_bias, joint, at.sample_s, at.end_s, Eigen::VectorXd::Constant(1, jump)});
+  }
+  LogExplanation e;
+  e.best = best_of_each(bench.judged);
+  e.healthy_square = fit.healthy().mean_square();
+  e.free_form = free_form(fit);
+  return first_of(e, limits, log_evidence(fit, e));
+}
+
+std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepModel& model,
+                                     const EvidenceLimits& limits, const FaultTimes& at) {
+  const CoarseLog log = coarse_log(uniform, model);
+  CoarseBench bench(log);
+  const double lasts_s = at.end_s < kNeverEnds ? at.end_s - at.onset_s : 0.0;
+  for (const FaultLabel& label : fault_labels(log.joints(), model.torque_is_measured)) {
+    if (label.kind == FaultKind::free_swinging) continue;
+    const bool begins_with_sample =
+        label.kind == FaultKind::stuck_encoder || label.kind == FaultKind::sensor_bias;
+    const bool passes = label.kind == FaultKind::collision;
+    bench.go({label.kind,
+              label.joint,
+              begins_with_sample ? at.sample_s : at.onset_s,
+              passes && lasts_s == 0.0 ? kLongestPush_s : lasts_s,
+              {}},
+             label.kind == FaultKind::locked ? 1 : kRoundsAtKnownTimes);
+  }
+  LogExplanation e;
+  e.best = bench.ranked();
+  e.healthy_square = log.healthy.mean_square();
+  return first_of(e, limits, coarse_evidence(log, e));
+}
+
+}  // namespace
+
+std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
+                                         double end_s) {
+  const FaultTimes at = times_of(log, onset_s, end_s);
+  if (const auto* steps = std::get_if<OneStepModel>(&model.robot))
+    return coarse(log, *steps, model.limits, at);
+  return fine(log, std::get<BalanceModel>(model.robot), model.limits, at);
+}
+
+}  // namespace faultline
