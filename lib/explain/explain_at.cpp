@@ -29,7 +29,7 @@ FaultTimes times_of(const UniformLog& log, double onset_s, double end_s) {
 /// The jump of a joint's reading next to a time, as a size to begin with; 0 where there is none.
 double jump_near(const LogFit& fit, int joint, double time_s) {
   double size = 0.0, nearest = 4.0 * fit.log().period_s;
-  for (const SensorJump& jump : sensor_jumps(fit, joint))
+  for (const SensorJump& jump : sensor_jumps(fit, joint - 1))
     if (std::abs(jump.onset_s - time_s) < nearest)
       nearest = std::abs(jump.onset_s - time_s), size = jump.size;
   return size;

@@ -80,9 +80,11 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
                                         const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
                                         const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
-  if (!leaves_much(alone)) return {alone};
+  // A drive that clips is no known kind: what several known faults explain comes before it.
+  const bool suffices = !leaves_much(alone), is_known = alone.claim.kind != FaultKind::unknown;
+  if (suffices && is_known) return {alone};
   for (const ExplainedFault& first : next.named) {
-    if (first.evidence < kFirstShare * alone.evidence) continue;
+    if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
     std::vector<ExplainedFault> together = {first};
     while (together.size() < kMostTogether) {
@@ -90,10 +92,11 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
       const NextFault another = next_fault(log, model, limits, more);
       if (another.named.empty()) break;
       together.push_back(another.named.front());
+      if (together.back().claim.kind == FaultKind::unknown) break;
       if (!leaves_much(together.back())) return together;
     }
   }
-  return {next.unknown};
+  return {suffices ? alone : next.unknown};
 }
 
 std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out) {

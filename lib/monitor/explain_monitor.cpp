@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/log/memory_source.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kWindow_s = 120.0;
 constexpr double kOverlap_s = 10.0;    // of two windows; the middle parts what each decides
 constexpr double kLongestGap_s = 2.0;  // that a window spans
-constexpr int kFewestRows = 2;
+constexpr int kFewestRows = 20;  // with position and torque of every joint
 
 /// By which a healthy day may differ as the robot file says, or by default.
 double stated_range(const DayEffect& effect, const Model& model) {
@@ -26,6 +27,27 @@ double stated_range(const DayEffect& effect, const Model& model) {
       return normal.torque_offset * model.motion.torque_scale[effect.joint - 1];
   }
   return 0.0;
+}
+
+/// Rows with position and torque of every joint.
+int complete_rows(const Log& log) {
+  int out = 0;
+  for (int k = 0; k < log.rows(); ++k) {
+    const auto has = [k](const JointSignals& signals) {
+      return std::all_of(signals.begin(), signals.end(),
+                         [k](const std::vector<double>& joint) { return std::isfinite(joint[k]); });
+    };
+    out += has(log.q) && has(log.tau);
+  }
+  return out;
+}
+
+/// What the rows say; nothing where they are too few.
+ExplainedLog explained_rows(const Log& rows, const Model& model) {
+  if (complete_rows(rows) < kFewestRows) return {};
+  MemorySource source(rows);
+  const UniformLog log = uniform_log(source, median_step(rows.time));
+  return can_explain(log, model.explain.robot) ? explain_whole_log(log, model.explain) : ExplainedLog{};
 }
 
 }  // namespace
@@ -63,14 +85,11 @@ void ExplainMonitor::finish() { explain_window(false); }
 
 /// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
 void ExplainMonitor::explain_window(bool is_followed) {
-  if (window_.rows() < kFewestRows) return;
+  if (window_.rows() == 0) return;
   const double end_s = window_.time.back();
   const double from_s = decided_s_.value_or(window_.time.front());
   const double until_s = is_followed ? end_s - 0.5 * kOverlap_s : end_s;
-  MemorySource source(window_);
-  const UniformLog log = uniform_log(source, model_.sample_period_s);
-  ExplainedLog explained;
-  if (can_explain(log, model_.explain.robot)) explained = explain_whole_log(log, model_.explain);
+  const ExplainedLog explained = explained_rows(window_, model_);
   std::vector<Lasting> before;
   std::swap(before, lasting_);
   for (const ExplainedFault& fault : explained.faults) {

@@ -123,6 +123,12 @@ void set_days(HealthyRobot& robot) {
 
 }  // namespace
 
+RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
+  if (std::holds_alternative<BalanceModel>(robot.model.explain.robot)) return fitted_days(robot, days).model;
+  return fit_coarse_days(days, robot.model.robot, robot.identification.space,
+                         {.torque_is_held = is_held(robot)});
+}
+
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress) {
   Identification identification = identify(logs, robot, options, part_of(progress, 0.0, kFirst));

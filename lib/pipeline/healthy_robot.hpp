@@ -31,4 +31,7 @@ struct HealthyRobot {
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress);
 
+/// Rows learned from some of the robot's days.
+RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days);
+
 }  // namespace faultline

@@ -16,33 +16,24 @@ namespace faultline {
 namespace {
 
 constexpr double kRobotFirst = 0.6;  // share of the work that is done before logs are doubted
-// Two logs that nobody else vouches for: a day that was not learned gives as much as kLeastEvidence times
-// this.
-constexpr double kContradictory = 10.0;
+constexpr double kHint = 5.0;         // nats from which the most suspicious log is judged by the others
+constexpr double kContradictory = 5.0;  // times kLeastEvidence: a day of a kind that few logs show gives less
 
 /// What a robot learned from the other logs sees in one of them.
 struct Contradiction {
   int log = 0;  ///< from 0
   FaultLabel label;
   double onset_s = 0.0;
-  std::optional<ExplainedRobot> others{};  ///< the robot that sees it, where it was learned anew
 };
 
-/// The strongest evidence in log `k`, as a share of what the other logs ask for.
-double suspicion(const std::vector<LogExplanation>& left_out, std::size_t k) {
-  std::vector<LogExplanation> others;
-  for (std::size_t i = 0; i < left_out.size(); ++i)
-    if (i != k) others.push_back(left_out[i]);
-  return largest_share(left_out[k], evidence_limits(others));
-}
+double strongest(const LogExplanation& e) { return e.best.empty() ? 0.0 : e.best.front().gain; }
 
-/// The log that the others contradict most, and whether they do at all.
+/// The log in which a fault explains most, if that is anything at all.
 std::optional<std::size_t> suspect(const std::vector<LogExplanation>& left_out) {
   std::size_t worst = 0;
-  double most = 0.0;
-  for (std::size_t k = 0; k < left_out.size(); ++k)
-    if (const double share = suspicion(left_out, k); share > most) most = share, worst = k;
-  if (!(most > 1.0)) return std::nullopt;
+  for (std::size_t k = 1; k < left_out.size(); ++k)
+    if (strongest(left_out[k]) > strongest(left_out[worst])) worst = k;
+  if (left_out.empty() || strongest(left_out[worst]) < kHint) return std::nullopt;
   return worst;
 }
 
@@ -69,7 +60,7 @@ class LogTrial {
   /// Doubts of two logs, or of logs that are all kept.
   void doubt(const Progress& progress) {
     if (in_use_.size() < 2) return;
-    const auto found = in_use_.size() == 2 ? contradiction_of_two() : find_contradiction(progress);
+    const auto found = find_contradiction(progress);
     if (found) doubts_.push_back(sentence(*found) + "; it was learned from all the same");
   }
 
@@ -83,8 +74,7 @@ class LogTrial {
   }
 
  private:
-  std::optional<ExplainedRobot> learned_without(int log, const Progress& progress) const {
-    if (progress) progress("judging " + given_[log].path + " by the other logs", kRobotFirst);
+  std::optional<ExplainedRobot> learned_without(int log) const {
     std::vector<LogSource*> others;
     for (const int other : in_use_)
       if (other != log) others.push_back(logs_[other]);
@@ -96,39 +86,38 @@ class LogTrial {
     }
   }
 
-  std::optional<Contradiction> contradiction_of_two() const {
-    for (std::size_t k = 0; k < 2; ++k)
-      for (const FaultHypothesis& h : explained_.left_out[k].best)
-        if (h.gain > kContradictory * kLeastEvidence)
-          return Contradiction{in_use_[k], {h.kind, h.joint}, h.onset_s};
-    return std::nullopt;
-  }
-
-  /// The suspect, if a robot of the others names a fault in it.
+  /// The suspect, if rows learned from the others name a fault in it. A faulty log makes the noise that was
+  /// learned with it loud, so its own evidence against these rows is small.
   std::optional<Contradiction> find_contradiction(const Progress& progress) const {
+    const HealthyRobot& robot = explained_.robot;
     const std::optional<std::size_t> found = suspect(explained_.left_out);
-    if (!found || explained_.left_out.size() != in_use_.size()) return std::nullopt;
+    if (!found || robot.days.size() != in_use_.size()) return std::nullopt;
     const int log = in_use_[*found];
-    std::optional<ExplainedRobot> others = learned_without(log, progress);
-    if (!others) return std::nullopt;
-    DelayedTorqueSource in_time = others->robot.reading.of(*logs_[log]);
-    in_time.rewind();
-    const ExplainModel& model = others->robot.model.explain;
-    const ExplainedLog seen = explain_whole_log(uniform_log(in_time, sample_period_s(model.robot)), model);
+    if (progress) progress("judging " + given_[log].path + " by the other logs", kRobotFirst);
+    std::vector<LogSource*> others = robot.days;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(*found));
+    const ExplainModel model{rows_of(robot, others), scaled(evidence_limits({}), kContradictory)};
+    LogSource& suspicious = *robot.days[*found];
+    suspicious.rewind();
+    const UniformLog rows = uniform_log(suspicious, sample_period_s(model.robot));
+    if (!can_explain(rows, model.robot)) return std::nullopt;
+    const ExplainedLog seen = explain_whole_log(rows, model);
     if (seen.faults.empty()) return std::nullopt;
     const FaultClaim& first = seen.faults.front().claim;
-    return Contradiction{log, {first.kind, first.joint}, first.onset_s, std::move(others)};
+    return Contradiction{log, {first.kind, first.joint}, first.onset_s};
   }
 
   bool leave_one_out(const Progress& progress) {
-    auto found = find_contradiction(progress);
+    const auto found = find_contradiction(progress);
     if (!found) return false;
+    std::optional<ExplainedRobot> others = learned_without(found->log);
+    if (!others) return false;
     issues_.push_back(make_issue(
         fmt::format("suspicious_log_{}", found->log + 1), Severity::warning,
         sentence(*found) +
             "; it was left out. If it is faulty, diagnose it or name its fault with --labels; if it is "
             "healthy, --keep-all learns from it, too"));
-    leave_out(found->log, std::move(*found->others));
+    leave_out(found->log, std::move(*others));
     return true;
   }
 

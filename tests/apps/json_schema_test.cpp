@@ -112,7 +112,7 @@ TEST_F(JsonSchemas, WhatLearnLeavesAndWhereACaseBaseWasThere) {
              std::regex_replace(read_file(model), std::regex("\"name\": \"bench\""), "\"name\": \"b\""));
   EXPECT_EQ(run_program({"model", "sign", edited, "--why", "another name"}).status, 0);
   const std::string twin = printed("twin.json", {"learn", "--show-twin", "--json", "-"});
-  EXPECT_FOLLOWS_SCHEMA({"learning-1", file("learned.json")}, {"model-3", model}, {"model-3", edited},
+  EXPECT_FOLLOWS_SCHEMA({"learning-1", file("learned.json")}, {"model-4", model}, {"model-4", edited},
                         {"twin-1", twin});
 }
 
@@ -127,7 +127,7 @@ TEST_F(JsonSchemas, AModelOfLogsWithoutTorque) {
       run_program({"learn", path, "--robot", "R", "-o", model, "--json", file("tracking.json"), "--force"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(read_file(model).find("\"learned_from\""), std::string::npos);
-  EXPECT_FOLLOWS_SCHEMA({"learning-1", file("tracking.json")}, {"model-3", model});
+  EXPECT_FOLLOWS_SCHEMA({"learning-1", file("tracking.json")}, {"model-4", model});
 }
 
 TEST_F(JsonSchemas, ABatchAndItsMergedShards) {

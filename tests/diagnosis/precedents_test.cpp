@@ -85,8 +85,10 @@ TEST_F(Precedents, SayWhatAgreesAndWhatDoesNot) {
   const std::vector<Precedent> shown = finding().precedents;
   ASSERT_EQ(shown[0].case_id, id);
   ASSERT_FALSE(shown[0].alike.empty());
-  EXPECT_EQ(shown[0].alike[0].name, "behind locked 2");
-  EXPECT_EQ(shown[0].alike[0].here, 0.0);
+  const auto behind = std::find_if(shown[0].alike.begin(), shown[0].alike.end(),
+                                   [](const auto& f) { return f.name == "behind locked 2"; });
+  ASSERT_NE(behind, shown[0].alike.end());
+  EXPECT_EQ(behind->here, 0.0);
   ASSERT_EQ(shown[0].unlike.size(), 1u);
   EXPECT_EQ(shown[0].unlike[0].what, "MLP residual of joint 3");
   EXPECT_NEAR(shown[0].unlike[0].there, 20.0, 1e-9);
