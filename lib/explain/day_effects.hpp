@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-#include <vector>
-
 namespace faultline {
 
 /// What differs between one healthy day of a robot and another.
@@ -14,7 +11,17 @@ enum class DayEffectKind {
 };
 
 /// The name used in reports, such as "torque_gain".
-const char* to_string(DayEffectKind kind);
+inline const char* to_string(DayEffectKind kind) {
+  switch (kind) {
+    case DayEffectKind::friction:
+      return "friction";
+    case DayEffectKind::torque_gain:
+      return "torque_gain";
+    case DayEffectKind::torque_offset:
+      return "torque_offset";
+  }
+  return "";
+}
 
 /// What a log tells of an effect of its day: 0 is the robot that was identified.
 struct DayEffect {

@@ -23,13 +23,12 @@ constexpr int kReadingRounds = 3;      // of the size of a false reading
 constexpr double kSettled = 0.01;      // share of it that the last round changed
 constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
 constexpr int kSamplesBefore = 20;
-constexpr double kComesToRest = 0.3;    // share of repeats before a joint stands that shows that it brakes
-constexpr double kClippedDoubt = 0.02;  // of the torque that a clipping drive withholds
-constexpr double kPriceOfClipping = 100.0;  // nats: it is rarer than the loss of a share
-constexpr double kLeastClip = 0.04;         // of the greatest torque: a joint that gets less swings freely
-constexpr double kSurely = 4.0;             // standard deviations
-constexpr double kJolt = 3.0;               // of the joint's usual torque: that of a halt
-constexpr double kStandingCost = 3.0;       // nats of a joint that does not move
+constexpr double kComesToRest = 0.3;  // share of repeats before a joint stands that shows that it brakes
+constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld; nats: it is rare
+constexpr double kLeastClip = 0.04;    // of the greatest torque: a joint that gets less swings freely
+constexpr double kSurely = 4.0;        // standard deviations
+constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
+constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
 
 /// Nats that a size costs that this kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
@@ -142,8 +141,8 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
 /// A drift that the velocity shows, too, or does not where it is measured apart.
 FaultHypothesis judge_drift(const LogFit& fit, FaultClaim claim) {
   FaultHypothesis best = judge_reading(fit, claim);
-  const bool is_apart = fit.log().dq.rows() > 0 && !fit.model().setting.velocity_is_difference;
-  if (claim.velocity_is_true || !is_apart) return best;
+  const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
+  if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
   FaultHypothesis other = judge_reading(fit, claim);
   return other.gain > best.gain ? other : best;
@@ -170,9 +169,8 @@ double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
 /// What the samples from onset to end say by repeating the position before them.
 struct Repeats {
   int samples = 0;
-  double share = 0.0;  ///< that repeat the position before
-  double share_before =
-      1.0;  ///< the same of the samples before the onset: a joint that comes to rest repeats, too
+  double share = 0.0;         ///< that repeat the position before
+  double share_before = 1.0;  ///< the same before the onset: a joint that comes to rest repeats, too
 };
 
 Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
@@ -236,9 +234,8 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
     if (same < 0.98 || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
     if (telling) price -= std::min(samples, 500) * elementary::log(1.0 / m.repeat_share[j]);
   }
-  const bool jolts = claim.kind == FaultKind::locked;
-  Explanation e = fit.explain_with_piece(fit.residual(), jolts ? jolt_columns(fit, claim) : FaultColumns{},
-                                         {}, claim.onset_s, dropped);
+  const FaultColumns jolt = claim.kind == FaultKind::locked ? jolt_columns(fit, claim) : FaultColumns{};
+  Explanation e = fit.explain_with_piece(fit.residual(), jolt, {}, claim.onset_s, dropped);
   e.size.resize(0);
   return hypothesis(fit, claim, std::move(e), price);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWindow_s = 120.0;
 constexpr double kOverlap_s = 10.0;    // of two windows; the middle parts what each decides
 constexpr double kLongestGap_s = 2.0;  // that a window spans
-constexpr int kFewestRows = 20;  // with position and torque of every joint
+constexpr int kFewestRows = 20;        // with position and torque of every joint
 
 /// By which a healthy day may differ as the robot file says, or by default.
 double stated_range(const DayEffect& effect, const Model& model) {

@@ -15,8 +15,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kRobotFirst = 0.6;  // share of the work that is done before logs are doubted
-constexpr double kHint = 5.0;         // nats from which the most suspicious log is judged by the others
+constexpr double kRobotFirst = 0.6;     // share of the work that is done before logs are doubted
+constexpr double kHint = 5.0;           // nats from which the most suspicious log is judged by the others
 constexpr double kContradictory = 5.0;  // times kLeastEvidence: a day of a kind that few logs show gives less
 
 /// What a robot learned from the other logs sees in one of them.

@@ -111,13 +111,10 @@ ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random) 
 }
 
 NoiseSpec draw_noise(const Twin& twin, Random& random) {
-  const MotionModel& motion = *twin.motion;
-  NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
+  const NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
   const auto& [low, high] = twin.identification->robot.normal.noise;
   const double level = low * elementary::exp(random.uniform() * elementary::log(high / low));
-  noise.q = scaled(motion.q_std, level);
-  if (!noise.dq.empty()) noise.dq = scaled(motion.dq_std, level);
-  return noise;
+  return {scaled(noise.q, level), scaled(noise.dq, level)};
 }
 
 DriveSpec draw_drives(const Twin& twin, Random& random) {

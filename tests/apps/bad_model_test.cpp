@@ -62,7 +62,8 @@ TEST_F(BadModel, NewerSchema) {
 }
 
 TEST_F(BadModel, NothingButTheSchema) {
-  expect_refused("{\"schema\": \"faultline/model/2\"}", {"robot.model", "damaged", "learn it again"});
+  expect_refused("{\"schema\": \"faultline/model/3\"}",
+                 {"robot.model", "earlier program", "learn the model again"});
 }
 
 TEST_F(BadModel, NotText) {

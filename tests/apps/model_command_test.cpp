@@ -11,7 +11,6 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"
-#include "tests/support/resealed_model.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -153,15 +152,6 @@ TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
   EXPECT_EQ(damaged.status, 3);
   EXPECT_TRUE(has(damaged.err, "cannot be carried over")) << damaged.err;
   EXPECT_EQ(read_file(model_), model);
-}
-
-TEST_F(ModelCommand, FilesOfEarlierProgramsGoTogetherAndAreTold) {
-  write_file(model_, resealed_model_text(nlohmann::ordered_json::parse(read_file(model_))));
-  EXPECT_EQ(diagnose().status, 3) << "the case base is of a model that had an identity";
-  change_case_base(base_, [](CaseBase& base) { base.belong_to(""); });
-  const ProgramRun run = diagnose();
-  EXPECT_NE(run.status, 3) << run.err;
-  EXPECT_TRUE(has(run.out, "carries no digest")) << run.out;
 }
 
 TEST_F(ModelCommand, ADeviceWithoutEndIsRefusedWithLittleMemory) {

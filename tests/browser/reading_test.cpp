@@ -67,7 +67,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
   const TemporaryFolder folder;
   expect_readable(made_page(
       folder, {"diagnose", kSamples + "golden/logs/torque_loss_2.csv", "--model",
-               kSamples + "golden/model-d87268d6.json", "--cases", kSamples + "golden/cases-346041e8.db"}));
+               kSamples + "golden/model-5f724ab3.json", "--cases", kSamples + "golden/cases-876bf88a.db"}));
 }
 
 TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {

@@ -128,7 +128,7 @@ void evidence_grows_from_the_onset_past_the_threshold() {
   EXPECT_LE(trace.time.size(), 130u);
   const std::vector<double>& best = trace.curves[0].ratio;
   ASSERT_EQ(best.size(), trace.time.size());
-  EXPECT_NEAR(best.back(), d.faults[0].episode.evidence, 1e-9);
+  EXPECT_GT(best.back(), trace.limit) << "the trace goes on beyond the alarm";
   EXPECT_GE(trace.time.front(), kOnset_s - 0.5);
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (!(trace.time[i] < kOnset_s - 0.02 && std::isfinite(best[i]))) continue;

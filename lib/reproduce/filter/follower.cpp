@@ -97,29 +97,6 @@ Follower::Follower(const MotionModel& model, const LogNoise& noise)
   }
 }
 
-Follower::Follower(const Follower& before, const MotionModel& model, const KnownFaults& faults)
-    : model_(model),
-      noise_(before.noise_),
-      faults_(faults),
-      dynamics_(model),
-      state_(before.state_),
-      started_(before.started_),
-      last_time_(before.last_time_),
-      usual_dt_(before.usual_dt_),
-      clock_(before.clock_),
-      clock_rows_(before.clock_rows_),
-      wobble_(before.wobble_),
-      rows_without_torque_(before.rows_without_torque_),
-      last_torque_missing_(before.last_torque_missing_),
-      speed_unknown_(before.speed_unknown_),
-      last_q_(before.last_q_),
-      last_dq_(before.last_dq_),
-      last_torque_(before.last_torque_),
-      drive_level_(before.drive_level_),
-      q_codes_(before.q_codes_),
-      low_(before.low_),
-      high_(before.high_) {}
-
 bool Follower::is_pressed(const FollowedSample& sample, int j) const {
   const double q = sample.q[j];
   if (!std::isfinite(q) || (q >= low_[j] && q <= high_[j])) return false;
@@ -141,10 +118,10 @@ void Follower::read_row(const Log& segment, int row, FollowedSample& out) const 
     const double torque = segment.tau.empty() ? kNaN : segment.tau[j][row];
     out.torque_missing[j] = !std::isfinite(torque);
     out.torque[j] = out.torque_missing[j] ? last_torque_[j] : torque;
-    out.repeats[j] = started_ && !noise_.repeats_say_nothing && !faults_.held[j] && !faults_.blind[j] &&
-                     q == last_q_[j] && (std::isnan(dq) || dq == last_dq_[j]);
-    out.q[j] = faults_.blind[j] ? kNaN : q - faults_.bias[j] - faults_.drift[j] * out.time;
-    out.dq[j] = faults_.blind[j] || noise_.dq_is_difference[j] ? kNaN : dq - faults_.velocity_bias[j];
+    out.repeats[j] =
+        started_ && !noise_.repeats_say_nothing && q == last_q_[j] && (std::isnan(dq) || dq == last_dq_[j]);
+    out.q[j] = q;
+    out.dq[j] = noise_.dq_is_difference[j] ? kNaN : dq;
   }
 }
 
@@ -229,7 +206,7 @@ void Follower::follow(const Log& segment, int row, FollowedSample& out) {
     out.dt = dt;
     out.in_range = true;
     for (int j = 0; j < n; ++j) {
-      out.pressed[j] = faults_.held[j] || is_pressed(out, j);
+      out.pressed[j] = is_pressed(out, j);
       out.in_range = out.in_range && !(out.q[j] < low_[j]) && !(out.q[j] > high_[j]);
     }
     for (int j = 0; j < n; ++j) q_codes_.take(j, segment.q[j][row]);

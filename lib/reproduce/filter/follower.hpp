@@ -63,15 +63,6 @@ struct JointObservation {
 JointObservation observe_joint(GaussianState& state, int joints, const FollowedSample& sample, int j,
                                const SensorError& error = {});
 
-/// Faults that are known and stay, as far as sensors and whole joints go; one a joint.
-struct KnownFaults {
-  JointArray bias{};           ///< a position reads too much: rad or m
-  JointArray drift{};          ///< and more by this a second, since time 0
-  JointArray velocity_bias{};  ///< rad/s or m/s
-  JointFlags held{};           ///< nobody knows what moves or stops the joint: its readings say nothing
-  JointFlags blind{};          ///< and they are not even read
-};
-
 /// A sensor of coarse codes errs alike for as long as it shows the same one or two of them, as at rest: after
 /// the first few, all these rows together say as much as one.
 class RepeatedCodes {
@@ -89,8 +80,6 @@ class RepeatedCodes {
 class Follower {
  public:
   explicit Follower(const MotionModel& model, const LogNoise& noise = {});
-  /// Goes on where `before` is, with another robot.
-  Follower(const Follower& before, const MotionModel& model, const KnownFaults& faults);
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
@@ -122,7 +111,6 @@ class Follower {
 
   const MotionModel& model_;
   LogNoise noise_;
-  KnownFaults faults_;
   FaultDynamics dynamics_;
   GaussianState state_;
   bool started_ = false;

@@ -49,7 +49,7 @@ Follower::RowFit Follower::fit_after(const FollowedSample& out, double dt) const
   GaussianState state = state_;
   const int n = model_.joints();
   at.dt = dt;
-  for (int j = 0; j < n; ++j) at.pressed[j] = faults_.held[j] || is_pressed(at, j);
+  for (int j = 0; j < n; ++j) at.pressed[j] = is_pressed(at, j);
   const JointArray speed_before = motion_of(state.mean, n).dq;
   predict(state, model_, dynamics_, step_to(at, last_torque_, last_torque_missing_), nullptr, 0.0);
   set_measurement_noise(state, speed_before, at);

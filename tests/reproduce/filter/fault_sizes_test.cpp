@@ -26,6 +26,8 @@ GaussianState healthy() {
 }
 
 Hypothesis hypothesis_of(FaultKind kind, int joint) {
+  if (joint == 0 && kind == FaultKind::collision)
+    return {.label = {kind, 0}, .form = HypothesisForm::push_on_all_joints, .sizes = 3};
   return {.label = {kind, joint}, .sizes = describe(kind).size_count};
 }
 
