@@ -32,7 +32,7 @@ EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, con
   std::vector<EvidenceCourse> courses = {course};
   for (const FaultHypothesis& h : e.best) {
     if (courses.size() == kTraced) break;
-    if (h.kind == best.kind && h.joint == best.joint) continue;
+    if (h.kind == FaultKind::unknown || (h.kind == best.kind && h.joint == best.joint)) continue;
     labels.push_back({h.kind, h.joint});
     courses.push_back(evidence.course(h));
   }

@@ -66,7 +66,7 @@ class Networks(InFolder):
         path, _ = varied_model(self.folder / "less.json", with_one_less)
         model = faultline.load_model(path, cases=CASES)
         for use in (lambda: model.networks, lambda: model.to_onnx(self.folder / "nets")):
-            with self.assertRaisesRegex(faultline.InputError, "take 70 features, this program collects 71"):
+            with self.assertRaisesRegex(faultline.InputError, "take 63 features, this program collects 64"):
                 use()
         self.assertFalse((self.folder / "nets").exists())
 

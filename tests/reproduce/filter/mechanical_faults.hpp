@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lib/core/random.hpp"
-#include "lib/reproduce/filter/fault_dynamics.hpp"
 #include "lib/fault/label_text.hpp"
+#include "lib/reproduce/filter/fault_dynamics.hpp"
 #include "tests/reproduce/filter/faulty_scara.hpp"
 #include "tests/support/hand_made_model.hpp"
 
