@@ -26,9 +26,8 @@ class Learning(InFolder):
         self.assertEqual(learned.to_json().encode(), json)
         self.assertEqual(learned.model.to_json().encode(), theirs.read_bytes())
         self.assertIn('Learned "bench"', learned.text())
-        logs = sorted(set(BENCH.glob("*.csv")) - {BENCH / "labels.csv"})
         found = set()
-        for log in logs:
+        for log in (BENCH / name for name in ("healthy_2.csv", "torque_loss_1.csv", "stuck_encoder_3.csv")):
             diagnosis = learned.model.diagnose(log)
             self.assertEqual(
                 diagnosis.to_json().encode(), program("diagnose", log, "--model", theirs, "--json", "-")
