@@ -67,7 +67,9 @@ std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& mo
 
 std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepModel& model,
                                      const EvidenceLimits& limits, const FaultTimes& at) {
-  const CoarseLog log = coarse_log(uniform, model);
+  const std::optional<CoarseLog> followed = followed_log(uniform, model);
+  if (!followed) return std::nullopt;
+  const CoarseLog& log = *followed;
   CoarseBench bench(log);
   const double lasts_s = at.end_s < kNeverEnds ? at.end_s - at.onset_s : 0.0;
   for (const FaultLabel& label : fault_labels(log.joints(), model.torque_is_measured)) {

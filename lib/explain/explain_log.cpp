@@ -17,7 +17,9 @@ constexpr int kFewestCoarse = 20;  // samples
 /// One fault at most.
 ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
                                     const EvidenceLimits& limits) {
-  const CoarseLog read = coarse_log(log, model);
+  const std::optional<CoarseLog> followed = followed_log(log, model);
+  if (!followed) return {};
+  const CoarseLog& read = *followed;
   const LogExplanation e = explain_coarse(read);
   ExplainedLog out;
   if (std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e)))

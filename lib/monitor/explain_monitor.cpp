@@ -10,8 +10,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kWindow_s = 120.0;
-constexpr double kOverlap_s = 10.0;    // of two windows; the middle parts what each decides
+constexpr double kWindow_s = 60.0;
+constexpr double kOverlap_s = 20.0;    // of two windows; the middle parts what each decides
 constexpr double kLongestGap_s = 2.0;  // that a window spans
 constexpr int kFewestRows = 20;        // with position and torque of every joint
 
@@ -93,13 +93,13 @@ void ExplainMonitor::explain_window(bool is_followed) {
   std::vector<Lasting> before;
   std::swap(before, lasting_);
   for (const ExplainedFault& fault : explained.faults) {
-    const auto known = std::find_if(before.begin(), before.end(),
-                                    [&](const Lasting& l) { return l.label.joint == fault.claim.joint; });
-    const bool goes_on = known != before.end() && fault.claim.onset_s < from_s;
-    if (goes_on) {
+    const auto known = std::find_if(before.begin(), before.end(), [&](const Lasting& l) {
+      return l.label == fault.label() || (l.label.joint == fault.claim.joint && fault.claim.onset_s < from_s);
+    });
+    if (known != before.end()) {
       episodes_[known->episode].end_s = std::min(fault.claim.end_s, until_s);
       if (fault.claim.end_s > end_s) lasting_.push_back(*known);
-    } else if (fault.claim.onset_s >= from_s && fault.claim.onset_s <= until_s) {
+    } else if (fault.claim.onset_s <= until_s && !is_told(fault.claim)) {
       episodes_.push_back(
           {fault, std::min(fault.claim.end_s, until_s),
            residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
@@ -124,6 +124,15 @@ void ExplainMonitor::explain_window(bool is_followed) {
   window_ = slice(window_, static_cast<int>(first - window_.time.begin()), window_.rows());
   while (!residuals_.empty() && residuals_.front().time[residuals_.front().count() - 1] < kept_s)
     residuals_.pop_front();
+}
+
+/// Whether a window before has told a fault of this joint that began at about the same time.
+bool ExplainMonitor::is_told(const FaultClaim& claim) const {
+  return std::any_of(episodes_.begin(), episodes_.end(), [&](const MonitoredEpisode& episode) {
+    return episode.fault.claim.joint == claim.joint &&
+           std::abs(episode.onset_s() - claim.onset_s) < kOverlap_s && decided_s_ &&
+           claim.onset_s < *decided_s_;
+  });
 }
 
 void ExplainMonitor::add_day(const std::vector<DayEffect>& day) {

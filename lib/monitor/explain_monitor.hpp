@@ -16,7 +16,7 @@ namespace faultline {
 /// From an onset on, over which the residuals of an episode are told.
 inline constexpr double kEpisodeResiduals_s = 3.0;
 
-/// Gathers the rows of a log in windows of some minutes and explains each of them. Windows overlap, so that
+/// Gathers the rows of a log in windows of a minute and explains each of them. Windows overlap, so that
 /// an onset has rows before and behind it; a gap or a restart of the clock ends a window. Where segments end
 /// changes nothing, and memory does not grow with the log.
 class ExplainMonitor {
@@ -41,6 +41,7 @@ class ExplainMonitor {
  private:
   void take_rows(const Log& segment, int begin, int end);
   void explain_window(bool is_followed);
+  bool is_told(const FaultClaim& claim) const;
   void add_day(const std::vector<DayEffect>& day);
   std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
 

@@ -65,6 +65,19 @@ TEST(ExplainMonitor, AGapEndsAWindowAndBothPartsAreJudged) {
   EXPECT_NEAR(judged.episodes()[0].onset_s(), log.time.back() - 4.0, 0.05);
 }
 
+TEST(ExplainMonitor, AFaultAtTheBorderOfTwoWindowsIsOneFault) {
+  const Model m = model();
+  testing::ClosedFormRun run = testing::run_of(35);
+  run.duration_s = 100.0;
+  Log log = testing::simulate_closed_form(testing::of_day(1), run);
+  lose_torque(log, 56.0);
+  const ExplainMonitor judged = monitored(m, log, 4096);
+  ASSERT_EQ(judged.episodes().size(), 1u);
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(judged.episodes()[0].onset_s(), 56.0, 0.1);
+  EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
+}
+
 TEST(ExplainMonitor, ALogOfAMomentIsNotJudged) {
   const Model m = model();
   const ExplainMonitor judged = monitored(m, slice(days(1, 0.0), 0, 100), 50);

@@ -141,7 +141,13 @@ int CoarseLog::first_onset() const {
 }
 
 CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
-  if (log.rows() < kFewestSamples) throw Error(ErrorCode::input, "", "has too few rows to be explained");
+  std::optional<CoarseLog> out = followed_log(std::move(log), model);
+  if (!out) throw Error(ErrorCode::input, "", "has too few rows that the robot can be followed through");
+  return std::move(*out);
+}
+
+std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model) {
+  if (log.rows() < kFewestSamples) return std::nullopt;
   CoarseLog out;
   out.log = std::move(log);
   out.model = &model;
@@ -151,7 +157,7 @@ CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
   out.variance = model.variance_of_readings(out.log);
   out.force_std = model.force_std(out.log, out.read);
   SmoothedLog smooth = smoothed_log(out);
-  if (smooth.wild) return coarse_log(first_rows(std::move(out.log), *smooth.wild), model);
+  if (smooth.wild) return followed_log(first_rows(std::move(out.log), *smooth.wild), model);
   out.about = std::move(smooth.about);
   out.force_std = model.force_std(out.log, out.about);
   find_stops(out);

@@ -51,6 +51,8 @@ struct CoarseLog {
 /// A robot that runs away so fast that it cannot be integrated is followed up to there. The model must
 /// outlive it. Throws Error(input) when too few rows are left to be explained.
 CoarseLog coarse_log(UniformLog log, const OneStepModel& model);
+/// The same; nothing where it would throw.
+std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model);
 
 /// Whether repeated codes of a position say anything: in healthy logs it hardly repeats, for its noise.
 bool repeats_tell(const OneStepModel& model, int joint);
