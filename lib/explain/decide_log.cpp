@@ -64,12 +64,6 @@ double least_limit(const EvidenceLimits& limits) {
   return *std::min_element(limits.nats.begin(), limits.nats.end());
 }
 
-double largest_share(const LogExplanation& e, const EvidenceLimits& limits) {
-  double out = 0.0;
-  for (const FaultHypothesis& h : e.best) out = std::max(out, h.gain / limits.of(h.kind));
-  return out;
-}
-
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
                                          const LogEvidence& evidence, std::size_t most) {
   std::vector<ExplainedFault> out;

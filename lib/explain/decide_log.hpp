@@ -65,9 +65,6 @@ struct LogEvidence {
 /// That of rows of 50 Hz and more.
 LogEvidence log_evidence(const LogFit& fit, const LogExplanation& explanation);
 
-/// The strongest evidence of a log, as a share of the limit of its kind.
-double largest_share(const LogExplanation& explanation, const EvidenceLimits& limits);
-
 /// The hypotheses that explain the log best and pass their limits, with their names: at most `most`, best
 /// first.
 std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, const EvidenceLimits& limits,

@@ -70,7 +70,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   if (!out.named.empty())
     out.unknown = as_unknown(out.named.front(), e, own, evidence);
   else
-    out.rest = {{}, effects_of(fit), loudness_of(fit), known.empty() ? largest_share(e, own) : 0.0};
+    out.rest = {{}, effects_of(fit), loudness_of(fit)};
   return out;
 }
 

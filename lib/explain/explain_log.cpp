@@ -24,8 +24,6 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
   ExplainedLog out;
   if (std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e)))
     out.faults.push_back(std::move(*fault));
-  else
-    out.largest_share = largest_share(e, limits);
   return out;
 }
 

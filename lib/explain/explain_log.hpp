@@ -28,7 +28,6 @@ struct ExplainedLog {
   std::vector<ExplainedFault> faults;  ///< by onset
   std::vector<DayEffect> day;          ///< effects of the day beside the faults
   std::vector<double> loudness;        ///< by joint: the noise of its rows, times that of the healthy logs
-  double largest_share = 0.0;          ///< of its limit, that the strongest evidence without a fault has
 };
 
 /// Whether a log is long enough to say anything.

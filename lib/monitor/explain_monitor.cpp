@@ -110,7 +110,6 @@ void ExplainMonitor::explain_window(bool is_followed) {
   loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
   for (std::size_t j = 0; j < explained.loudness.size(); ++j)
     loudness_[j] = std::max(loudness_[j], explained.loudness[j]);
-  largest_share_ = std::max(largest_share_, explained.largest_share);
   if (!is_followed) {
     decided_s_.reset();
     lasting_.clear();

@@ -35,8 +35,6 @@ class ExplainMonitor {
   std::vector<DayEffect> day() const;
   /// By joint: the noise of the rows, times that of the healthy logs, in the loudest window.
   const std::vector<double>& loudness() const { return loudness_; }
-  /// Of its limit, that the strongest evidence without a fault has.
-  double largest_share() const { return largest_share_; }
 
  private:
   void take_rows(const Log& segment, int begin, int end);
@@ -60,7 +58,6 @@ class ExplainMonitor {
   std::vector<MonitoredEpisode> episodes_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
   std::vector<double> loudness_;
-  double largest_share_ = 0.0;
 };
 
 }  // namespace faultline

@@ -80,7 +80,6 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .residuals = whole.joints(),
           .episodes = explained.episodes(),
           .sample_alarms = samples.alarms(),
-          .largest_share = explained.largest_share(),
           .day = explained.day(),
           .relation_episodes = relations.episodes(),
           .relations_judged_s = relations.judged_s(),

@@ -17,7 +17,6 @@ struct MonitoredLog {
   std::vector<JointResidual> residuals;            ///< of the MLP, over the whole log
   std::vector<MonitoredEpisode> episodes;          ///< found by the regression
   std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
-  double largest_share = 0.0;                      ///< of its limit, of evidence that raised no alarm
   std::vector<DayEffect> day;                      ///< empty where nothing was explained
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
