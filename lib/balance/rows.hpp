@@ -30,12 +30,6 @@ struct BalanceRows {
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const Eigen::VectorXd& theta);
 
-/// Torque that the robot `theta` leaves unexplained in each row (rows x joints), without the torque of the
-/// springs: the same as torque - column * theta, but without the columns, for trajectories that are tried.
-/// Rows before `first_row` are left out of the result.
-Eigen::MatrixXd residual_of(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
-                            const Eigen::VectorXd& theta, int first_row = 0);
-
 /// How far the samples that a row is made of lie from its middle at most, s.
 double reach_s(const RowSetting& setting);
 

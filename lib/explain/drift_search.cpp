@@ -75,7 +75,7 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, int j) {
   const double scale = m.rigid.chain.geometry[j].kind == AxisKind::revolute ? 1.0 : kSlideShare;
   UniformLog moved = fit.log();
   moved.q.col(j).array() += kShift;
-  const Stacked slope = (fit.residual_of(moved, moved.time_s(0)) - fit.residual()) / kShift;
+  const Stacked slope = (fit.residual_of(moved, j, moved.time_s(0)) - fit.residual()) / kShift;
   const bool matters = slope.cwiseAbs().maxCoeff() > kNoTorque;
   const VectorXd time = fit.time_s().array() - fit.time_s()[0];
   const Impulse impulse = impulse_of(s, j);

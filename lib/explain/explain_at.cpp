@@ -13,7 +13,6 @@ namespace faultline {
 namespace {
 
 constexpr double kLongestPush_s = 1.2;
-constexpr int kRoundsAtKnownTimes = 2;  // of integration and regression at coarse rates
 
 /// Times of a fault. Kinds that pass have an end in any case; those that repeat or jump begin with a sample.
 struct FaultTimes {
@@ -82,8 +81,9 @@ std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepMod
               begins_with_sample ? at.sample_s : at.onset_s,
               passes && lasts_s == 0.0 ? kLongestPush_s : lasts_s,
               {}},
-             label.kind == FaultKind::locked ? 1 : kRoundsAtKnownTimes);
+             1);
   }
+  bench.integrate_best();
   LogExplanation e;
   e.best = bench.ranked();
   e.healthy_square = log.healthy.mean_square();

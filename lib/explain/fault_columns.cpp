@@ -201,21 +201,4 @@ MatrixXd unstacked(const Stacked& values, int joints) {
 
 Stacked stacked(const MatrixXd& values) { return Eigen::Map<const VectorXd>(values.data(), values.size()); }
 
-FaultColumns piece_columns(const BalanceRows& rows, const RowSetting& setting, const MatrixXd& piece,
-                           const MatrixXd& change) {
-  const Eigen::Index changes = change.cols();
-  const double row_s = setting.row_s();
-  FaultColumns out{StackedColumns(piece.size(), changes + 2), VectorXd::Ones(changes + 2)};
-  const auto torque = [&](const VectorXd& level) {
-    return stacked((piece.array().colwise() * level.array()).matrix());
-  };
-  for (Eigen::Index c = 0; c < changes; ++c) out.column.col(c) = torque(change.col(c));
-  const VectorXd first = soft_step(rows, setting, rows.time_s[0] - 0.5 * row_s),
-                 last = soft_step(rows, setting, rows.time_s[rows.rows() - 1] + 0.5 * row_s);
-  out.column.col(changes) = torque(VectorXd::Ones(rows.rows()) - first);
-  out.column.col(changes + 1) = torque(last);
-  out.variance.head(changes).setConstant(Eigen::numext::abs2(kChangeDoubt_rows * row_s));
-  return out;
-}
-
 }  // namespace faultline

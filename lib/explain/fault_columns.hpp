@@ -56,12 +56,6 @@ Eigen::VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, do
 /// a joint with a stuck encoder reaches, all of an unknown fault.
 StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& model, const FaultClaim& claim);
 
-/// What the times of the changes of a work piece are off by (`change`: rows x changes, derivatives of its
-/// level); and a change half a row before the first row or behind the last one, which reaches it with the
-/// kernel's tail. `piece` is the torque of the work piece in each row: rows x joints.
-FaultColumns piece_columns(const BalanceRows& rows, const RowSetting& setting, const Eigen::MatrixXd& piece,
-                           const Eigen::MatrixXd& change);
-
 inline constexpr double kChangeDoubt_rows = 0.6;  ///< standard deviation of the time of a change
 
 /// Rows x joints from a stacked value, and back.

@@ -104,7 +104,8 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
 }
 
 /// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
-/// about the size before (Newton), until the size is settled. A claim of no size starts from none.
+/// between the last two sizes (the secant method), until the size is settled. A claim of no size starts from
+/// none.
 FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic,
              bias = claim.kind == FaultKind::sensor_bias;
@@ -115,12 +116,13 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
   const auto residual_with = [&](double value) {
     claim.size = VectorXd::Constant(1, value);
-    return fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s);
+    return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
   };
+  Stacked at = size == 0.0 ? fit.residual() : residual_with(size),
+          slope = (at - residual_with(size + step)) / step;
   for (int round = 0; round < kReadingRounds; ++round) {
-    const Stacked at = size == 0.0 ? fit.residual() : residual_with(size), next = residual_with(size + step);
     const double doubt = size == 0.0 ? usual : 0.3 * std::abs(size) + 1e-5;
-    FaultColumns columns{StackedColumns((at - next) / step), VectorXd::Constant(1, doubt * doubt)};
+    FaultColumns columns{StackedColumns(slope), VectorXd::Constant(1, doubt * doubt)};
     std::vector<VectorXd> starts;
     if (fit.has_piece()) starts.push_back(VectorXd::Zero(1));
     Explanation e = fit.explain_with_piece(at, columns, starts, claim.onset_s);
@@ -132,8 +134,13 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
     if (h.gain > best.gain) best = std::move(h);
     if (size == 0.0 && best.gain < kHopeless) break;
     const bool settled = std::abs(change) < kSettled * std::abs(size);
-    size += size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
-    if (settled) break;
+    const double moved =
+        size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
+    if (settled || moved == 0.0 || round + 1 == kReadingRounds) break;
+    size += moved;
+    const Stacked next = residual_with(size);
+    slope = (at - next) / moved;
+    at = next;
   }
   return best;
 }

@@ -25,10 +25,10 @@ constexpr int kNoiseRounds = 3;
 FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
   claim.size[0] = doubt;
-  return {
-      StackedColumns(
-          (fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim), claim.onset_s)) / doubt),
-      VectorXd::Constant(1, doubt * doubt)};
+  return {StackedColumns((fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim),
+                                                           claim.joint - 1, claim.onset_s)) /
+                         doubt),
+          VectorXd::Constant(1, doubt * doubt)};
 }
 
 /// Columns of a linear fault while it lasts.
@@ -36,16 +36,6 @@ FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
   if (const LinearFault* fault = linear_of(fit.linear(), claim))
     return fit.between(fault->columns, claim.onset_s, claim.end_s);
   return force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
-}
-
-/// X' X without some rows of X.
-MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const StackedMask& dropped) {
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (dropped[i]) rows.push_back(static_cast<int>(i));
-  const MatrixXd lost = columns(rows, Eigen::all);
-  square -= lost.transpose() * lost;
-  return square;
 }
 
 }  // namespace
@@ -62,10 +52,16 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
       log_(without_false_readings(std::move(log), known_)),
       model_(model),
       rows_(balance_rows(log_, model.setting, model.rigid, model.theta)),
+      reading_(log_, model.setting, model.rigid, model.theta),
       loudness_(row_loudness(log_, model)),
       noise_(model.noise) {
   const ColumnLayout layout = model.layout();
   tip_ = payload_torque(rows_, model.payload, joints() - 1);
+  if (has_piece() && count() > 0) {
+    const double half_s = 0.5 * model.setting.row_s();
+    end_levels_ = {VectorXd::Ones(count()) - soft_step(rows_, model.setting, time_s()[0] - half_s),
+                   soft_step(rows_, model.setting, time_s()[count() - 1] + half_s)};
+  }
   residual_ = stacked(rows_.torque - torque_of(rows_, model.theta));
   MatrixXd spring(count(), joints());
   for (int j = 0; j < joints(); ++j)
@@ -158,11 +154,11 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
   return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
 }
 
-Stacked LogFit::residual_of(const UniformLog& moved, double from_s) const {
+Stacked LogFit::residual_of(const UniformLog& moved, int joint, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   int first = 0;
   while (first < count() - 1 && time_s()[first] < unmoved_s) ++first;
-  const MatrixXd after = faultline::residual_of(moved, model_.setting, model_.rigid, model_.theta, first);
+  const MatrixXd after = reading_.of(moved, joint, first);
   Stacked out = residual_;
   for (int j = 0; j < joints(); ++j) {
     const auto rest = [&](const Stacked& v) { return v.segment(j * count() + first, count() - first); };
@@ -199,67 +195,6 @@ Stacked LogFit::left_without_fault(const Explanation& e) const {
   Stacked torque = residual_ - day_torque(e.day);
   if (e.piece_level.size() > 0) torque -= piece_torque(e.piece_level);
   return whitened(torque);
-}
-
-Explanation LogFit::regressed(const Stacked& residual, const FaultColumns& columns, const PieceRamps& ramps,
-                              const StackedMask& dropped) const {
-  Explanation out;
-  Stacked y = residual;
-  StackedColumns x = columns.column;
-  VectorXd variance = columns.variance;
-  if (x.rows() == 0) x.resize(residual.size(), 0);
-  const auto changes = static_cast<int>(ramps.change.cols());
-  if (ramps.level.size() > 0) {
-    out.piece_level = ramps.level;
-    y -= piece_torque(ramps.level);
-    const FaultColumns piece = piece_columns(rows_, model_.setting, model_.piece_kg * tip_, ramps.change);
-    x.conservativeResize(Eigen::NoChange, x.cols() + piece.sizes());
-    x.rightCols(piece.sizes()) = piece.column;
-    variance.conservativeResize(x.cols());
-    variance.tail(piece.sizes()) = piece.variance;
-  }
-  const int effects = static_cast<int>(effect_variance_.size()), sizes = static_cast<int>(x.cols());
-  Stacked z = whitened(y);
-  StackedColumns xw = whitened(x);
-  int lost = 0;
-  for (std::size_t i = 0; i < dropped.size(); ++i) {
-    if (!dropped[i]) continue;
-    z[static_cast<Eigen::Index>(i)] = 0.0;
-    xw.row(static_cast<Eigen::Index>(i)).setZero();
-    ++lost;
-  }
-  NormalEquations sums;
-  sums.matrix.resize(effects + sizes, effects + sizes);
-  sums.vector.resize(effects + sizes);
-  sums.matrix.topLeftCorner(effects, effects) =
-      lost > 0 ? without_rows(effect_square_, effect_white_, dropped) : effect_square_;
-  sums.vector.head(effects) = effect_white_.transpose() * z;
-  sums.matrix.topRightCorner(effects, sizes) = effect_white_.transpose() * xw;
-  sums.square = z.squaredNorm();
-  sums.vector.tail(sizes) = xw.transpose() * z;
-  sums.matrix.bottomRightCorner(sizes, sizes) = xw.transpose() * xw;
-  sums.matrix.bottomLeftCorner(sizes, effects) = sums.matrix.topRightCorner(effects, sizes).transpose();
-  VectorXd precision(effects + sizes);
-  precision << effect_variance_.cwiseInverse(), variance.cwiseInverse();
-  const Regression fit = regress(sums, precision);
-  out.day = fit.estimate.head(effects);
-  out.size = fit.estimate.segment(effects, columns.sizes());
-  const auto std_of = [&](int k) {
-    return std::sqrt(fit.factor.solve(VectorXd::Unit(effects + sizes, k))[k]);
-  };
-  out.size_std.resize(columns.sizes());
-  for (int k = 0; k < columns.sizes(); ++k) out.size_std[k] = std_of(effects + k);
-  if (columns.sizes() == 0) out.day_std.resize(effects);
-  for (int k = 0; k < out.day_std.size(); ++k) out.day_std[k] = std_of(k);
-  out.later_s = -fit.estimate.segment(effects + columns.sizes(), changes);
-  out.log_likelihood = fit.log_likelihood - 0.5 * lost - kChangeOfPiece * changes;
-  out.left = z - effect_white_ * out.day - xw * fit.estimate.tail(sizes);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (dropped[i]) out.left[static_cast<Eigen::Index>(i)] = kNaN;
-  for (std::size_t i = 0; i < silent_.size(); ++i)
-    if (silent_[i]) out.left[static_cast<Eigen::Index>(i)] = kNaN;
-  return out;
 }
 
 }  // namespace faultline

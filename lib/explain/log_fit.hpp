@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/balance/balance_model.hpp"
+#include "lib/balance/reading_residual.hpp"
 #include "lib/balance/regress.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
@@ -26,6 +27,13 @@ struct Explanation {
   Eigen::VectorXd later_s;      ///< by change of the path: than the middle between its two rows
   Eigen::VectorXd row_gain;     ///< by sample, at coarse rates: nats by which it beats the healthy robot
   double mean_square() const;   ///< of what is left: 1 where it is noise
+};
+
+/// A white column that is 0 but for a few rows: what the time of a change of the work piece is off by.
+struct WhitePulse {
+  int begin = 0;           ///< row
+  Eigen::MatrixXd torque;  ///< rows from there on x joints
+  double variance = 1.0;   ///< of its size
 };
 
 inline constexpr int kPathRounds = 4;  ///< of the work piece's path and the effects in turn
@@ -55,8 +63,8 @@ class LogFit {
   const Eigen::MatrixXd& std() const { return std_; }
   /// Torque that robot and known faults leave unexplained, without effects.
   const Stacked& residual() const { return residual_; }
-  /// The same of another trajectory, which is that of this log before `from_s`.
-  Stacked residual_of(const UniformLog& moved, double from_s) const;
+  /// The same of a trajectory that differs from `from_s` on in the readings of joint `joint` (from 0).
+  Stacked residual_of(const UniformLog& moved, int joint, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Effects that every hypothesis has: those of the day (DayLayout), then the sizes of the known faults. By
   /// joint: rows x effects.
@@ -75,7 +83,9 @@ class LogFit {
 
   /// The log explained with these columns; `path` holds where a work piece is known to come and go.
   Explanation explain(const Stacked& residual, const FaultColumns& columns, const PiecePath& path,
-                      const StackedMask& dropped = {}) const;
+                      const StackedMask& dropped = {}) const {
+    return explain(prepared(residual, columns, dropped), path);
+  }
   /// The same with the path of the work piece that fits the hypothesis best, from several starts: `starts`
   /// are sizes to begin with, empty for the path of the healthy log. `onset_s` is that of the hypothesis:
   /// effects of the day are first taken from the rows before it.
@@ -94,11 +104,24 @@ class LogFit {
   FaultColumns between(const FaultColumns& columns, double onset_s, double end_s) const;
 
  private:
+  /// What all paths of the work piece share.
+  struct Prepared {
+    Stacked white;             ///< the residual's rows; 0 where they are dropped
+    StackedColumns column;     ///< of the hypothesis, white
+    Eigen::VectorXd variance;  ///< of their sizes
+    StackedMask dropped;       ///< empty where no row is
+    int lost = 0;              ///< rows that are dropped
+    Eigen::MatrixXd square;    ///< X' X of the effects, then of the columns
+  };
+
+  Prepared prepared(const Stacked& residual, const FaultColumns& columns, const StackedMask& dropped) const;
+  Explanation explain(const Prepared& hypothesis, const PiecePath& path) const;
   void add_fault(const FaultColumns& columns, const FaultClaim& claim);
   void settle_healthy();
   void whiten_effects();
-  Explanation regressed(const Stacked& residual, const FaultColumns& columns, const PieceRamps& ramps,
-                        const StackedMask& dropped) const;
+  Explanation regressed(const Prepared& hypothesis, const PieceRamps& ramps) const;
+  /// What changes of a path between and beside the rows would add.
+  std::vector<WhitePulse> white_pulses(const PieceRamps& ramps, const StackedMask& dropped) const;
   /// When the changes of a path come, as far as the healthy explanation has the same ones.
   Eigen::VectorXd known_times_of(const PiecePath& path) const;
   PiecePath path_of(const Stacked& left, const StackedMask& dropped, bool wide) const;
@@ -107,6 +130,7 @@ class LogFit {
   UniformLog log_;
   const BalanceModel& model_;
   BalanceRows rows_;
+  ReadingResidual reading_;
   Eigen::VectorXd loudness_;
   RowNoise noise_;
   Eigen::MatrixXd std_, tip_;
@@ -116,6 +140,7 @@ class LogFit {
   StackedMask silent_;  ///< empty where no row is
   std::vector<Eigen::MatrixXd> effect_column_;
   StackedColumns effect_white_;
+  std::vector<Eigen::VectorXd> end_levels_;  ///< of a work piece that changes beside the first or last row
   Eigen::MatrixXd effect_square_;
   Eigen::VectorXd effect_variance_;
   PiecePath first_path_;

@@ -81,6 +81,60 @@ void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* 
   }
 }
 
+void FastDynamics::momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
+                                      JointVector<double>& momentum, JointVector<double>& force) const {
+  momentum.resize(joints_);
+  force.resize(joints_);
+  PerJoint<double> rate, of_body, push, cosine, sine;  // by revolute body, in absolute angles
+  double w = 0.0, theta = 0.0;
+  for (int i = 0; i < revolute_; ++i) {
+    const int joint = revolute_joint_[i];
+    w += sign_[joint] * dq[joint];
+    rate[i] = w;
+    of_body[i] = bodies_.diagonal[i] * w;
+    push[i] = 0.0;
+    if (gravity_in_plane_) {
+      theta += sign_[joint] * q[joint];
+      const auto [up, along] = elementary::sin_cos(theta);
+      push[i] = -(bodies_.gravity[i].alpha * along + bodies_.gravity[i].beta * up);
+    }
+    if (i == 0) continue;
+    auto [s, c] = elementary::sin_cos(sign_[joint] * q[joint]);
+    cosine[i] = c;
+    sine[i] = s;
+    for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
+      const Pair& pair = bodies_.pairs[k][i];
+      const double a = pair.alpha * c + pair.beta * s;
+      const double slope = (pair.beta * c - pair.alpha * s) * rate[i] * rate[k];
+      of_body[k] += a * rate[i];
+      of_body[i] += a * rate[k];
+      push[k] -= slope;
+      push[i] += slope;
+      if (k == 0) break;
+      const double c_next = c * cosine[k] - s * sine[k];
+      s = s * cosine[k] + c * sine[k];
+      c = c_next;
+    }
+  }
+  double p = 0.0, f = 0.0;  // of all bodies at or beyond a joint
+  for (int j = revolute_ - 1; j >= 0; --j) {
+    const int joint = revolute_joint_[j];
+    momentum[joint] = sign_[joint] * (p += of_body[j]);
+    force[joint] = sign_[joint] * (f += push[j]);
+  }
+  for (int i = 0; i < prismatic_; ++i) {
+    const int joint = prismatic_joint_[i];
+    force[joint] = -bodies_.weight[joint];
+    momentum[joint] = 0.0;
+    for (int k = 0; k < prismatic_; ++k) {
+      const int other = prismatic_joint_[k];
+      momentum[joint] +=
+          sign_[joint] * sign_[other] * bodies_.carried_mass[prismatic_joint_[std::max(i, k)]] * dq[other];
+    }
+  }
+  for (int i = 0; i < joints_; ++i) momentum[i] += bodies_.rotor_inertia[i] * dq[i];
+}
+
 void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
                                     JointMatrix<double>& inertia, JointVector<double>& bias) const {
   if (planar_) {

@@ -44,6 +44,10 @@ class FastDynamics {
   /// M ddq + h + G.
   JointVector<double> body_torque(const JointVector<double>& q, const JointVector<double>& dq,
                                   const JointVector<double>& ddq) const;
+  /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G; for planar() only,
+  /// without what joints share.
+  void momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
+                          JointVector<double>& momentum, JointVector<double>& force) const;
   /// M and h + G of the chain with other bodies; for planar() only.
   void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq, const Bodies& bodies,
                         JointMatrix<double>& inertia, JointVector<double>& bias) const;

@@ -10,7 +10,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxJoints, 2 * kMaxJoints>;
 using StateVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
 
 constexpr double kFirstPosition = 1.0;   // rad^2 or m^2: variance of the first state before its reading

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace faultline {
 namespace {
@@ -64,6 +65,7 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
 }
 
 /// Weights and places of the four stages of Runge and Kutta.
+constexpr int kMiddleStage = 2;  // stands in the middle of a step
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
 /// Substeps of an interval, as fast motion and friction that changes its sign ask for.
@@ -112,47 +114,106 @@ void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd
   }
 }
 
-/// Work space of a linearised part.
-struct Scratch {
-  MatrixXd slopes, tangent, rate, sum, at;
+/// Derivatives of the state behind some time by the state before it and by each number of the law.
+struct Tangent {
+  StateMatrix by_state;
+  MatrixXd by_number;
+
+  Tangent(int states, int numbers)
+      : by_state(StateMatrix::Identity(states, states)), by_number(MatrixXd::Zero(states, numbers)) {}
+
+  /// Moves it by a step of length `h` whose slopes are constant: the Taylor series of fourth order of the
+  /// exponential.
+  void move(double h, const MotionSlopes& at) {
+    const auto n = at.inverse.rows(), numbers = by_number.cols();
+    using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxJoints, 3 * kMaxJoints>;
+    Wide rate(2 * n, 3 * n), first(2 * n, 3 * n), sum(2 * n, 3 * n);  // by the state, by a torque
+    first.setZero();
+    first.topRightCorner(n, 2 * n).leftCols(n).setIdentity();
+    first.bottomLeftCorner(n, 2 * n) = at.by_state;
+    first.bottomRightCorner(n, n) = at.inverse;
+    sum = first;
+    for (const double order : {4.0, 3.0, 2.0}) {
+      sum *= h / order;
+      rate.topRows(n) = sum.bottomRows(n);
+      rate.bottomRows(n) = at.by_state.lazyProduct(sum);
+      sum = first + rate;
+    }
+    sum *= h;
+    const StateMatrix step = StateMatrix::Identity(2 * n, 2 * n) + sum.leftCols(2 * n);
+    by_state = step.lazyProduct(by_state).eval();
+    for (Eigen::Index p = 0; p < numbers; ++p) {
+      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1> moved =
+          step.lazyProduct(by_number.col(p));
+      for (Eigen::Index j = 0; j < n; ++j)
+        if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * sum.col(2 * n + j);
+      by_number.col(p) = moved;
+    }
+  }
 };
 
-/// Moves the state and its derivatives `tangent` (states x (states + numbers)) through one part: those of the
-/// Runge-Kutta steps themselves.
-void move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state,
-                      Scratch& w) {
-  const int n = part.law->joints(), numbers = part.law->body().layout().count();
+/// Moves the state through one part, and its derivatives; the slopes of a substep are those in its middle.
+Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state,
+                         MotionSlopes& slopes) {
+  const int n = part.law->joints();
   const double h = (part.end_s - part.begin_s) / substeps;
   stop_locked(*part.law, state);
-  w.tangent.setZero(2 * n, 2 * n + numbers);
-  w.tangent.leftCols(2 * n).setIdentity();
+  Tangent out(2 * n, part.law->body().layout().count());
   for (int j = 0; j < n; ++j)
-    if (part.law->is_locked(j)) w.tangent(n + j, n + j) = 0.0;
+    if (part.law->is_locked(j)) out.by_state(n + j, n + j) = 0.0;
   JointVector<double> q(n), dq(n), ddq(n);
   VectorXd rate = VectorXd::Zero(2 * n), sum(2 * n);
-  w.rate.setZero(2 * n, 2 * n + numbers);
   for (int s = 0; s < substeps; ++s) {
     const double at = part.begin_s + s * h;
     sum.setZero();
-    w.sum.setZero(2 * n, 2 * n + numbers);
     for (int stage = 0; stage < 4; ++stage) {
       const double step = kPlace[stage] * h;
       const JointVector<double> tau = torque.at(at + step);
       q = state.head(n) + step * rate.head(n);
       dq = state.tail(n) + step * rate.tail(n);
       part.law->acceleration(q, dq, tau, ddq);
-      part.law->slopes(q, dq, tau, ddq, w.slopes);
-      w.at = w.tangent + step * w.rate;
-      w.rate.topRows(n) = w.at.bottomRows(n);
-      w.rate.bottomRows(n).noalias() = w.slopes.leftCols(2 * n) * w.at;
-      w.rate.bottomRightCorner(n, numbers) += w.slopes.rightCols(numbers);
+      if (stage == kMiddleStage) part.law->slopes(q, dq, tau, ddq, slopes);
       rate << dq, ddq;
       sum += kWeight[stage] * rate;
-      w.sum += kWeight[stage] * w.rate;
     }
     state += h * sum;
-    w.tangent += h * w.sum;
+    out.move(h, slopes);
   }
+  return out;
+}
+
+/// Which law moves the robot through an interval.
+enum class Mover : std::uint8_t { usual, other, both };
+
+Mover mover_of(double start_s, double period_s, double begin_s, double end_s) {
+  const double a = std::clamp(begin_s - start_s, 0.0, period_s),
+               b = std::max(a, std::clamp(end_s - start_s, 0.0, period_s));
+  if (b - a <= kShortest_s) return Mover::usual;
+  return a <= kShortest_s && period_s - b <= kShortest_s ? Mover::other : Mover::both;
+}
+
+/// Takes interval `k` from the known steps; false where they do not hold.
+bool take_known(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
+                const MotionPlan& plan, const KnownSteps& known, int k, LinearSteps& out) {
+  if (known.steps == nullptr) return false;
+  const bool one_law = plan.within == nullptr;
+  const double start_s = log.time_s(k);
+  const Mover now = one_law ? Mover::usual : mover_of(start_s, setting.period_s, plan.begin_s, plan.end_s),
+              then = mover_of(start_s, setting.period_s, known.begin_s, known.end_s);
+  const bool linear = now == Mover::other && then == Mover::usual && known.change != nullptr;
+  if (now == Mover::both || then == Mover::both || (now != then && !linear)) return false;
+  if (known.about != &about &&
+      (known.about->col(k) != about.col(k) || known.about->col(k + 1) != about.col(k + 1)))
+    return false;
+  const LinearSteps& steps = *known.steps;
+  out.slope.middleCols(k * out.states, out.states) = steps.slope_of(k);
+  out.number.middleCols(k * out.numbers, out.numbers) = steps.number_of(k);
+  out.miss.col(k) = steps.miss.col(k);
+  if (now == Mover::usual) return true;
+  auto within = out.within.middleCols((k - out.within_begin) * out.numbers, out.numbers);
+  within = steps.number_of(k);
+  if (linear) out.miss.col(k) += within * *known.change;
+  return true;
 }
 
 }  // namespace
@@ -170,7 +231,7 @@ MatrixXd LinearSteps::columns(const MatrixXd& throughout, const MatrixXd& other)
 }
 
 LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
-                         const MotionPlan& plan, const LinearSteps* known) {
+                         const MotionPlan& plan, const KnownSteps& known) {
   LinearSteps out;
   const int states = out.states = static_cast<int>(about.rows());
   const int numbers = out.numbers = plan.usual->body().layout().count();
@@ -179,7 +240,7 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
   out.miss.resize(states, intervals);
   out.number.resize(states, numbers * intervals);
   out.within_begin = out.within_end = intervals;
-  Scratch w;
+  MotionSlopes scratch;
   for (int k = 0; k < intervals; ++k) {
     const Parts parts = parts_of(log.time_s(k), setting.period_s, plan);
     const bool touched = parts.count > 1 || parts.part[0].within;
@@ -188,29 +249,25 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
       out.within.setZero(states, numbers * (intervals - k));
     }
     if (touched) out.within_end = k + 1;
+    if (take_known(log, about, setting, plan, known, k, out)) continue;
     auto slope = out.slope.middleCols(k * states, states);
     auto number = out.number.middleCols(k * numbers, numbers);
-    if (known != nullptr && !touched) {
-      slope = known->slope_of(k);
-      number = known->number_of(k);
-      out.miss.col(k) = known->miss.col(k);
-      continue;
-    }
     const IntervalTorque torque = torque_of(log, k, setting, plan);
     VectorXd state = about.col(k);
     const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
-    slope.setIdentity();
-    number.setZero();
     for (int p = 0; p < parts.count; ++p) {
-      move_with_slopes(parts.part[p], torque, substeps, state, w);
-      const auto by_state = w.tangent.leftCols(states);
-      const auto by_number = w.tangent.rightCols(numbers);
-      slope = (by_state * slope).eval();
-      number = (by_state * number + by_number).eval();
+      const Tangent moved = move_with_slopes(parts.part[p], torque, substeps, state, scratch);
+      if (p == 0) {
+        slope = moved.by_state;
+        number = moved.by_number;
+      } else {
+        slope = moved.by_state.lazyProduct(slope).eval();
+        number = (moved.by_state.lazyProduct(number) + moved.by_number).eval();
+      }
       if (!touched) continue;
       auto within = out.within.middleCols((k - out.within_begin) * numbers, numbers);
-      within = (by_state * within).eval();
-      if (parts.part[p].within) within += by_number;
+      if (p > 0) within = moved.by_state.lazyProduct(within).eval();
+      if (parts.part[p].within) within += moved.by_number;
     }
     out.miss.col(k) = state - about.col(k + 1);
   }

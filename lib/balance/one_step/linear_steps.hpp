@@ -44,10 +44,20 @@ struct LinearSteps {
   Eigen::MatrixXd columns(const Eigen::MatrixXd& throughout, const Eigen::MatrixXd& other) const;
 };
 
-/// Linear in the state and in the numbers of both laws. `known` are the steps of the usual law about the same
-/// trajectory, if they are known: intervals before the other law are taken from them.
+/// Steps that are known about another trajectory or other times of the other law: those of an interval hold
+/// where the trajectory is the same and one law moves the robot all the while.
+struct KnownSteps {
+  const LinearSteps* steps = nullptr;  ///< null: none
+  const Trajectory* about = nullptr;
+  double begin_s = 1e300, end_s = 1e300;  ///< from when to when the other law moved the robot in them
+  /// By how much the numbers of the other law differ from the usual ones, where known steps of the usual law
+  /// stand for those of the other one, linear in that difference; null: they do not.
+  const Eigen::VectorXd* change = nullptr;
+};
+
+/// Linear in the state and in the numbers of both laws.
 LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
-                         const MotionPlan& plan, const LinearSteps* known = nullptr);
+                         const MotionPlan& plan, const KnownSteps& known = {});
 
 /// State after interval `k` of the log that begins in the trajectory's.
 Eigen::VectorXd next_state(const UniformLog& log, int k, const Trajectory& about, const StepSetting& setting,

@@ -79,44 +79,46 @@ JointVector<double> MotionLaw::friction_rate(const JointVector<double>& q) const
 }
 
 void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& dq,
-                       const JointVector<double>& tau, const JointVector<double>& ddq, MatrixXd& out) const {
+                       const JointVector<double>& tau, const JointVector<double>& ddq,
+                       MotionSlopes& out) const {
   const int n = joints();
   const MotionLayout at = body_->layout();
-  out.setZero(n, 2 * n + at.count());
+  StateMatrix by_state(n, 2 * n);
   JointMatrix<double> inertia;
   JointVector<double> bias;
   dynamics_.inertia_and_bias(q, dq, inertia, bias);
-  const JointVector<double> torque = bias + inertia * ddq;
+  const JointVector<double> torque = bias + inertia.lazyProduct(ddq);
   JointVector<double> moved = q;
   for (int j = 0; j < n; ++j) {
     moved[j] = q[j] + kNudge;
-    out.col(j) = (torque - dynamics_.body_torque(moved, dq, ddq)) / kNudge;
+    by_state.col(j) = (torque - dynamics_.body_torque(moved, dq, ddq)) / kNudge;
     moved[j] = q[j];
   }
   moved = dq;
-  auto number = out.rightCols(at.count());
-  body_->torque_by_parameter(q, dq, ddq, number.leftCols(at.base));
-  number.leftCols(at.base) *= -1.0;
+  out.torque.setZero(n, at.count());
+  body_->torque_by_parameter(q, dq, ddq, out.torque.leftCols(at.base));
+  out.torque.leftCols(at.base) *= -1.0;
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = dynamics_.chain().friction[j];
     const double saturated = elementary::tanh(dq[j] / f.width);
     moved[j] = dq[j] + kNudge;
-    out.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
+    by_state.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
     moved[j] = dq[j];
-    out(j, n + j) -= f.viscous + f.coulomb / f.width * (1.0 - saturated * saturated);
-    number(j, at.viscous(j)) = -dq[j];
-    number(j, at.coulomb(j)) = -saturated;
-    number(j, at.gain(j)) = tau[j];
-    number(j, at.force(j)) = 1.0;
+    by_state(j, n + j) -= f.viscous + f.coulomb / f.width * (1.0 - saturated * saturated);
+    out.torque(j, at.viscous(j)) = -dq[j];
+    out.torque(j, at.coulomb(j)) = -saturated;
+    out.torque(j, at.gain(j)) = tau[j];
+    out.torque(j, at.force(j)) = 1.0;
   }
-  for (int j = 0; j < n; ++j) {
-    if (!is_locked(j)) continue;
-    inertia.row(j).setZero();
-    inertia.col(j).setZero();
-    inertia(j, j) = 1.0;
-    out.row(j).setZero();
+  out.inverse.setZero(n, n);
+  for (int i = 0; i < n; ++i) {
+    if (is_locked(i)) continue;
+    JointMatrix<double> copy = inertia;
+    JointVector<double> column = JointVector<double>::Unit(n, i);
+    solve_small(n, copy.data(), column.data(), locked_);
+    out.inverse.col(i) = column;
   }
-  inertia.llt().solveInPlace(out);
+  out.by_state = out.inverse.lazyProduct(by_state);
 }
 
 }  // namespace faultline

@@ -42,6 +42,17 @@ class MotionBody {
   std::vector<FastDynamics> unit_;  ///< by base parameter, that one 1 and the others 0; parallel axes only
 };
 
+/// A matrix of a robot's state: q, then dq.
+using StateMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * kMaxJoints, 2 * kMaxJoints>;
+
+/// Derivatives of an acceleration at one state. Those by a number are inverse * torque.
+struct MotionSlopes {
+  StateMatrix by_state;         ///< joints x 2 joints: by q, then dq
+  JointMatrix<double> inverse;  ///< of the inertia matrix; rows and columns of locked joints are 0
+  Eigen::MatrixXd torque;       ///< joints x numbers: torque that one more of each number gives
+};
+
 /// What moves the robot for a while: numbers as MotionLayout says, and joints that do not move.
 class MotionLaw {
  public:
@@ -56,10 +67,9 @@ class MotionLaw {
                     const JointVector<double>& tau, JointVector<double>& ddq) const;
   /// How fast each joint's friction changes its velocity near rest, 1/s.
   JointVector<double> friction_rate(const JointVector<double>& q) const;
-  /// Derivatives of the acceleration `ddq` at this state: joints x (2 joints + numbers), by q, dq and each
-  /// number.
+  /// Derivatives of the acceleration `ddq` at this state.
   void slopes(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
-              const JointVector<double>& ddq, Eigen::MatrixXd& out) const;
+              const JointVector<double>& ddq, MotionSlopes& out) const;
 
  private:
   const MotionBody* body_;

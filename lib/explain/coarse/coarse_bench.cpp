@@ -24,9 +24,11 @@ constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
 CoarseGuess approached(const CoarseLog& log, CoarseGuess guess) {
   for (const double forgiven : kForgivenInTurn)
     for (int k = 0; k < kStepsForEach; ++k) {
-      double step = 0.0;
-      if (!newton_step(log, forgiven, guess, &step)) return guess;
-      if (std::abs(step) < kSettled_s) break;
+      const std::optional<NewtonStep> step =
+          newton_step(log, guess, {.move_onset = true, .forgiven = forgiven});
+      if (!step) return guess;
+      guess = step->guess;
+      if (std::abs(step->onset_step_s) < kSettled_s) break;
     }
   return guess;
 }
@@ -61,45 +63,52 @@ bool moves_with_onset(FaultKind kind) {
          kind != FaultKind::stuck_encoder && kind != FaultKind::unknown;
 }
 
-bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s) {
+std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, const CoarseJudging& how) {
   const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
-  const CoarseExplanation fit =
-      judge_coarse(log, guess, {.rounds = 1, .move_onset = true, .forgiven = forgiven});
-  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return false;
+  const CoarseExplanation fit = judge_coarse(log, guess, how);
+  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return std::nullopt;
   guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
                              log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
   guess.start = fit.size;
-  *step_s = fit.onset_step_s;
-  return true;
+  return NewtonStep{std::move(guess), fit.onset_step_s};
 }
 
-JudgedGuess CoarseBench::go(const CoarseGuess& guess, int rounds) {
-  JudgedGuess out = judge_and_keep(guess, rounds);
+JudgedGuess CoarseBench::go(const CoarseGuess& guess, int rounds,
+                            const std::shared_ptr<const CoarseSteps>& known) {
+  JudgedGuess out = judge_and_keep(guess, rounds, known);
   if (guess.kind != FaultKind::sensor_drift || guess.velocity_is_true || log.log.dq.rows() == 0) return out;
   CoarseGuess apart = guess;
   apart.velocity_is_true = true;
-  JudgedGuess other = judge_and_keep(apart, rounds);
+  JudgedGuess other = judge_and_keep(apart, rounds, {});
   return other.gain > out.gain ? other : out;
 }
 
-JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds) {
-  JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds})};
+JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
+                                        const std::shared_ptr<const CoarseSteps>& known) {
+  JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds, .known = known})};
   out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
   if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
     out.kind = FaultKind::free_swinging;
   tried.push_back(guess);
-  const auto known = std::find_if(best.begin(), best.end(), [&](const JudgedGuess& o) {
+  const auto kept = std::find_if(best.begin(), best.end(), [&](const JudgedGuess& o) {
     return o.kind == out.kind && o.guess.joint == out.guess.joint;
   });
-  if (known == best.end())
+  if (kept == best.end())
     best.push_back(out);
-  else if (out.gain > known->gain)
-    *known = out;
+  else if (out.gain > kept->gain)
+    *kept = out;
   return out;
 }
 
 void CoarseBench::go_near(const CoarseGuess& guess) {
-  if (moves_with_onset(guess.kind)) go(approached(log, guess));
+  if (moves_with_onset(guess.kind)) go(approached(log, guess), 1);
+}
+
+void CoarseBench::integrate_best() {
+  const double enough = kMayWinAtCoarse * best_gain();
+  for (const JudgedGuess& j : std::vector<JudgedGuess>(best))
+    if (j.gain > enough && j.kind != FaultKind::stuck_encoder && j.kind != FaultKind::unknown)
+      judge_and_keep(j.guess, kCoarseRounds, j.fit.steps);
 }
 
 bool CoarseBench::tried_near(FaultKind kind, int joint, double onset_s) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "lib/explain/coarse/coarse_judge.hpp"
@@ -26,10 +28,14 @@ class CoarseBench {
   std::vector<JudgedGuess> best{};
   std::vector<CoarseGuess> tried{};
 
-  /// Judges a guess with so many rounds of integration and regression.
-  JudgedGuess go(const CoarseGuess& guess, int rounds = kCoarseRounds);
-  /// The same from where its best onset is, if that matters.
+  /// Judges a guess with so many rounds of integration and regression, the first with the steps that are
+  /// known of another guess.
+  JudgedGuess go(const CoarseGuess& guess, int rounds = kCoarseRounds,
+                 const std::shared_ptr<const CoarseSteps>& known = {});
+  /// One round from where its best onset is, if that matters.
   void go_near(const CoarseGuess& guess);
+  /// Integrates those that may win about the trajectories that they imply.
+  void integrate_best();
   bool tried_near(FaultKind kind, int joint, double onset_s) const;
   double best_gain() const;
   /// The best of each kind and joint, best first.
@@ -38,11 +44,14 @@ class CoarseBench {
   static constexpr int kCoarseRounds = 3;
 
  private:
-  JudgedGuess judge_and_keep(const CoarseGuess& guess, int rounds);
+  JudgedGuess judge_and_keep(const CoarseGuess& guess, int rounds,
+                             const std::shared_ptr<const CoarseSteps>& known);
 };
 
 inline constexpr double kLongSample_s = 0.05;  ///< from which an onset moves by shares of a sample
-inline constexpr double kSettled_s = 2e-4;     ///< an onset that moves less is settled
+inline constexpr double kMayWinAtCoarse =
+    0.3;  ///< of the best evidence, that a better round or onset may make the best
+inline constexpr double kSettled_s = 2e-4;  ///< an onset that moves less is settled
 
 /// Whether a fault of the kind changes numbers that move the robot, and stays.
 inline bool is_linear_at_coarse(FaultKind kind) {
@@ -53,8 +62,12 @@ inline bool is_linear_at_coarse(FaultKind kind) {
 /// Whether the onset of a kind lies between samples.
 bool moves_with_onset(FaultKind kind);
 
-/// A step of Newton on onset and size together; false where the guess cannot be integrated. `step_s` receives
-/// by how much the onset wanted to move.
-bool newton_step(const CoarseLog& log, double forgiven, CoarseGuess& guess, double* step_s);
+/// A step of Newton on onset and size together: where the guess should be, and by how much its onset wanted
+/// to move. Nothing where it cannot be integrated.
+struct NewtonStep {
+  CoarseGuess guess;
+  double onset_step_s = 0.0;
+};
+std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, const CoarseJudging& how);
 
 }  // namespace faultline

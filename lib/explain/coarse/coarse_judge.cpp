@@ -9,6 +9,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/coarse/coarse_price.hpp"
 #include "lib/explain/coarse/false_reading.hpp"
+#include "lib/explain/fault_claim.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -17,7 +18,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUsualOffset = 0.6;  // of the usual torque, that a torque may be logged beside the true one
 constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
 constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
 constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory
@@ -25,12 +25,15 @@ constexpr double kAbsurd = 1e6;           // derivative of a state by the one be
 constexpr double kMostColumns = 4.0;      // prior standard deviations that a size may start from
 constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
 constexpr double kMostLoss = 1.05;
-constexpr double kMostPayload = 2.5;  // of the tip's mass
+constexpr double kSettled_nats = 0.05;  // a round that changes less is the last
+constexpr double kMostPayload = 2.5;    // of the tip's mass
 
-/// Values about which one round linearises a hypothesis.
+/// Values about which one round linearises a hypothesis, and steps that are known.
 struct Setup {
   VectorXd day, size;  ///< about which it is linear; `size` empty: not known yet
   Trajectory about;
+  std::shared_ptr<const CoarseSteps> known{};  ///< of the same law, day and size
+  bool is_first = true;  ///< about the healthy robot's trajectory, whose steps are known
 };
 
 /// The pieces of one round that its regression needs.
@@ -40,6 +43,10 @@ struct Linearised {
   VectorXd precision, about;  ///< of the unknowns' prior, and the values that they are corrections to
   bool finite = true;
 };
+
+double end_of(const CoarseGuess& guess) {
+  return guess.duration_s > 0.0 ? guess.onset_s + guess.duration_s : 1e300;
+}
 
 /// Numbers in force with and without the fault on this day.
 VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDirections& fault,
@@ -114,12 +121,20 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   const MotionLaw faulty(m.body, numbers_with(log, at.day, fault, reading ? VectorXd() : at.size),
                          guess.kind == FaultKind::locked ? 1u << j : 0u);
   const bool moves = sizes > 0 || guess.kind == FaultKind::locked;
-  MotionPlan plan{&healthy, moves ? &faulty : nullptr, guess.onset_s,
-                  guess.duration_s > 0.0 ? guess.onset_s + guess.duration_s : 1e300};
+  const MotionPlan plan{&healthy, moves ? &faulty : nullptr, guess.onset_s, end_of(guess)};
   Linearised out;
-  const bool same = at.day.isZero(0.0) && at.about.cols() == log.about.cols() && at.about == log.about;
-  const bool known = same && log.healthy_steps.intervals > 0;
-  out.steps = linear_steps(log.log, at.about, m.setting, plan, known ? &log.healthy_steps : nullptr);
+  KnownSteps known;
+  VectorXd change;
+  if (at.known) {
+    known = {&at.known->steps, &at.known->about};
+    if (moves) known.begin_s = at.known->begin_s, known.end_s = at.known->end_s;
+  } else if (at.is_first && log.healthy_steps.intervals > 0) {
+    known = {&log.healthy_steps, &log.about};
+    change = VectorXd::Zero(usual.size());
+    if (sizes > 0 && at.size.size() > 0) change = fault.direction * at.size;
+    if (guess.kind != FaultKind::locked) known.change = &change;
+  }
+  out.steps = linear_steps(log.log, at.about, m.setting, plan, known);
   out.finite = out.steps.miss.allFinite() && out.steps.slope.allFinite() &&
                out.steps.slope.cwiseAbs().maxCoeff() < kAbsurd;
   if (!out.finite) return out;
@@ -218,40 +233,6 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
 
 }  // namespace
 
-FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int joint) {
-  const MotionLayout at = m.layout();
-  const int j = joint - 1;
-  FaultDirections out;
-  const auto make = [&](int sizes) {
-    out.direction = MatrixXd::Zero(at.count(), sizes);
-    out.std.resize(sizes);
-  };
-  if (kind == FaultKind::torque_loss || kind == FaultKind::free_swinging) {
-    make(1);
-    out.direction(at.gain(j), 0) = -1.0;
-    out.std << 0.5;
-  } else if (kind == FaultKind::friction_increase) {
-    make(2);
-    out.direction(at.viscous(j), 0) = out.direction(at.coulomb(j), 1) = 1.0;
-    // Of the usual torque at 1 rad/s or m/s, and at any speed, where the robot has no friction of its own.
-    out.std << 3.0 * m.theta[at.viscous(j)] + 0.05 * m.torque_rms[j],
-        3.0 * m.theta[at.coulomb(j)] + 0.1 * m.torque_rms[j];
-  } else if (kind == FaultKind::payload_change) {
-    make(1);
-    out.direction.col(0).head(at.base) = m.payload;
-    out.std << 0.6 * m.tip_mass;
-  } else if (kind == FaultKind::torque_sensor_error) {
-    make(1);
-    out.direction(at.force(j), 0) = -1.0;
-    out.std << kUsualOffset * m.torque_rms[j];
-  } else if (kind == FaultKind::collision) {
-    make(at.joints);
-    for (int i = 0; i < at.joints; ++i) out.direction(at.force(i), i) = 1.0;
-    out.std = m.torque_rms;
-  }
-  return out;
-}
-
 VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
   VectorXd range(2 * m.joints());
   range << m.q_high - m.q_low, m.top_speed;
@@ -260,35 +241,38 @@ VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
 
 double forgiven_torque(double forgiven) { return kTorqueForState * forgiven; }
 
-double usual_reading_error(const OneStepModel& model, int joint) {
-  return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
-}
-
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
-  Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
   const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
   const int late = log.samples() - from;
   const bool reading = reads_wrong(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
+  if (how.known) at = {how.known->day, how.known->size, how.known->about, how.known, false};
   if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
-  if (reading && at.size.size() > 0) at.about -= at.size[0] * read_column(log, guess, from);
+  const double rest = locked ? log.read.row(j).tail(late).mean() : 0.0;
   CoarseExplanation best;
   bool any = false;
   for (int round = 0; round < how.rounds; ++round) {
     if (locked) {
-      at.about.row(j).tail(late).setConstant(log.read.row(j).tail(late).mean());
+      at.about.row(j).tail(late).setConstant(at.known ? at.known->about(j, log.samples() - 1) : rest);
       at.about.row(n + j).tail(late).setZero();
     }
-    const Linearised lin = linearise(log, guess, at, how);
+    Linearised lin = linearise(log, guess, at, how);
     if (!lin.finite) break;
     CoarseExplanation now = regressed(log, guess, at, lin, how);
     if (locked) now.about.row(n + j).tail(late).setZero();
     const bool holds = now.mean_square() < kHolds;
-    at.about = holds ? now.about : log.about;
-    if (reading && !holds) at.about -= now.size[0] * read_column(log, guess, from);
-    at.day = now.day;
-    at.size = now.size.size() > 0 ? within_reason(log, guess, now.size) : now.size;
-    if (!any || now.log_likelihood > best.log_likelihood) best = std::move(now);
+    Setup next{now.day, {}, holds ? now.about : log.about, {}, false};
+    if (reading && !holds) next.about -= now.size[0] * read_column(log, guess, from);
+    next.size = now.size.size() > 0 ? within_reason(log, guess, now.size) : now.size;
+    const double gained = any ? now.log_likelihood - best.log_likelihood : kImpossibleAtCoarse;
+    if (!any || gained > 0.0) {
+      best = std::move(now);
+      best.steps = std::make_shared<const CoarseSteps>(CoarseSteps{
+          at.day, at.size, std::move(at.about), std::move(lin.steps), guess.onset_s, end_of(guess)});
+    }
     any = true;
+    at = std::move(next);
+    if (std::abs(gained) < kSettled_nats) break;
   }
   if (!any) return impossible(log, guess);
   best.log_likelihood -= coarse_price(log, guess, best, from);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "lib/explain/coarse/coarse_log.hpp"
-#include "lib/explain/fault_claim.hpp"
+#include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
@@ -19,22 +19,13 @@ struct CoarseGuess {
   bool velocity_is_true = false;  ///< of a drift, see FaultClaim
 };
 
-/// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
-/// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each
-/// joint; torque logged beside the true one; empty for kinds that move nothing.
-struct FaultDirections {
-  Eigen::MatrixXd direction;  ///< numbers x sizes
-  Eigen::VectorXd std;
-};
-
-FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
-/// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
-double usual_reading_error(const OneStepModel& model, int joint);
-
 struct CoarseJudging {
-  int rounds = 1;           ///< of integration and regression in turn
+  int rounds = 1;           ///< of integration and regression in turn; the first takes known steps
   bool move_onset = false;  ///< the onset is a further unknown
   double forgiven = 0.0;    ///< share of each state and torque that a wrong size or onset may miss
+  /// Of a guess of the same kind and joint, for the first round; null: those of the healthy robot, linear in
+  /// the size.
+  std::shared_ptr<const CoarseSteps> known{};
 };
 
 /// The log explained by a guess, integrated and linearised about the trajectory that it implies in turn; the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,14 @@
 #include "lib/balance/one_step/one_step_model.hpp"
 
 namespace faultline {
+
+/// What a round of a judgement was linear about, and the steps that it gave.
+struct CoarseSteps {
+  Eigen::VectorXd day, size;  ///< `size` empty: not known
+  Trajectory about;
+  LinearSteps steps;
+  double begin_s = 1e300, end_s = 1e300;  ///< of the fault in them
+};
 
 /// A log explained at a coarse rate, as far as it goes on: what the filter and the regression leave of it.
 struct CoarseExplanation {
@@ -20,6 +29,7 @@ struct CoarseExplanation {
   Eigen::MatrixXd variance;     ///< of each innovation; NaN where there was no reading
   Eigen::MatrixXd log_ratio;    ///< ln of `variance` over that of the healthy robot; 0 where there is none
   Trajectory about;             ///< smoothed
+  std::shared_ptr<const CoarseSteps> steps{};  ///< of the round that this is from
 
   double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }
 };

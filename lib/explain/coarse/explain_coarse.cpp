@@ -18,7 +18,6 @@ using Eigen::VectorXd;
 
 constexpr double kMuchLeft = 3.0;          // mean square from which an explanation may be none,
 constexpr double kUnexplained = 0.3;       // and share of what the log leaves without it
-constexpr double kMayWinAtCoarse = 0.3;    // of the best evidence, that a better onset may make the best
 constexpr std::size_t kJudged = 14;        // candidates
 constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
 constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
@@ -67,7 +66,7 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   for (const Rated& r : rated) {
     if (approached == kApproached) break;
     if (bench.tried_near(r.guess.kind, r.guess.joint, r.guess.onset_s)) continue;
-    bench.go(r.guess);
+    bench.go(r.guess, 1);
     bench.go_near(r.guess);
     ++approached;
   }
@@ -89,7 +88,7 @@ void judge_standstill(int j, CoarseBench& bench) {
   const auto lock = [&](double onset) { bench.go({FaultKind::locked, j + 1, onset, 0.0, {}}, 1); };
   if (samples - since > 3)
     for (const int before : {2, 1, 0})
-      for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9})
+      for (const double share : {0.2, 0.5, 0.8})
         lock(log.time_s(std::max(1, since - before)) - share * log.period_s());
   int same = samples;
   while (same > 1 && log.log.q(same - 1, j) == log.log.q(same - 2, j)) --same;
@@ -105,11 +104,11 @@ bool may_begin(const CoarseLog& log, double onset_s) {
   return onset_s >= log.time_s(log.first_onset()) && onset_s < log.time_s(log.samples() - 3);
 }
 
-/// Moves the onset by halved steps while it explains more.
+/// Moves the onset by halved steps while it explains more, about one trajectory; then integrates anew.
 JudgedGuess moved(JudgedGuess best, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const double period = log.period_s();
-  const int rounds = best.guess.kind == FaultKind::locked ? 1 : CoarseBench::kCoarseRounds;
+  const JudgedGuess start = best;
   int moves = 0;
   double step = period > kLongSample_s ? period : kMove_s;
   while (step > kLeastMove * period && step > kLeastMove_s && moves < kMostMoves) {
@@ -117,10 +116,9 @@ JudgedGuess moved(JudgedGuess best, CoarseBench& bench) {
     for (const double sign : {-1.0, 1.0}) {
       CoarseGuess guess = best.guess;
       guess.onset_s += sign * step;
-      guess.start = best.fit.size;
       if (!may_begin(log, guess.onset_s)) continue;
       ++moves;
-      JudgedGuess now = bench.go(guess, rounds);
+      JudgedGuess now = bench.go(guess, 1, best.fit.steps);
       if (now.gain <= best.gain) continue;
       best = std::move(now);
       better = true;
@@ -128,35 +126,44 @@ JudgedGuess moved(JudgedGuess best, CoarseBench& bench) {
     }
     if (!better) step *= 0.5;
   }
-  return best;
+  if (best.guess.onset_s == start.guess.onset_s || start.guess.kind == FaultKind::locked) return best;
+  JudgedGuess anew = bench.go(best.guess, CoarseBench::kCoarseRounds, best.fit.steps);
+  return anew.gain > best.gain ? anew : best;
 }
 
-/// Steps of Newton on onset and size together.
-JudgedGuess settled(JudgedGuess best, CoarseBench& bench) {
-  const CoarseLog& log = bench.log;
-  JudgedGuess at = best;
+/// Steps of Newton on onset and size together; `is_settled` tells whether the last one was small.
+struct Settled {
+  JudgedGuess best;
+  bool is_settled = false;
+};
+
+Settled settled(const JudgedGuess& start, CoarseBench& bench) {
+  JudgedGuess at = start, best = start;
   for (int k = 0; k < kNewton; ++k) {
-    CoarseGuess guess = at.guess;
-    guess.start = at.fit.size;
-    double step = 0.0;
-    if (!newton_step(log, 0.0, guess, &step)) break;
-    at = bench.go(guess, CoarseBench::kCoarseRounds - 1);
+    const std::optional<NewtonStep> step =
+        newton_step(bench.log, at.guess, {.move_onset = true, .known = at.fit.steps});
+    if (!step) break;
+    at = bench.go(step->guess, CoarseBench::kCoarseRounds - 1, at.fit.steps);
     if (at.gain > best.gain) best = at;
-    if (std::abs(step) < kSettled_s) break;
+    if (std::abs(step->onset_step_s) < kSettled_s) return {best, true};
   }
-  return best;
+  return {best};
 }
 
 void refine(const JudgedGuess& start, CoarseBench& bench) {
-  JudgedGuess best = moved(start, bench);
-  const FaultKind kind = best.guess.kind;
-  if (moves_with_onset(kind)) best = settled(std::move(best), bench);
+  const FaultKind kind = start.guess.kind;
+  JudgedGuess best = start;
+  if (moves_with_onset(kind)) {
+    Settled found = settled(start, bench);
+    best = found.is_settled ? found.best : settled(moved(found.best, bench), bench).best;
+  } else {
+    best = moved(start, bench);
+  }
   if (kind != FaultKind::collision) return;
   for (const double factor : {0.5, 0.7, 1.4, 2.0}) {
     CoarseGuess guess = best.guess;
-    guess.start = best.fit.size;
     guess.duration_s *= factor;
-    JudgedGuess now = bench.go(guess, CoarseBench::kCoarseRounds - 1);
+    JudgedGuess now = bench.go(guess, CoarseBench::kCoarseRounds - 1, best.fit.steps);
     if (now.gain > best.gain) best = std::move(now);
   }
 }
@@ -200,6 +207,7 @@ LogExplanation explain_coarse(const CoarseLog& log) {
   CoarseBench bench(log);
   judge_candidates(search_coarse(log), bench);
   for (int j = 0; j < log.joints(); ++j) judge_standstill(j, bench);
+  bench.integrate_best();
   for (const JudgedGuess& j : to_refine(bench.best)) {
     const FaultKind kind = j.guess.kind;
     const bool fixed = kind == FaultKind::stuck_encoder || kind == FaultKind::sensor_bias ||

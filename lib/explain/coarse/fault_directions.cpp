@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/coarse/fault_directions.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kUsualOffset = 0.6;  // of the usual torque, that a torque may be logged beside the true one
+
+}  // namespace
+
+FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int joint) {
+  const MotionLayout at = m.layout();
+  const int j = joint - 1;
+  FaultDirections out;
+  const auto make = [&](int sizes) {
+    out.direction = MatrixXd::Zero(at.count(), sizes);
+    out.std.resize(sizes);
+  };
+  if (kind == FaultKind::torque_loss || kind == FaultKind::free_swinging) {
+    make(1);
+    out.direction(at.gain(j), 0) = -1.0;
+    out.std << 0.5;
+  } else if (kind == FaultKind::friction_increase) {
+    make(2);
+    out.direction(at.viscous(j), 0) = out.direction(at.coulomb(j), 1) = 1.0;
+    // Of the usual torque at 1 rad/s or m/s, and at any speed, where the robot has no friction of its own.
+    out.std << 3.0 * m.theta[at.viscous(j)] + 0.05 * m.torque_rms[j],
+        3.0 * m.theta[at.coulomb(j)] + 0.1 * m.torque_rms[j];
+  } else if (kind == FaultKind::payload_change) {
+    make(1);
+    out.direction.col(0).head(at.base) = m.payload;
+    out.std << 0.6 * m.tip_mass;
+  } else if (kind == FaultKind::torque_sensor_error) {
+    make(1);
+    out.direction(at.force(j), 0) = -1.0;
+    out.std << kUsualOffset * m.torque_rms[j];
+  } else if (kind == FaultKind::collision) {
+    make(at.joints);
+    for (int i = 0; i < at.joints; ++i) out.direction(at.force(i), i) = 1.0;
+    out.std = m.torque_rms;
+  }
+  return out;
+}
+
+double usual_reading_error(const OneStepModel& model, int joint) {
+  return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
+}
+
+}  // namespace faultline

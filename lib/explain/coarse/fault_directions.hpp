@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lib/balance/one_step/one_step_model.hpp"
+#include "lib/fault/fault_kind.hpp"
+
+namespace faultline {
+
+/// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
+/// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each
+/// joint; torque logged beside the true one; empty for kinds that move nothing.
+struct FaultDirections {
+  Eigen::MatrixXd direction;  ///< numbers x sizes
+  Eigen::VectorXd std;
+};
+
+FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
+/// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
+double usual_reading_error(const OneStepModel& model, int joint);
+
+}  // namespace faultline
