@@ -7,6 +7,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
 namespace {
@@ -15,21 +16,54 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Momentum and force (see MomentumAndForce) of each base parameter, that one 1 and the others 0.
+class BaseMotion {
+ public:
+  explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid) {
+    for (int p = 0; p < rigid.base(); ++p) {
+      FastDynamics unit(chain_of(rigid, VectorXd::Unit(rigid.base(), p)));
+      if (!unit.planar()) break;
+      units_.push_back(std::move(unit));
+    }
+  }
+
+  /// Joints x base each.
+  void at(const JointVector<double>& q, const JointVector<double>& dq, MatrixXd& momentum, MatrixXd& force) {
+    const int n = rigid_.joints(), links = n * kLinkParameters;
+    if (!units_.empty()) {
+      momentum.resize(n, rigid_.base());
+      force.resize(n, rigid_.base());
+      JointVector<double> p, f;
+      for (int k = 0; k < rigid_.base(); ++k) {
+        units_[k].momentum_and_force(q, dq, p, f);
+        momentum.col(k) = p;
+        force.col(k) = f;
+      }
+      return;
+    }
+    const LinkFrames frames = link_frames(rigid_.chain, q);
+    momentum_regressor(frames, dq, link_momentum_);
+    force_regressor(frames, dq, link_force_);
+    momentum = link_momentum_ * rigid_.lift.topRows(links);
+    force = link_force_ * rigid_.lift.topRows(links);
+    for (int j = 0; j < n; ++j) momentum.row(j) += dq[j] * rigid_.lift.row(links + j);
+  }
+
+ private:
+  const RigidColumns& rigid_;
+  std::vector<FastDynamics> units_;  ///< by base parameter; parallel axes only
+  LinkRegressor link_momentum_, link_force_;
+};
+
 /// Columns of the base parameters: change of momentum over the interval less the force of motion and gravity.
 void add_base_columns(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                       const MatrixXd& velocity, std::vector<MatrixXd>& column) {
-  const int n = rigid.joints(), links = n * kLinkParameters;
-  LinkRegressor momentum, force;
-  MatrixXd before_p, before_f;
+  BaseMotion motion(rigid);
+  MatrixXd p, f, before_p, before_f;
   for (int k = 0; k < log.rows(); ++k) {
-    const JointVector<double> dq = row_of(velocity, k);
-    const LinkFrames frames = link_frames(rigid.chain, row_of(log.q, k));
-    momentum_regressor(frames, dq, momentum);
-    force_regressor(frames, dq, force);
-    MatrixXd p = momentum * rigid.lift.topRows(links), f = force * rigid.lift.topRows(links);
-    for (int j = 0; j < n; ++j) p.row(j) += dq[j] * rigid.lift.row(links + j);
+    motion.at(row_of(log.q, k), row_of(velocity, k), p, f);
     if (k > 0)
-      for (int j = 0; j < n; ++j)
+      for (int j = 0; j < rigid.joints(); ++j)
         column[j].row(k - 1).head(rigid.base()) =
             (p.row(j) - before_p.row(j)) / setting.period_s - 0.5 * (f.row(j) + before_f.row(j));
     before_p.swap(p);
@@ -128,6 +162,12 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   rows.lost = crossing_lost(log.lost, grid, grid.first);
   if (theta.size() > 0) add_spring_columns(setting, rigid, theta, at, kernel, grid, rows);
   return rows;
+}
+
+VectorXd coulomb_column(const UniformLog& log, const RowSetting& setting, int joint) {
+  const auto [kernel, grid, at] = row_frame(log, setting);
+  return smooth_at(saturated(at.link_speed.col(joint), setting.friction_width[joint]), kernel, grid.first,
+                   grid.step, grid.count);
 }
 
 }  // namespace faultline

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostSquare = 50.0;  // of one value: an outlier costs no more
 constexpr double kNoEvidence = 1e6;   // N m or N: a value with such a deviation is no evidence
-constexpr double kNoSlope = 9.0;      // kernels beside a change, where its slope is none
+constexpr double kSurely = 6.5;       // kernels beside a change, where it shows no more
 
 double cost(double residual, double std) {
   const double z = residual / std;
@@ -71,8 +71,8 @@ PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, dou
     const double step = path[changes[c] + 1] - path[changes[c]];
     for (int k = 0; k < rows; ++k) {
       const double x = (time_s[k] - at) / kernel_s;
-      out.level[k] += step * normal_cdf(x);
-      if (std::abs(x) > kNoSlope) continue;
+      out.level[k] += std::abs(x) < kSurely ? step * normal_cdf(x) : x > 0.0 ? step : 0.0;
+      if (std::abs(x) > kSurely) continue;
       out.change(k, static_cast<int>(c)) =
           step * elementary::exp(-0.5 * x * x) / (kernel_s * std::sqrt(2.0 * std::numbers::pi));
     }

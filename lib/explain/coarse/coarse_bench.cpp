@@ -17,17 +17,25 @@ constexpr int kSameSamples = 3;     // between two onsets that count as one
 /// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
 constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;
+constexpr double kNearSize = 0.2;  // share of a size
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
+
+/// Whether steps about one size stand for those about another one.
+bool are_near(const VectorXd& a, const VectorXd& b) {
+  return a.size() == b.size() && (a - b).norm() < kNearSize * b.norm();
+}
 
 /// The guess brought near its best onset and size. What a wrong onset leaves is first forgiven, then ever
 /// less, so that the steps of Newton find their way from a sample away.
-CoarseGuess approached(const CoarseLog& log, CoarseGuess guess) {
+CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<const CoarseSteps> known) {
   for (const double forgiven : kForgivenInTurn)
     for (int k = 0; k < kStepsForEach; ++k) {
+      if (known && !are_near(known->size, guess.start)) known.reset();
       const std::optional<NewtonStep> step =
-          newton_step(log, guess, {.move_onset = true, .forgiven = forgiven});
+          newton_step(log, guess, {.move_onset = true, .forgiven = forgiven, .known = known});
       if (!step) return guess;
       guess = step->guess;
+      known = step->steps;
       if (std::abs(step->onset_step_s) < kSettled_s) break;
     }
   return guess;
@@ -56,6 +64,11 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   return out;
 }
 
+/// Whether the trajectory that a kind implies is another one than that which was smoothed.
+bool moves_anew(FaultKind kind) {
+  return kind != FaultKind::stuck_encoder && kind != FaultKind::unknown && kind != FaultKind::locked;
+}
+
 }  // namespace
 
 bool moves_with_onset(FaultKind kind) {
@@ -70,7 +83,7 @@ std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, c
   guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
                              log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
   guess.start = fit.size;
-  return NewtonStep{std::move(guess), fit.onset_step_s};
+  return NewtonStep{std::move(guess), fit.onset_step_s, fit.steps};
 }
 
 JudgedGuess CoarseBench::go(const CoarseGuess& guess, int rounds,
@@ -100,14 +113,18 @@ JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
   return out;
 }
 
-void CoarseBench::go_near(const CoarseGuess& guess) {
-  if (moves_with_onset(guess.kind)) go(approached(log, guess), 1);
+void CoarseBench::go_near(const CoarseGuess& guess, const std::shared_ptr<const CoarseSteps>& known) {
+  if (moves_with_onset(guess.kind)) go(approached(log, guess, known), 1);
 }
 
 void CoarseBench::integrate_best() {
-  const double enough = kMayWinAtCoarse * best_gain();
+  const auto winner = std::max_element(
+      best.begin(), best.end(), [](const JudgedGuess& a, const JudgedGuess& b) { return a.gain < b.gain; });
+  if (winner == best.end()) return;
+  const bool is_any = winner->fit.mean_square() > kMuchLeft;
+  const double enough = kMayWinAtCoarse * winner->gain;
   for (const JudgedGuess& j : std::vector<JudgedGuess>(best))
-    if (j.gain > enough && j.kind != FaultKind::stuck_encoder && j.kind != FaultKind::unknown)
+    if ((is_any || j.gain > enough) && moves_anew(j.kind))
       judge_and_keep(j.guess, kCoarseRounds, j.fit.steps);
 }
 

@@ -32,9 +32,9 @@ class CoarseBench {
   /// known of another guess.
   JudgedGuess go(const CoarseGuess& guess, int rounds = kCoarseRounds,
                  const std::shared_ptr<const CoarseSteps>& known = {});
-  /// One round from where its best onset is, if that matters.
-  void go_near(const CoarseGuess& guess);
-  /// Integrates those that may win about the trajectories that they imply.
+  /// One round from where its best onset is, if that matters; `known` are steps of the guess.
+  void go_near(const CoarseGuess& guess, const std::shared_ptr<const CoarseSteps>& known);
+  /// Integrates those that may win about the trajectories that they imply; all where the best leaves much.
   void integrate_best();
   bool tried_near(FaultKind kind, int joint, double onset_s) const;
   double best_gain() const;
@@ -48,7 +48,9 @@ class CoarseBench {
                              const std::shared_ptr<const CoarseSteps>& known);
 };
 
-inline constexpr double kLongSample_s = 0.05;  ///< from which an onset moves by shares of a sample
+inline constexpr double kLongSample_s =
+    0.05;                                 ///< from which a step of Newton is bounded by a share of a sample
+inline constexpr double kMuchLeft = 3.0;  ///< mean square from which an explanation may be none
 inline constexpr double kMayWinAtCoarse =
     0.3;  ///< of the best evidence, that a better round or onset may make the best
 inline constexpr double kSettled_s = 2e-4;  ///< an onset that moves less is settled
@@ -67,6 +69,7 @@ bool moves_with_onset(FaultKind kind);
 struct NewtonStep {
   CoarseGuess guess;
   double onset_step_s = 0.0;
+  std::shared_ptr<const CoarseSteps> steps;  ///< that it was taken with
 };
 std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, const CoarseJudging& how);
 

@@ -131,8 +131,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   } else if (at.is_first && log.healthy_steps.intervals > 0) {
     known = {&log.healthy_steps, &log.about};
     change = VectorXd::Zero(usual.size());
-    if (sizes > 0 && at.size.size() > 0) change = fault.direction * at.size;
-    if (guess.kind != FaultKind::locked) known.change = &change;
+    if (guess.kind != FaultKind::locked && at.size.size() == 0) known.change = &change;
   }
   out.steps = linear_steps(log.log, at.about, m.setting, plan, known);
   out.finite = out.steps.miss.allFinite() && out.steps.slope.allFinite() &&
@@ -246,7 +245,9 @@ CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, c
   const int late = log.samples() - from;
   const bool reading = reads_wrong(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
-  if (how.known) at = {how.known->day, how.known->size, how.known->about, how.known, false};
+  const bool same_rest = how.known && first_sample(log, how.known->begin_s) == from;
+  if (how.known && (!locked || same_rest))
+    at = {how.known->day, how.known->size, how.known->about, how.known, false};
   if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
   const double rest = locked ? log.read.row(j).tail(late).mean() : 0.0;
   CoarseExplanation best;

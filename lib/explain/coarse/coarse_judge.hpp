@@ -23,8 +23,8 @@ struct CoarseJudging {
   int rounds = 1;           ///< of integration and regression in turn; the first takes known steps
   bool move_onset = false;  ///< the onset is a further unknown
   double forgiven = 0.0;    ///< share of each state and torque that a wrong size or onset may miss
-  /// Of a guess of the same kind and joint, for the first round; null: those of the healthy robot, linear in
-  /// the size.
+  /// Of a guess of the same kind and joint, for the first round; null: those of the healthy robot, where the
+  /// fault has no part or no size to begin with.
   std::shared_ptr<const CoarseSteps> known{};
 };
 

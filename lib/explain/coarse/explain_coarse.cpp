@@ -16,8 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchLeft = 3.0;          // mean square from which an explanation may be none,
-constexpr double kUnexplained = 0.3;       // and share of what the log leaves without it
+constexpr double kUnexplained = 0.3;       // of what the log leaves without it: an explanation may be none
 constexpr std::size_t kJudged = 14;        // candidates
 constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
 constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
@@ -26,7 +25,9 @@ constexpr std::size_t kMoved = 4;     // hypotheses whose onset is refined
 constexpr double kWorthMoving = 5.0;  // nats
 constexpr int kMostMoves = 24;
 constexpr int kNewton = 6;  // steps of onset and size together
-constexpr double kMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
+constexpr double kLeastFirstMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
+constexpr double kFirstLeap_s = 1.2, kLastLeap_s = 0.3;
+constexpr int kMostLeaps = 12;
 constexpr double kStandsFor_s = 0.3;  // at the end of a log: where a locked joint stands
 constexpr double kStillWithin = 5.0;  // standard deviations of a reading
 constexpr double kStillRounding = 1e-6;
@@ -55,19 +56,21 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   struct Rated {
     CoarseGuess guess;
     double log_likelihood = 0.0;
+    std::shared_ptr<const CoarseSteps> steps;
   };
   std::vector<Rated> rated;
-  for (const CoarseGuess& guess : guesses_of(search, bench))
-    rated.push_back(
-        {guess, judge_coarse(bench.log, guess, {.rounds = 1, .forgiven = kForgivenAtFirst}).log_likelihood});
+  for (const CoarseGuess& guess : guesses_of(search, bench)) {
+    const CoarseExplanation e = judge_coarse(bench.log, guess, {.rounds = 1, .forgiven = kForgivenAtFirst});
+    rated.push_back({guess, e.log_likelihood, e.steps});
+  }
   std::stable_sort(rated.begin(), rated.end(),
                    [](const Rated& a, const Rated& b) { return a.log_likelihood > b.log_likelihood; });
   std::size_t approached = 0;
   for (const Rated& r : rated) {
     if (approached == kApproached) break;
     if (bench.tried_near(r.guess.kind, r.guess.joint, r.guess.onset_s)) continue;
-    bench.go(r.guess, 1);
-    bench.go_near(r.guess);
+    bench.go(r.guess, 1, r.steps);
+    bench.go_near(r.guess, r.steps);
     ++approached;
   }
 }
@@ -104,40 +107,46 @@ bool may_begin(const CoarseLog& log, double onset_s) {
   return onset_s >= log.time_s(log.first_onset()) && onset_s < log.time_s(log.samples() - 3);
 }
 
-/// Moves the onset by halved steps while it explains more, about one trajectory; then integrates anew.
-JudgedGuess moved(JudgedGuess best, CoarseBench& bench) {
-  const CoarseLog& log = bench.log;
-  const double period = log.period_s();
-  const JudgedGuess start = best;
-  int moves = 0;
-  double step = period > kLongSample_s ? period : kMove_s;
-  while (step > kLeastMove * period && step > kLeastMove_s && moves < kMostMoves) {
-    bool better = false;
-    for (const double sign : {-1.0, 1.0}) {
-      CoarseGuess guess = best.guess;
-      guess.onset_s += sign * step;
-      if (!may_begin(log, guess.onset_s)) continue;
-      ++moves;
-      JudgedGuess now = bench.go(guess, 1, best.fit.steps);
-      if (now.gain <= best.gain) continue;
-      best = std::move(now);
-      better = true;
-      break;
-    }
-    if (!better) step *= 0.5;
+/// The guess with its onset moved by `step`, where that explains more; about the same trajectory.
+bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
+  CoarseGuess guess = best.guess;
+  guess.onset_s += step;
+  if (!may_begin(bench.log, guess.onset_s)) return false;
+  JudgedGuess now = bench.go(guess, 1, best.fit.steps);
+  if (now.gain <= best.gain) return false;
+  best = std::move(now);
+  return true;
+}
+
+/// Moves the onset by steps of a sample, then halved ones, while it explains more.
+JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
+  const double period = bench.log.period_s();
+  double step = std::max(period, kLeastFirstMove_s);
+  for (int moves = 0; moves < kMostMoves && step > std::max(kLeastMove * period, kLeastMove_s); ++moves)
+    if (!try_onset(-step, best, bench) && !try_onset(step, best, bench)) step *= 0.5;
+  return best;
+}
+
+/// The same, and by leaps: the search looked at a few seconds behind an onset only. Then it is integrated
+/// anew.
+JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
+  JudgedGuess best = walked(start, bench);
+  bool leapt = false;
+  double leap = kFirstLeap_s;
+  for (int leaps = 0; leaps < kMostLeaps && leap >= kLastLeap_s; ++leaps) {
+    if (try_onset(-leap, best, bench) || try_onset(leap, best, bench))
+      leapt = true;
+    else
+      leap *= 0.5;
   }
+  if (leapt) best = walked(best, bench);
   if (best.guess.onset_s == start.guess.onset_s || start.guess.kind == FaultKind::locked) return best;
   JudgedGuess anew = bench.go(best.guess, CoarseBench::kCoarseRounds, best.fit.steps);
   return anew.gain > best.gain ? anew : best;
 }
 
-/// Steps of Newton on onset and size together; `is_settled` tells whether the last one was small.
-struct Settled {
-  JudgedGuess best;
-  bool is_settled = false;
-};
-
-Settled settled(const JudgedGuess& start, CoarseBench& bench) {
+/// Steps of Newton on onset and size together.
+JudgedGuess settled(const JudgedGuess& start, CoarseBench& bench) {
   JudgedGuess at = start, best = start;
   for (int k = 0; k < kNewton; ++k) {
     const std::optional<NewtonStep> step =
@@ -145,20 +154,15 @@ Settled settled(const JudgedGuess& start, CoarseBench& bench) {
     if (!step) break;
     at = bench.go(step->guess, CoarseBench::kCoarseRounds - 1, at.fit.steps);
     if (at.gain > best.gain) best = at;
-    if (std::abs(step->onset_step_s) < kSettled_s) return {best, true};
+    if (std::abs(step->onset_step_s) < kSettled_s) break;
   }
-  return {best};
+  return best;
 }
 
 void refine(const JudgedGuess& start, CoarseBench& bench) {
   const FaultKind kind = start.guess.kind;
-  JudgedGuess best = start;
-  if (moves_with_onset(kind)) {
-    Settled found = settled(start, bench);
-    best = found.is_settled ? found.best : settled(moved(found.best, bench), bench).best;
-  } else {
-    best = moved(start, bench);
-  }
+  JudgedGuess best = moved(start, bench);
+  if (moves_with_onset(kind)) best = settled(best, bench);
   if (kind != FaultKind::collision) return;
   for (const double factor : {0.5, 0.7, 1.4, 2.0}) {
     CoarseGuess guess = best.guess;

@@ -148,8 +148,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
     for (const double width : kWidths) {
       setting.friction_width[j] = width;
       for (std::size_t d = 0; d < logs.size(); ++d)
-        rows[d].column[j].col(layout.coulomb(j)) =
-            balance_rows(logs[d], setting, rigid, {}).column[j].col(layout.coulomb(j));
+        rows[d].column[j].col(layout.coulomb(j)) = coulomb_column(logs[d], setting, j);
       const double sum = left(rows, plain_fit(rows, layout, used, scale), j).first;
       if (sum >= narrowest) continue;
       narrowest = sum;
@@ -157,8 +156,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
     }
     setting.friction_width[j] = best;
     for (std::size_t d = 0; d < logs.size(); ++d)
-      rows[d].column[j].col(layout.coulomb(j)) =
-          balance_rows(logs[d], setting, rigid, {}).column[j].col(layout.coulomb(j));
+      rows[d].column[j].col(layout.coulomb(j)) = coulomb_column(logs[d], setting, j);
   }
   return setting;
 }
