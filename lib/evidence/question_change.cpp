@@ -17,7 +17,10 @@ constexpr int kChangeRows = 4000;         // that are looked at before and behin
 constexpr double kAtOnset_s = 0.1;        // behind the onset, which is an estimate: left out
 constexpr double kChangeExplains = 0.35;  // of a joint's varying torque left in half of its blocks: explained
 constexpr double kTimesWorse = 3.0;       // than before the change, or than with another reading
-constexpr double kNothingLeft = 0.02;     // below, all readings are as good
+constexpr double kMovesAtAll = 0.2;       // of the fastest velocity
+constexpr double kOneUnit = 1.4;          // ratio of two velocities up to which they have one unit
+constexpr std::size_t kFewestRatios = 20;
+constexpr double kNothingLeft = 0.02;  // below, all readings are as good
 
 struct Sides {
   Log before, behind;
@@ -50,6 +53,27 @@ std::vector<double> left_of(const Log& rows, const MotionModel& model) {
     if (!blocks.empty()) left[j] = std::max(upper_median(blocks), kNothingLeft);
   }
   return left;
+}
+
+/// Whether the velocity of each joint is the derivative of its position, as the median of their ratios says:
+/// single jumps of a position do not count.
+bool velocity_fits_position(const Log& rows) {
+  for (std::size_t j = 0; j < rows.dq.size(); ++j) {
+    const std::vector<double>&q = rows.q[j], &dq = rows.dq[j];
+    double fastest = 0.0;
+    for (const double v : dq)
+      if (std::isfinite(v)) fastest = std::max(fastest, std::abs(v));
+    std::vector<double> ratio;
+    for (int k = 1; k + 1 < rows.rows(); ++k) {
+      const double slope = (q[k + 1] - q[k - 1]) / (rows.time[k + 1] - rows.time[k - 1]);
+      if (std::isfinite(slope) && slope != 0.0 && std::abs(dq[k]) > kMovesAtAll * fastest)
+        ratio.push_back(dq[k] / slope);
+    }
+    if (ratio.size() < kFewestRatios) continue;
+    const double median = upper_median(ratio);
+    if (median < 1.0 / kOneUnit || median > kOneUnit) return false;
+  }
+  return true;
 }
 
 /// Whether the reading explains every joint that the rows before the change explain, and one of them by far
@@ -90,7 +114,7 @@ std::optional<ReadingChange> question_change(LogSource& log, const MotionModel& 
     reading.apply(rows);
     const std::vector<double> left = left_of(rows, model);
     const double sum = sum_of_logs(left);
-    if (!explains(left, plain, before) || (best && sum >= least)) continue;
+    if (!explains(left, plain, before) || (best && sum >= least) || !velocity_fits_position(rows)) continue;
     least = sum;
     best = {sides.before.first_row + sides.before.rows() + 1, onset_s, reading.what};
   }

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/judge_silent.hpp"
 
 namespace faultline {
 namespace {
@@ -18,17 +17,12 @@ using Eigen::VectorXd;
 constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
 constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
 constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
-constexpr double kDroppedCost = 1.2;   // nats a row that an unknown force explains
 constexpr int kReadingRounds = 3;      // of the size of a false reading
 constexpr double kSettled = 0.01;      // share of it that the last round changed
 constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
-constexpr int kSamplesBefore = 20;
-constexpr double kComesToRest = 0.3;  // share of repeats before a joint stands that shows that it brakes
 constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld; nats: it is rare
-constexpr double kLeastClip = 0.04;    // of the greatest torque: a joint that gets less swings freely
-constexpr double kSurely = 4.0;        // standard deviations
-constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
-constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
+constexpr double kLeastClip = 0.04;  // of the greatest torque: a joint that gets less swings freely
+constexpr double kSurely = 4.0;      // standard deviations
 
 /// Nats that a size costs that this kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
@@ -55,15 +49,6 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
     ++rows;
   }
   return rows < 3 || power <= 0.0 ? kImpossible : 0.0;
-}
-
-FaultHypothesis hypothesis(const LogFit& fit, const FaultClaim& claim, Explanation explanation,
-                           double price) {
-  FaultHypothesis out{claim};
-  out.gain = explanation.log_likelihood - price - fit.healthy().log_likelihood;
-  out.size = explanation.size;
-  out.fit = std::move(explanation);
-  return out;
 }
 
 FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultClaim claim) {
@@ -153,98 +138,6 @@ FaultHypothesis judge_drift(const LogFit& fit, FaultClaim claim) {
   claim.velocity_is_true = true;
   FaultHypothesis other = judge_reading(fit, claim);
   return other.gain > best.gain ? other : best;
-}
-
-/// Nats by which a joint that is said to be locked moves, but for its spring.
-double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
-  const BalanceModel& m = fit.model();
-  const double compliance = m.setting.compliance[j];
-  const VectorXd q = fit.rows().q.col(j)(late), torque = fit.rows().torque.col(j)(late);
-  MatrixXd x(q.size(), compliance > 0.0 ? 2 : 1);
-  x.col(0).setOnes();
-  if (compliance > 0.0) x.col(1) = torque;
-  const MatrixXd xx = x.transpose() * x + 1e-12 * MatrixXd::Identity(x.cols(), x.cols());
-  const VectorXd off = q - x * xx.ldlt().solve(x.transpose() * q);
-  const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
-  double std = 3.0 * (std::max(m.q_noise[j] * fit.loudness()[j], 1e-6) *
-                          gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm() +
-                      (slide ? 3e-6 : 1e-5));
-  if (compliance > 0.0) std += 0.15 * compliance * torque.cwiseAbs().maxCoeff();
-  return 0.5 * (off / std).array().square().operator-(1.0).max(0.0).sum();
-}
-
-/// What the samples from onset to end say by repeating the position before them.
-struct Repeats {
-  int samples = 0;
-  double share = 0.0;         ///< that repeat the position before
-  double share_before = 1.0;  ///< the same before the onset: a joint that comes to rest repeats, too
-};
-
-Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
-  const UniformLog& log = fit.log();
-  const int j = claim.joint - 1;
-  int first = 0;
-  while (first < log.rows() && log.time_s(first) < claim.onset_s - 1e-9) ++first;
-  int end = first;
-  while (end < log.rows() && log.time_s(end) < claim.end_s - 1e-9) ++end;
-  int same = 0, all = 0;
-  for (int k = first + 3; k < end; ++k, ++all) same += log.q(k, j) == log.q(k - 1, j);
-  int before = 0;
-  const int from = std::max(1, first - kSamplesBefore);
-  for (int k = from; k < first; ++k) before += log.q(k, j) == log.q(k - 1, j);
-  return {end - first, all > 2 ? static_cast<double>(same) / all : 0.0,
-          first > from ? static_cast<double>(before) / (first - from) : 1.0};
-}
-
-/// Rows at which the joint must stand still: those that lie within onset and end.
-std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
-  const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
-  std::vector<int> out;
-  for (int k = 0; k < fit.count(); ++k)
-    if (fit.time_s()[k] > claim.onset_s + reach && fit.time_s()[k] < claim.end_s - reach) out.push_back(k);
-  return out;
-}
-
-/// An impulse on each other joint when a joint halts.
-FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
-  const int rows = fit.count(), n = fit.joints();
-  FaultColumns out{StackedColumns::Zero(rows * n, n - 1), VectorXd(n - 1)};
-  const double kernel_s = fit.model().setting.kernel_s;
-  const VectorXd jolt = fit.time_s().unaryExpr(
-      [&](double t) { return elementary::exp(-0.5 * Eigen::numext::abs2((t - claim.onset_s) / kernel_s)); });
-  int column = 0;
-  for (int i = 0; i < n; ++i) {
-    if (i == claim.joint - 1) continue;
-    out.column.col(column).segment(i * rows, rows) = jolt;
-    out.variance[column++] = Eigen::numext::abs2(kJolt * fit.model().torque_rms[i]);
-  }
-  return out;
-}
-
-/// Hypotheses by which rows of a joint say nothing while they last.
-std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim& claim) {
-  const BalanceModel& m = fit.model();
-  const int j = claim.joint - 1;
-  const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
-  const StackedMask dropped = silent_rows(fit.rows(), m, claim);
-  const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
-  const auto [samples, same, same_before] = repeats_in(fit, claim);
-  const bool telling = repeats_say_something(m, j) && same_before < kComesToRest;
-  double price = kDroppedCost * lost;
-  if (claim.kind == FaultKind::locked) {
-    const std::vector<int> within = rows_within(fit, claim);
-    if (within.size() < 5) return std::nullopt;
-    price = price_of_motion(fit, j, within) + kStandingCost;
-    if (same > 0.98 && telling) price += 2.0 * samples;
-  } else if (claim.kind == FaultKind::stuck_encoder) {
-    price = kStandingCost + (slide ? 0.0 : 0.5 * kDroppedCost * lost);
-    if (same < 0.98 || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
-    if (telling) price -= std::min(samples, 500) * elementary::log(1.0 / m.repeat_share[j]);
-  }
-  const FaultColumns jolt = claim.kind == FaultKind::locked ? jolt_columns(fit, claim) : FaultColumns{};
-  Explanation e = fit.explain_with_piece(fit.residual(), jolt, {}, claim.onset_s, dropped);
-  e.size.resize(0);
-  return hypothesis(fit, claim, std::move(e), price);
 }
 
 }  // namespace

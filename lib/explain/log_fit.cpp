@@ -7,8 +7,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/own_noise.hpp"
-#include "lib/explain/row_deviation.hpp"
+#include "lib/explain/log_noise.hpp"
 
 namespace faultline {
 namespace {

@@ -66,6 +66,7 @@ struct Widen {
       variance = std::max(variance, variance_of_range(stated.torque_offset * torque_scale[joint]));
   }
   void operator()(BalanceModel& m) const {
+    if (stated.work_piece_kg > 0.0) m.piece_kg = stated.work_piece_kg;
     const DayLayout at = day_layout(m.rigid);
     for (int j = 0; j < m.joints(); ++j) {
       friction(m.day_variance[at.friction(j)]);

@@ -12,7 +12,8 @@ namespace faultline {
 /// How far healthy days of a robot differ, and the torque that its model misses, as the twin draws them.
 std::vector<SlowState> day_differences(const RobotRows& robot);
 
-/// The robot with at least the ranges that its file states; ranges that stand at their defaults say nothing.
+/// The robot with at least the ranges that its file states, and the work piece that it states; ranges that
+/// stand at their defaults say nothing.
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale);
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
-
 #include "lib/robot/toml/toml_text.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 
@@ -29,24 +27,18 @@ std::array<double, 2> noise_factors(const TomlTable& table, const std::array<dou
   return {factors[0], factors[1]};
 }
 
-std::string list_text(const double* numbers, std::size_t count) {
-  return toml_numbers(Eigen::Map<const Eigen::VectorXd>(numbers, static_cast<Eigen::Index>(count)));
-}
-
 }  // namespace
 
 NormalRange normal_range_from_table(const TomlTable& normal) {
   NormalRange range;
   range.friction = share(normal, "friction", range.friction);
-  range.friction_pace = share(normal, "friction_pace", range.friction_pace);
   range.torque_constant = share(normal, "torque_constant", range.torque_constant);
   range.torque_offset = share(normal, "torque_offset", range.torque_offset);
-  range.tip_mass = share(normal, "tip_mass", range.tip_mass);
   range.model_error = share(normal, "model_error", range.model_error);
   range.noise = noise_factors(normal, range.noise);
-  if (normal.has("work_pieces_kg")) {
-    range.work_pieces_kg = normal.numbers("work_pieces_kg", -1);
-    check_signs(normal, "work_pieces_kg", range.work_pieces_kg, false);
+  if (normal.has("work_piece_kg")) {
+    range.work_piece_kg = normal.number("work_piece_kg", 0.0);
+    check_signs(normal, "work_piece_kg", {range.work_piece_kg}, false);
   }
   return range;
 }
@@ -54,14 +46,11 @@ NormalRange normal_range_from_table(const TomlTable& normal) {
 std::string normal_range_text(const NormalRange& normal) {
   if (normal == NormalRange{}) return "";
   std::string text = fmt::format(
-      "\n[normal]\nfriction = {}\nfriction_pace = {}\ntorque_constant = {}\ntorque_offset = {}\ntip_mass = {}\n"
-      "model_error = {}\nnoise = {}\n",
-      toml_number(normal.friction), toml_number(normal.friction_pace), toml_number(normal.torque_constant),
-      toml_number(normal.torque_offset), toml_number(normal.tip_mass), toml_number(normal.model_error),
-      list_text(normal.noise.data(), 2));
-  if (!normal.work_pieces_kg.empty())
-    text +=
-        "work_pieces_kg = " + list_text(normal.work_pieces_kg.data(), normal.work_pieces_kg.size()) + "\n";
+      "\n[normal]\nfriction = {}\ntorque_constant = {}\ntorque_offset = {}\nmodel_error = {}\n"
+      "noise = [{}, {}]\n",
+      toml_number(normal.friction), toml_number(normal.torque_constant), toml_number(normal.torque_offset),
+      toml_number(normal.model_error), toml_number(normal.noise[0]), toml_number(normal.noise[1]));
+  if (normal.work_piece_kg > 0.0) text += "work_piece_kg = " + toml_number(normal.work_piece_kg) + "\n";
   return text;
 }
 

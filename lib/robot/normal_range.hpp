@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "lib/robot/toml/toml_table.hpp"
 
@@ -14,15 +13,13 @@ namespace faultline {
 /// be wider. Ranges are two standard deviations to either side.
 struct NormalRange {
   double friction = 0.3;          ///< share of each joint's friction: temperature, grease, load
-  double friction_pace = 0.02;    ///< share of it by which it wanders in a second, with the root of time
   double torque_constant = 0.02;  ///< share of the drive's torque: temperature of the magnets
   double torque_offset = 0.01;    ///< share of the largest torque
-  double tip_mass = 0.02;         ///< share of what the robot carries: tools, hoses
   /// Share of the largest torque that the equations of motion miss at the least, for some hundredths of a
   /// second each time: ripple, springs, friction of another shape, stamps a sample late.
   double model_error = 0.005;
   std::array<double, 2> noise = {0.5, 2.0};  ///< times the measurement noise of the healthy logs
-  std::vector<double> work_pieces_kg;        ///< that come and go; empty to learn whether one does
+  double work_piece_kg = 0.0;  ///< mass that is picked up and put down; 0 to learn whether one is
 
   bool operator==(const NormalRange&) const = default;
 };

@@ -5,6 +5,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/fast_dynamics.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -97,6 +98,25 @@ TEST(Regressor, ForceIsTheSlopeOfTheLagrangian) {
       EXPECT_NEAR(force[i], slope, 1e-6);
     }
   }
+}
+
+TEST(Regressor, ParallelAxesHaveTheSameMomentumAndForceByTheirOwnForm) {
+  Random random(8);
+  for (const char* axes : {"RRP", "PRR", "RRR", "RRRP", "P"})
+    for (const Eigen::Vector3d& gravity :
+         {Eigen::Vector3d(0.0, 0.0, -9.81), Eigen::Vector3d(3.0, -9.0, -1.0)}) {
+      Chain<double> chain = preset_robot(axes).chain;
+      chain.gravity = gravity;
+      chain.rotor_inertia.assign(chain.joints(), 0.3);
+      const FastDynamics fast(chain);
+      ASSERT_TRUE(fast.planar()) << axes;
+      const auto q = draw(random, chain.joints()), dq = draw(random, chain.joints());
+      const MomentumAndForce expected = momentum_and_force(link_frames(chain, q), chain.links, dq);
+      JointVector<double> p, f;
+      fast.momentum_and_force(q, dq, p, f);
+      EXPECT_LT((p - expected.momentum - 0.3 * dq).norm(), 1e-11) << axes;
+      EXPECT_LT((f - expected.force).norm(), 1e-11) << axes;
+    }
 }
 
 TEST(Regressor, LinkVectorRoundTrip) {

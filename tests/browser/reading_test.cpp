@@ -67,7 +67,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
   const TemporaryFolder folder;
   expect_readable(made_page(
       folder, {"diagnose", kSamples + "golden/logs/torque_loss_2.csv", "--model",
-               kSamples + "golden/model-5f724ab3.json", "--cases", kSamples + "golden/cases-876bf88a.db"}));
+               kSamples + "golden/model-35643eb3.json", "--cases", kSamples + "golden/cases-8686d61c.db"}));
 }
 
 TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {

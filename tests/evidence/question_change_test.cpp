@@ -63,6 +63,13 @@ TEST(QuestionChange, AFaultOfTheRobotIsNoChangeOfTheColumns) {
   }
 }
 
+TEST(QuestionChange, APositionThatJumpsIsNoVelocityInAnotherUnit) {
+  Log log = simulate(known_rrp(), rrp_run(10.0), 74).log;
+  for (int k = kChangedRow; k < log.rows(); ++k) log.q[1][k] += 1.0;
+  const auto found = change_of(log);
+  EXPECT_FALSE(found) << found->what;
+}
+
 TEST(QuestionChange, AHealthyLogDoesNotChange) {
   EXPECT_FALSE(change_of(simulate(known_rrp(), rrp_run(10.0), 72).log));
 }

@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "lib/pipeline/healthy_robot.hpp"
+#include "lib/pipeline/explained_robot.hpp"
 #include "lib/pipeline/without_work_piece.hpp"
 #include "tests/pipeline/small_robot.hpp"
 #include "tests/support/rrp_runs.hpp"
@@ -66,6 +66,27 @@ TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
   EXPECT_NEAR(std::get<BalanceModel>(robot.model.explain.robot).piece_kg, kPiece_kg, 0.03);
   EXPECT_GT(with_pieces, 2.2) << "the piece is carried half of the time";
   EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
+}
+
+/// What a robot that was learned without a work piece says of a log in which one is carried.
+std::vector<ExplainedFault> faults_with_piece(double stated_kg) {
+  std::deque<MemorySource> sources;
+  for (int day = 0; day < 3; ++day)
+    sources.emplace_back(simulate(small_robot(), small_run(20.0), 91 + day).log, "day.csv");
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  Robot robot = unknown_small_robot();
+  robot.normal.work_piece_kg = stated_kg;
+  const ExplainModel model = explained_robot(logs, robot, {}).robot.model.explain;
+  MemorySource carried(simulate(small_robot(), carrying(small_run(20.0), {{5.0, 12.0}}), 95).log);
+  return explain_whole_log(uniform_log(carried, sample_period_s(model.robot)), model).faults;
+}
+
+TEST(WorkPieces, OneThatTheRobotFileStatesIsNoFault) {
+  const std::vector<ExplainedFault> unstated = faults_with_piece(0.0);
+  ASSERT_FALSE(unstated.empty());
+  EXPECT_EQ(unstated.front().claim.kind, FaultKind::payload_change);
+  EXPECT_TRUE(faults_with_piece(kPiece_kg).empty());
 }
 
 }  // namespace

@@ -65,10 +65,10 @@ TEST(RobotFileErrors, NonsenseAboutWhatIsNormalIsNamed) {
   expect_error(normal + "friction = 1.5", {"line 3, key normal.friction", "less than 1", "found 1.5"});
   expect_error(normal + "torque_constant = -0.1",
                {"key normal.torque_constant", "share from 0", "found -0.1"});
-  expect_error(normal + "tip_mass = \"light\"", {"key normal.tip_mass", "finite number", "light"});
+  expect_error(normal + "model_error = \"light\"", {"key normal.model_error", "finite number", "light"});
   expect_error(normal + "noise = [2, 0.5]", {"key normal.noise", "at most 1", "found [2, 0.5]"});
   expect_error(normal + "noise = 2", {"key normal.noise"});
-  expect_error(normal + "work_pieces_kg = [1, -2]", {"key normal.work_pieces_kg", "positive", "found -2"});
+  expect_error(normal + "work_piece_kg = -2", {"key normal.work_piece_kg", "positive", "found -2"});
   expect_error(normal + "fricton = 0.2", {"key normal.fricton", "did you mean \"friction\""});
 }
 

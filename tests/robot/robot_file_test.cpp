@@ -68,12 +68,12 @@ TEST(RobotFile, WhatIsNormalHasDefaultsAndIsKept) {
   EXPECT_EQ(robot_from_toml("axes = \"RRP\"", "r.toml").normal, NormalRange{});
   const Robot robot = robot_from_toml(
       "axes = \"RRP\"\n[normal]\nfriction = 0.5\ntorque_offset = 0\nnoise = [0.8, 3]\n"
-      "work_pieces_kg = [0.4, 1.2]",
+      "work_piece_kg = 1.2",
       "r.toml");
   EXPECT_EQ(robot.normal.friction, 0.5);
   EXPECT_EQ(robot.normal.torque_offset, 0.0);
   EXPECT_EQ(robot.normal.noise, (std::array<double, 2>{0.8, 3.0}));
-  EXPECT_EQ(robot.normal.work_pieces_kg, (std::vector<double>{0.4, 1.2}));
+  EXPECT_EQ(robot.normal.work_piece_kg, 1.2);
   EXPECT_EQ(robot.normal.torque_constant, NormalRange{}.torque_constant);
   EXPECT_EQ(robot_from_toml(robot_file_text(robot), "again").normal, robot.normal);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "lib/balance/one_step/interval_motion.hpp"
+
 namespace faultline {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr double kTurn = 0.1;                // rad of a joint in a substep: lea
 constexpr double kMostSubsteps_Hz = 2000.0;  // for a velocity that is no velocity
 constexpr double kNearRest = 5.0;            // widths of the friction: beyond, tanh is 1 but for 1e-4
 constexpr double kShortest_s = 1e-12;        // part of an interval that is worth integrating
-
-/// Part of an interval that one law moves.
-struct Part {
-  const MotionLaw* law = nullptr;
-  double begin_s = 0.0, end_s = 0.0;  ///< from the interval's start
-  bool within = false;                ///< the other law
-};
 
 struct Parts {
   std::array<Part, 3> part;
@@ -47,13 +42,6 @@ Parts parts_of(double start_s, double period_s, const MotionPlan& plan) {
   return out;
 }
 
-/// The torque within one interval.
-struct IntervalTorque {
-  JointVector<double> begin, slope;  ///< at its start, and by the time
-
-  JointVector<double> at(double s) const { return begin + s * slope; }
-};
-
 IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& setting, const MotionPlan& plan) {
   IntervalTorque out;
   out.begin = log.tau.row(k).transpose();
@@ -63,10 +51,6 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
     out.slope = (log.tau.row(k + 1) - log.tau.row(k)).transpose() / setting.period_s;
   return out;
 }
-
-/// Weights and places of the four stages of Runge and Kutta.
-constexpr int kMiddleStage = 2;  // stands in the middle of a step
-constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
 /// Substeps of an interval, as fast motion and friction that changes its sign ask for.
 int substeps_of(const StepSetting& setting, const MotionPlan& plan, const VectorXd& begin,
@@ -86,100 +70,6 @@ int substeps_of(const StepSetting& setting, const MotionPlan& plan, const Vector
   }
   return std::max(1,
                   static_cast<int>(std::ceil(setting.period_s * std::min(per_s, kMostSubsteps_Hz) - 1e-9)));
-}
-
-void stop_locked(const MotionLaw& law, VectorXd& state) {
-  for (int j = 0; j < law.joints(); ++j)
-    if (law.is_locked(j)) state[law.joints() + j] = 0.0;
-}
-
-/// Moves the state through one part.
-void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
-  const int n = part.law->joints();
-  const double h = (part.end_s - part.begin_s) / substeps;
-  stop_locked(*part.law, state);
-  JointVector<double> q(n), dq(n), ddq(n);
-  VectorXd rate = VectorXd::Zero(2 * n), sum(2 * n);
-  for (int s = 0; s < substeps; ++s) {
-    const double at = part.begin_s + s * h;
-    sum.setZero();
-    for (int stage = 0; stage < 4; ++stage) {
-      q = state.head(n) + kPlace[stage] * h * rate.head(n);
-      dq = state.tail(n) + kPlace[stage] * h * rate.tail(n);
-      part.law->acceleration(q, dq, torque.at(at + kPlace[stage] * h), ddq);
-      rate << dq, ddq;
-      sum += kWeight[stage] * rate;
-    }
-    state += h * sum;
-  }
-}
-
-/// Derivatives of the state behind some time by the state before it and by each number of the law.
-struct Tangent {
-  StateMatrix by_state;
-  MatrixXd by_number;
-
-  Tangent(int states, int numbers)
-      : by_state(StateMatrix::Identity(states, states)), by_number(MatrixXd::Zero(states, numbers)) {}
-
-  /// Moves it by a step of length `h` whose slopes are constant: the Taylor series of fourth order of the
-  /// exponential.
-  void move(double h, const MotionSlopes& at) {
-    const auto n = at.inverse.rows(), numbers = by_number.cols();
-    using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxJoints, 3 * kMaxJoints>;
-    Wide rate(2 * n, 3 * n), first(2 * n, 3 * n), sum(2 * n, 3 * n);  // by the state, by a torque
-    first.setZero();
-    first.topRightCorner(n, 2 * n).leftCols(n).setIdentity();
-    first.bottomLeftCorner(n, 2 * n) = at.by_state;
-    first.bottomRightCorner(n, n) = at.inverse;
-    sum = first;
-    for (const double order : {4.0, 3.0, 2.0}) {
-      sum *= h / order;
-      rate.topRows(n) = sum.bottomRows(n);
-      rate.bottomRows(n) = at.by_state.lazyProduct(sum);
-      sum = first + rate;
-    }
-    sum *= h;
-    const StateMatrix step = StateMatrix::Identity(2 * n, 2 * n) + sum.leftCols(2 * n);
-    by_state = step.lazyProduct(by_state).eval();
-    for (Eigen::Index p = 0; p < numbers; ++p) {
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1> moved =
-          step.lazyProduct(by_number.col(p));
-      for (Eigen::Index j = 0; j < n; ++j)
-        if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * sum.col(2 * n + j);
-      by_number.col(p) = moved;
-    }
-  }
-};
-
-/// Moves the state through one part, and its derivatives; the slopes of a substep are those in its middle.
-Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state,
-                         MotionSlopes& slopes) {
-  const int n = part.law->joints();
-  const double h = (part.end_s - part.begin_s) / substeps;
-  stop_locked(*part.law, state);
-  Tangent out(2 * n, part.law->body().layout().count());
-  for (int j = 0; j < n; ++j)
-    if (part.law->is_locked(j)) out.by_state(n + j, n + j) = 0.0;
-  JointVector<double> q(n), dq(n), ddq(n);
-  VectorXd rate = VectorXd::Zero(2 * n), sum(2 * n);
-  for (int s = 0; s < substeps; ++s) {
-    const double at = part.begin_s + s * h;
-    sum.setZero();
-    for (int stage = 0; stage < 4; ++stage) {
-      const double step = kPlace[stage] * h;
-      const JointVector<double> tau = torque.at(at + step);
-      q = state.head(n) + step * rate.head(n);
-      dq = state.tail(n) + step * rate.tail(n);
-      part.law->acceleration(q, dq, tau, ddq);
-      if (stage == kMiddleStage) part.law->slopes(q, dq, tau, ddq, slopes);
-      rate << dq, ddq;
-      sum += kWeight[stage] * rate;
-    }
-    state += h * sum;
-    out.move(h, slopes);
-  }
-  return out;
 }
 
 /// Which law moves the robot through an interval.
@@ -240,7 +130,6 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
   out.miss.resize(states, intervals);
   out.number.resize(states, numbers * intervals);
   out.within_begin = out.within_end = intervals;
-  MotionSlopes scratch;
   for (int k = 0; k < intervals; ++k) {
     const Parts parts = parts_of(log.time_s(k), setting.period_s, plan);
     const bool touched = parts.count > 1 || parts.part[0].within;
@@ -256,7 +145,7 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
     VectorXd state = about.col(k);
     const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
     for (int p = 0; p < parts.count; ++p) {
-      const Tangent moved = move_with_slopes(parts.part[p], torque, substeps, state, scratch);
+      const Tangent moved = move_with_slopes(parts.part[p], torque, substeps, state);
       if (p == 0) {
         slope = moved.by_state;
         number = moved.by_number;

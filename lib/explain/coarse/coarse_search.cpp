@@ -20,6 +20,10 @@ constexpr double kOnsetStep_s = 0.05;                         // between two ons
 constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
 constexpr double kWindow_s = 6.0;                             // behind an onset, in which the search looks
 constexpr int kFewestWindow = 60;                             // samples of it
+constexpr double kStandsOut_nats = 8.0;                       // of an onset
+constexpr double kRoughStep_s = 1.0;                          // between two onsets of the first look
+constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // of what some samples in a row leave
+constexpr int kFewestOfStrike = 4;                            // samples
 constexpr double kWorthASecond = 2.0;                         // nats
 constexpr double kStrikes = 10.0;  // mean square of one sample's innovations that no noise has
 constexpr std::size_t kOnsetsTried = 3;
@@ -81,7 +85,7 @@ struct Base {
   VectorXd left;        ///< white rows left over
 };
 
-Base base_of(const CoarseLog& log) {
+Base base_of(const CoarseLog& log, double forgiven) {
   const OneStepModel& m = *log.model;
   const int n = log.joints();
   FilterInput in;
@@ -91,10 +95,10 @@ Base base_of(const CoarseLog& log) {
     for (int k = 0; k < std.cols(); ++k)
       std(i, k) = log.stop(i, k) > 0.0
                       ? 30.0 * m.torque_rms[i]
-                      : elementary::hypot(std(i, k), forgiven_torque(kForgiven) * log.log.tau(k, i));
+                      : elementary::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
   in.process = process_covariance(log.healthy_steps, m.layout(), std);
   in.reading = log.read - log.about;
-  in.variance = log.variance.colwise() + forgiven_variance(m, kForgiven);
+  in.variance = log.variance.colwise() + forgiven_variance(m, forgiven);
   Base out;
   out.filter = innovations(log.healthy_steps, in);
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
@@ -114,9 +118,8 @@ struct OnsetSums {
 };
 
 OnsetSums sums_from(const CoarseLog& log, const Base& base, const Catalogue& all, const MatrixXd& column,
-                    int from) {
+                    int from, int window) {
   const int width = static_cast<int>(all.length.size()), states = log.healthy_steps.states;
-  const int window = std::max(kFewestWindow, static_cast<int>(kWindow_s / log.period_s()));
   const int end = std::min(log.samples(), from + window), rows = states * (end - from);
   // Blocks before the onset are never read.
   MatrixXd pulse(states, width * log.healthy_steps.intervals), read(states, width * log.samples());
@@ -199,21 +202,54 @@ std::vector<int> common_samples(const CoarseLog& log, const Base& base,
   return out;
 }
 
+/// Which onsets are tried, and how much of the log behind each of them is looked at.
+struct OnsetGrid {
+  int step = 1, window = 0;  ///< samples
+};
+
+/// The candidates of each group at each onset of the grid.
+std::vector<std::vector<CoarseCandidate>> candidates_of(const CoarseLog& log, const Base& base,
+                                                        const OnsetGrid& grid) {
+  const Catalogue all = catalogue(log);
+  const MatrixXd column = log.healthy_steps.columns(all.direction, MatrixXd(all.direction.rows(), 0));
+  std::vector<std::vector<CoarseCandidate>> out(all.groups.size());
+  for (int k = log.first_onset(); k < log.samples() - 3; k += grid.step) {
+    const OnsetSums sums = sums_from(log, base, all, column, k, grid.window);
+    for (std::size_t g = 0; g < all.groups.size(); ++g)
+      out[g].push_back(candidate(log, all.groups[g], sums, k));
+  }
+  return out;
+}
+
+/// Whether some samples in a row leave more than noise does.
+bool strikes(const CoarseLog& log, const Base& base) {
+  const int states = log.healthy_steps.states,
+            length = std::max(kFewestOfStrike, static_cast<int>(kStrike_s / log.period_s())) * states;
+  const double enough = kStandsOut_nats + kSigmasOfStrike * std::sqrt(0.5 * length);
+  for (Eigen::Index k = log.first_onset() * states; k + length <= base.left.size(); k += states)
+    if (0.5 * (base.left.segment(k, length).squaredNorm() - length) > enough) return true;
+  return false;
+}
+
 }  // namespace
 
+bool stands_out(const CoarseLog& log) {
+  const Base base = base_of(log, 0.0);
+  if (strikes(log, base)) return true;
+  const int step = std::max(1, static_cast<int>(std::lround(kRoughStep_s / log.period_s())));
+  for (const std::vector<CoarseCandidate>& group : candidates_of(log, base, {step, log.samples()}))
+    for (const CoarseCandidate& c : group)
+      if (c.score > kStandsOut_nats) return true;
+  return false;
+}
+
 CoarseSearch search_coarse(const CoarseLog& log) {
-  const Catalogue all = catalogue(log);
-  const Base base = base_of(log);
-  const MatrixXd column = log.healthy_steps.columns(all.direction, MatrixXd(all.direction.rows(), 0));
+  const Base base = base_of(log, kForgiven);
   const int step = std::max(1, static_cast<int>(std::lround(kOnsetStep_s / log.period_s())));
-  std::vector<std::vector<CoarseCandidate>> found(all.groups.size());
-  for (int k = log.first_onset(); k < log.samples() - 3; k += step) {
-    const OnsetSums sums = sums_from(log, base, all, column, k);
-    for (std::size_t g = 0; g < all.groups.size(); ++g)
-      found[g].push_back(candidate(log, all.groups[g], sums, k));
-  }
+  const int window = std::max(kFewestWindow, static_cast<int>(kWindow_s / log.period_s()));
   CoarseSearch out;
-  for (std::vector<CoarseCandidate>& group : found) keep_best(std::move(group), 4 * step, out.candidates);
+  for (std::vector<CoarseCandidate>& group : candidates_of(log, base, {step, window}))
+    keep_best(std::move(group), 4 * step, out.candidates);
   std::stable_sort(out.candidates.begin(), out.candidates.end(), better);
   out.onsets = common_samples(log, base, out.candidates, step);
   return out;

@@ -19,6 +19,10 @@ struct CoarseSearch {
   std::vector<int> onsets;                  ///< samples worth trying for every kind, most telling first
 };
 
+/// Whether anything is worth searching for: a fault that stays, from about any second on, or some samples in
+/// a row that the healthy robot does not explain.
+bool stands_out(const CoarseLog& log);
+
 /// Every sample as an onset of every kind that is a column: along the healthy trajectory, through the gains
 /// of a filter that forgives some.
 CoarseSearch search_coarse(const CoarseLog& log);

@@ -75,7 +75,12 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   }
 }
 
-/// Since when joint `j` (from 0) stands still, and since when its codes are the same.
+/// A joint `j` (from 0) that is locked since `onset_s`.
+void judge_lock(int j, double onset_s, CoarseBench& bench) {
+  bench.go({FaultKind::locked, j + 1, onset_s, 0.0, {}}, 1);
+}
+
+/// Since when joint `j` (from 0) stands still.
 void judge_standstill(int j, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const OneStepModel& m = *log.model;
@@ -88,18 +93,23 @@ void judge_standstill(int j, CoarseBench& bench) {
   const double v_still = kStillWithin * std::sqrt(m.reading_variance[n + j]) + kStillRounding;
   int since = samples;
   while (since > 0 && std::abs(q[since - 1] - rest) <= q_still && std::abs(v[since - 1]) <= v_still) --since;
-  const auto lock = [&](double onset) { bench.go({FaultKind::locked, j + 1, onset, 0.0, {}}, 1); };
-  if (samples - since > 3)
-    for (const int before : {2, 1, 0})
-      for (const double share : {0.2, 0.5, 0.8})
-        lock(log.time_s(std::max(1, since - before)) - share * log.period_s());
+  if (samples - since <= 3) return;
+  for (const int before : {2, 1, 0})
+    for (const double share : {0.2, 0.5, 0.8})
+      judge_lock(j, log.time_s(std::max(1, since - before)) - share * log.period_s(), bench);
+}
+
+/// Since when the codes of joint `j` (from 0) are the same.
+void judge_repeats(int j, CoarseBench& bench) {
+  const CoarseLog& log = bench.log;
+  const OneStepModel& m = *log.model;
+  const int samples = log.samples();
   int same = samples;
   while (same > 1 && log.log.q(same - 1, j) == log.log.q(same - 2, j)) --same;
   if (samples - same < kFewestRepeated || samples - same <= 2 * m.longest_repeat[j]) return;
   const double onset = log.time_s(std::max(same - 1, 1));
   bench.go({FaultKind::stuck_encoder, j + 1, onset, 0.0, {}}, 1);
-  lock(onset - 0.5 * log.period_s());
-  lock(onset + 0.5 * log.period_s());
+  for (const double share : {-0.5, 0.5}) judge_lock(j, onset + share * log.period_s(), bench);
 }
 
 /// Onsets that a hypothesis may have.
@@ -209,8 +219,12 @@ double misfit_of(const LogExplanation& e, const FaultHypothesis& h) {
 
 LogExplanation explain_coarse(const CoarseLog& log) {
   CoarseBench bench(log);
-  judge_candidates(search_coarse(log), bench);
-  for (int j = 0; j < log.joints(); ++j) judge_standstill(j, bench);
+  const bool is_quiet = !stands_out(log);
+  if (!is_quiet) judge_candidates(search_coarse(log), bench);
+  for (int j = 0; j < log.joints(); ++j) {
+    if (!is_quiet) judge_standstill(j, bench);
+    judge_repeats(j, bench);
+  }
   bench.integrate_best();
   for (const JudgedGuess& j : to_refine(bench.best)) {
     const FaultKind kind = j.guess.kind;
