@@ -195,10 +195,6 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
   learn_from_twin(out, labelled, found.reading, options, progress);
-  doubts.add(doubts_about(model.validation));
-  if (!options.keep_doubtful) refuse_grave(doubts);
-  model.doubts = listed(doubts);
-  model.grave_doubts = against_healthy(doubts);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,
@@ -206,6 +202,10 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                .torque_offset = model.robot.normal.torque_offset,
                                .alarms_per_hour = options.alarms_per_hour,
                                .torque_gain = model.robot.normal.torque_constant});
+  doubts.add(doubts_about(model.validation, !model.relations.empty()));
+  if (!options.keep_doubtful) refuse_grave(doubts);
+  model.doubts = listed(doubts);
+  model.grave_doubts = against_healthy(doubts);
   model.sources = sources_of(found.given, labelled);
   model.twin = options.twin;
   bind_cases(model, out.cases);

@@ -45,7 +45,7 @@ ModelDoubts doubts_about(const Identification& identification) {
   return doubts;
 }
 
-ModelDoubts doubts_about(const Validation& validation) {
+ModelDoubts doubts_about(const Validation& validation, bool has_relations) {
   ModelDoubts doubts;
   int runs = 0, found = 0, named = 0;
   for (const ValidationRow& row : validation.rows) {
@@ -54,7 +54,8 @@ ModelDoubts doubts_about(const Validation& validation) {
     named += row.right_or_named;
   }
   if (runs > 0 && found < kBlind * runs)
-    doubts.grave.push_back(fmt::format("it finds only {} of {} simulated faults", found, runs));
+    (has_relations ? doubts.minor : doubts.grave)
+        .push_back(fmt::format("it finds only {} of {} simulated faults", found, runs));
   else if (found < kUsual * runs)
     doubts.minor.push_back(fmt::format("it misses {} of {} simulated faults", runs - found, runs));
   if (found >= kBlind * runs && named < kNamed * runs)

@@ -144,15 +144,16 @@ TEST(ModelDoubts, AModelThatMissesFaultsOrAlarmsForNothingIsDoubted) {
   row.runs = 100;
   row.detected = 98;
   row.right_or_named = 97;
-  EXPECT_TRUE(listed(doubts_about(validation)).empty());
+  EXPECT_TRUE(listed(doubts_about(validation, false)).empty());
   validation.false_alarms = 2;
-  EXPECT_EQ(doubts_about(validation).minor.size(), 1u);
+  EXPECT_EQ(doubts_about(validation, false).minor.size(), 1u);
   row.detected = 50;
-  EXPECT_EQ(doubts_about(validation).minor.size(), 2u);
-  EXPECT_FALSE(doubts_about(validation).is_grave());
+  EXPECT_EQ(doubts_about(validation, false).minor.size(), 2u);
+  EXPECT_FALSE(doubts_about(validation, false).is_grave());
   row.detected = 20;
-  EXPECT_TRUE(doubts_about(validation).is_grave());
-  EXPECT_THROW(refuse_grave(doubts_about(validation)), Error);
+  EXPECT_TRUE(doubts_about(validation, false).is_grave());
+  EXPECT_THROW(refuse_grave(doubts_about(validation, false)), Error);
+  EXPECT_FALSE(doubts_about(validation, true).is_grave()) << "second residuals judge, too";
 }
 
 TEST(ModelDoubts, FrictionIsDoubtedWhereItIsSurelyNegative) {
