@@ -101,9 +101,10 @@ double velocity_reach_s(const RowSetting& setting, double share) {
 VectorXd fused_velocity(const UniformLog& log, const RowSetting& setting, int joint) {
   const VectorXd difference = gradient(log.q.col(joint), setting.period_s);
   if (setting.velocity_is_difference || log.dq.rows() == 0) return difference;
-  const double decay = setting.fusion[joint];
-  return two_sided_exponential(difference, decay) + log.dq.col(joint) -
-         two_sided_exponential(log.dq.col(joint), decay);
+  VectorXd off = difference - log.dq.col(joint);
+  const Index last = off.size() - 1;
+  if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // there a difference lies half a sample aside
+  return log.dq.col(joint) + two_sided_exponential(off, setting.fusion[joint]);
 }
 
 MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting) {

@@ -58,15 +58,13 @@ Eigen::VectorXd gradient(const Eigen::VectorXd& values, double period_s) {
 Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double decay) {
   const int rows = static_cast<int>(values.size());
   if (rows == 0) return values;
+  const int reach = static_cast<int>(std::min(static_cast<double>(rows), std::ceil(1.0 / (1.0 - decay))));
   Eigen::VectorXd out(rows);
-  double state = values[0] / (1.0 - decay);
-  for (int k = 0; k < rows; ++k) {
-    state = k == 0 ? state : values[k] + decay * state;
-    out[k] = state;
-  }
-  state = values[rows - 1] / (1.0 - decay);
+  double state = values.head(reach).mean() / (1.0 - decay);
+  for (int k = 0; k < rows; ++k) out[k] = state = values[k] + decay * state;
+  state = values.tail(reach).mean() / (1.0 - decay);
   for (int k = rows - 1; k >= 0; --k) {
-    state = k == rows - 1 ? state : values[k] + decay * state;
+    state = values[k] + decay * state;
     out[k] += state - values[k];
   }
   return (1.0 - decay) / (1.0 + decay) * out;

@@ -105,6 +105,14 @@ EvidenceLimits scaled(EvidenceLimits limits, double factor) {
   return limits;
 }
 
+EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fault) {
+  for (const LabelScore& score : fault.scores) {
+    double& nats = limits.nats[static_cast<std::size_t>(score.claim.kind)];
+    nats = std::max(nats, kBeyondSimulated * score.nats);
+  }
+  return limits;
+}
+
 bool leaves_much(const ExplainedFault& named) {
   return named.claim.kind != FaultKind::stuck_encoder && named.misfit > kOfNoKind;
 }

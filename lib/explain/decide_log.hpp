@@ -53,6 +53,12 @@ struct ExplainedFault {
   FaultLabel label() const { return {claim.kind, claim.joint}; }
 };
 
+/// Limits that are at least kBeyondSimulated times the evidence that a fault of a healthy log gave, of each
+/// kind that was judged.
+EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fault);
+
+inline constexpr double kBeyondSimulated = 1.5;  ///< there are more simulated logs than recorded ones
+
 /// What decides about the hypotheses of a log: how the evidence of one, and of a change of any form, grows,
 /// and how much better a change of any form explains the log. Without `course_of_free_form` an unknown fault
 /// has the onset and the alarm of the hypothesis that comes nearest.

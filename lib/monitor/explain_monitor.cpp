@@ -11,9 +11,35 @@ namespace faultline {
 namespace {
 
 constexpr double kWindow_s = 60.0;
-constexpr double kOverlap_s = 20.0;    // of two windows; the middle parts what each decides
-constexpr double kLongestGap_s = 2.0;  // that a window spans
-constexpr int kFewestRows = 20;        // with position and torque of every joint
+constexpr double kOverlap_s = 20.0;     // of two windows; the middle parts what each decides
+constexpr double kLongestGap_s = 2.0;   // that a window spans
+constexpr double kFasterBetween = 2.0;  // times the velocity at both ends, between two rows
+constexpr double kLeastJump = 0.01;     // rad or m
+constexpr double kRowsMissing = 3.0;    // periods between two rows: some were left out
+constexpr int kFewestJumps = 2;         // joints: the sensor of one of them may be faulty
+constexpr int kFewestRows = 20;         // with position and torque of every joint
+
+/// A row of a log.
+struct RowOf {
+  const Log& log;
+  int row = 0;
+
+  double t() const { return log.time[row]; }
+};
+
+/// Whether rows are missing between two rows, and the positions of several joints change further than the
+/// velocities of both allow: the log was cut there, or repeats itself.
+bool is_break(const RowOf& before, const RowOf& after, double period_s) {
+  const double step = after.t() - before.t();
+  if (before.log.dq.empty() || step < kRowsMissing * period_s) return false;
+  int jumps = 0;
+  for (int j = 0; j < before.log.joints(); ++j) {
+    const double from = before.log.dq[j][before.row], to = after.log.dq[j][after.row];
+    const double farthest = kFasterBetween * std::max(std::abs(from), std::abs(to)) * step + kLeastJump;
+    jumps += std::abs(after.log.q[j][after.row] - before.log.q[j][before.row]) > farthest ? 1 : 0;
+  }
+  return jumps >= kFewestJumps;
+}
 
 /// By which a healthy day may differ as the robot file says, or by default.
 double stated_range(const DayEffect& effect, const Model& model) {
@@ -62,9 +88,12 @@ void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::ve
       ++run_;
       is_new_run = true;
     }
-    const double last_s = k > begin ? segment.time[k - 1] : window_.rows() > 0 ? window_.time.back() : t;
+    const RowOf now{segment, k}, last = k > begin            ? RowOf{segment, k - 1}
+                                        : window_.rows() > 0 ? RowOf{window_, window_.rows() - 1}
+                                                             : now;
     const double first_s = window_.rows() > 0 ? window_.time.front() : segment.time[begin];
-    const bool is_gap = is_new_run || t - last_s > kLongestGap_s;
+    const bool is_gap =
+        is_new_run || t - last.t() > kLongestGap_s || is_break(last, now, model_.sample_period_s);
     if (!is_gap && t - first_s < kWindow_s) continue;
     take_rows(segment, begin, k);
     explain_window(!is_gap);

@@ -95,4 +95,21 @@ RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
   return robot;
 }
 
+Identification with_explained_friction(Identification identification, const RobotRows& robot) {
+  const ParameterSpace& space = identification.space;
+  const auto take = [&](const auto& layout, const Eigen::VectorXd& theta, const Eigen::VectorXd& width) {
+    for (int j = 0; j < space.joints(); ++j) {
+      identification.estimate[space.viscous(j)] = theta[layout.viscous(j)];
+      identification.estimate[space.coulomb(j)] = theta[layout.coulomb(j)];
+      identification.estimate[space.log_width(j)] = elementary::log(width[j]);
+      identification.robot.chain.friction[j].width = width[j];
+    }
+  };
+  if (const auto* rows = std::get_if<BalanceModel>(&robot))
+    take(rows->layout(), rows->theta, rows->setting.friction_width);
+  else if (const auto* steps = std::get_if<OneStepModel>(&robot))
+    take(steps->layout(), steps->theta, steps->body.friction_width());
+  return identification;
+}
+
 }  // namespace faultline

@@ -5,6 +5,7 @@
 
 #include "lib/evidence/motion_model.hpp"
 #include "lib/explain/explain_log.hpp"
+#include "lib/identify/identification.hpp"
 #include "lib/robot/normal_range.hpp"
 
 namespace faultline {
@@ -16,5 +17,9 @@ std::vector<SlowState> day_differences(const RobotRows& robot);
 /// stand at their defaults say nothing.
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale);
+
+/// The identified robot with the friction that explains its logs: the twin must not differ from what it is
+/// judged by.
+Identification with_explained_friction(Identification identification, const RobotRows& robot);
 
 }  // namespace faultline

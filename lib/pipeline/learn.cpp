@@ -14,6 +14,7 @@
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/monitor/monitor.hpp"
+#include "lib/pipeline/day_differences.hpp"
 #include "lib/pipeline/learn_samples.hpp"
 #include "lib/pipeline/model_doubts.hpp"
 #include "lib/pipeline/plausible_units.hpp"
@@ -37,7 +38,7 @@ constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8,
 
 // Streams of seeds that never meet.
 constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthyValidationSeeds = 3'000'000,
-                        kSampleSeeds = 4'000'000, kSeedBlock = 10'000'000;
+                        kLimitSeeds = 2'000'000, kSampleSeeds = 4'000'000, kSeedBlock = 10'000'000;
 
 /// The logs with an empty row for each that was lost, as diagnose() reads them.
 class FilledLogs {
@@ -99,8 +100,8 @@ std::vector<FaultLabel> sample_labels(const std::vector<FaultLabel>& all,
 void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueReading& reading,
                      const LearnOptions& options, const Progress& progress) {
   Model& model = out.model;
-  const Twin twin{&out.identification, &model.motion, model.sample_period_s, model.has_velocity,
-                  options.twin};
+  const Identification explained = with_explained_friction(out.identification, model.explain.robot);
+  const Twin twin{&explained, &model.motion, model.sample_period_s, model.has_velocity, options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
   auto runs_of = [&](const std::vector<FaultLabel>& labels, TwinJudging judging, std::uint64_t stream,
                      const Progress& part) {
@@ -108,6 +109,9 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   };
   auto faults = [&](int each) { return labels_to_simulate(model.labels, each, options.kinds); };
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
+  for (const MonitoredRun& run : runs_of(calm, TwinJudging::searched, kLimitSeeds, {}))
+    for (const MonitoredEpisode& alarm : run.log.episodes)
+      model.explain.limits = above_false_alarm(model.explain.limits, alarm.fault);
 
   std::vector<MonitoredRun> runs = runs_of(faults(options.runs_per_label), TwinJudging::known, kTrainingSeeds,
                                            part_of(progress, kResidualsLearned, kSimulated));

@@ -65,6 +65,18 @@ TEST(ExplainMonitor, AGapEndsAWindowAndBothPartsAreJudged) {
   EXPECT_NEAR(judged.episodes()[0].onset_s(), log.time.back() - 4.0, 0.05);
 }
 
+TEST(ExplainMonitor, ALogThatWasCutWithItsStampsClosedHasNoFaultThere) {
+  const Model m = model();
+  const Log log = days(1, 0.0);
+  const int from = log.rows() / 2, to = from + static_cast<int>(1.3 / m.sample_period_s);
+  ASSERT_GT(std::abs(log.q[0][to] - log.q[0][from]), 0.1);
+  ASSERT_GT(std::abs(log.q[1][to] - log.q[1][from]), 0.1);
+  Log cut = slice(log, 0, from), rest = slice(log, to, log.rows());
+  for (double& t : rest.time) t -= log.time[to] - log.time[from] - 7.0 * m.sample_period_s;
+  append(cut, rest);
+  EXPECT_TRUE(monitored(m, cut, 4096).episodes().empty());
+}
+
 TEST(ExplainMonitor, AFaultAtTheBorderOfTwoWindowsIsOneFault) {
   const Model m = model();
   testing::ClosedFormRun run = testing::run_of(35);
