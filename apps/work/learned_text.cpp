@@ -84,7 +84,9 @@ std::string limits_text(const EvidenceLimits& limits, const std::vector<FaultLab
       text += fmt::format(", {} from {:.0f}", to_string(label.kind), limits.of(label.kind));
     last = label.kind;
   }
-  return text + ": three times what healthy logs give, each judged by the others.\n";
+  return text +
+         ": three times what healthy logs give, each judged by the others, and more than simulated "
+         "healthy runs give.\n";
 }
 
 std::string relation_name(const SignalRelation& relation) {

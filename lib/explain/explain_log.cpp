@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/explain/coarse/coarse_search.hpp"
 #include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/explain_faults.hpp"
 
@@ -13,17 +14,47 @@ namespace {
 constexpr double kShortest_s =
     1.5;                           // from 50 Hz on: the lead in which no onset is looked for, and some moves
 constexpr int kFewestCoarse = 20;  // samples
+constexpr int kWithTheLog = 2;     // samples behind the first onset that can be told
 
-/// One fault at most.
+/// By joint: standard deviations that the healthy robot leaves of the log's readings.
+std::vector<double> loudness_of(const CoarseLog& log) {
+  const int n = log.joints();
+  std::vector<double> out;
+  for (int j = 0; j < n; ++j)
+    out.push_back(
+        std::sqrt((log.healthy.left.row(j).squaredNorm() + log.healthy.left.row(n + j).squaredNorm()) /
+                  (2.0 * log.samples())));
+  return out;
+}
+
+/// An unknown fault begins where the healthy robot ceases to explain the log.
+ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
+  const std::optional<int> strike = first_strike(log);
+  if (!strike || log.time_s(*strike) >= fault.claim.onset_s) return fault;
+  fault.claim.onset_s = log.time_s(std::max(log.first_onset(), *strike - 1));
+  fault.alarm_s = std::min(fault.alarm_s, log.time_s(*strike));
+  return fault;
+}
+
+/// One fault at most. One of no kind that begins with the log is none: the log may be one that the model does
+/// not fit from its first row on, and is told as such.
 ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
                                     const EvidenceLimits& limits) {
   const std::optional<CoarseLog> followed = followed_log(log, model);
   if (!followed) return {};
   const CoarseLog& read = *followed;
   const LogExplanation e = explain_coarse(read);
+  std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e));
   ExplainedLog out;
-  if (std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e)))
-    out.faults.push_back(std::move(*fault));
+  if (!fault) return out;
+  if (fault->claim.kind == FaultKind::unknown) {
+    fault = with_first_strike(std::move(*fault), read);
+    if (fault->claim.onset_s <= read.time_s(read.first_onset() + kWithTheLog)) {
+      out.loudness = loudness_of(read);
+      return out;
+    }
+  }
+  out.faults.push_back(std::move(*fault));
   return out;
 }
 

@@ -177,7 +177,7 @@ void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<Coarse
 }
 
 /// The first sample that no noise explains.
-std::optional<int> first_strike(const CoarseLog& log, const Base& base) {
+std::optional<int> strike_of(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states;
   for (int k = log.first_onset(); k < log.samples(); ++k)
     if (base.left.segment(k * states, states).squaredNorm() > kStrikes * states) return k;
@@ -194,7 +194,7 @@ std::vector<int> common_samples(const CoarseLog& log, const Base& base,
     if (apart) out.push_back(c.sample);
     if (out.size() == kOnsetsTried) break;
   }
-  const std::optional<int> strike = first_strike(log, base);
+  const std::optional<int> strike = strike_of(log, base);
   if (!strike) return out;
   const bool apart =
       std::all_of(out.begin(), out.end(), [&](int o) { return std::abs(*strike - 1 - o) > 1; });
@@ -242,6 +242,8 @@ bool stands_out(const CoarseLog& log) {
       if (c.score > kStandsOut_nats) return true;
   return false;
 }
+
+std::optional<int> first_strike(const CoarseLog& log) { return strike_of(log, base_of(log, kForgiven)); }
 
 CoarseSearch search_coarse(const CoarseLog& log) {
   const Base base = base_of(log, kForgiven);

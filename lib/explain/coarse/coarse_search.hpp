@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lib/explain/coarse/coarse_judge.hpp"
@@ -26,5 +27,8 @@ bool stands_out(const CoarseLog& log);
 /// Every sample as an onset of every kind that is a column: along the healthy trajectory, through the gains
 /// of a filter that forgives some.
 CoarseSearch search_coarse(const CoarseLog& log);
+
+/// The first sample from which the healthy robot surely does not explain the log, if there is one.
+std::optional<int> first_strike(const CoarseLog& log);
 
 }  // namespace faultline

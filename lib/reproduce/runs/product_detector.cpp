@@ -38,10 +38,10 @@ class Sources {
 };
 
 /// With noise of a tenth of the range shooting creeps on for long without a gain that the filters feel.
-IdentifyOptions identify_options(bool quick) {
+IdentifyOptions identify_options() {
   IdentifyOptions options;
   options.threads = 1;
-  options.max_iterations = quick ? 4 : 12;
+  options.max_iterations = 12;
   return options;
 }
 
@@ -68,7 +68,7 @@ HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double
 Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed) {
   LearnOptions options;
   options.threads = 1;
-  options.identify = identify_options(quick);
+  options.identify = identify_options();
   options.runs_per_label = 4;
   options.validation_per_label = 0;
   options.healthy_runs = quick ? 4 : kHealthyRuns;
@@ -80,9 +80,9 @@ Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed
   return learn(sources.all(), {}, healthy.robot, options);
 }
 
-Identification identify_robot(const HealthyLogs& healthy, bool quick) {
+Identification identify_robot(const HealthyLogs& healthy) {
   const Sources sources(healthy);
-  return identify(sources.all(), healthy.robot, identify_options(quick));
+  return identify(sources.all(), healthy.robot, identify_options());
 }
 
 MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,

@@ -77,7 +77,7 @@ ConditionResult run_condition(const RunBench& bench, double sigma) {
   Learned learned;
   if (learns) learned = learn_product(healthy, plan.quick, e.seed);
   const Chain<double> identified = learns ? learned.model.robot.chain
-                                   : held ? identify_robot(healthy, plan.quick).robot.chain
+                                   : held ? identify_robot(healthy).robot.chain
                                           : e.robot.chain;
   watch_with_networks(train_best_detector(best_generator(bench, identified, sigma), runs.training,
                                           plan.patterns_per_class, e.seed),

@@ -52,9 +52,9 @@ TEST(RunStudy, what_the_departures_from_the_paper_buy_has_the_right_order_of_mag
   EXPECT_LT(figure(held, best, "median delay"), 0.5 * figure(held, paper, "median delay"));
   for (const auto& detector : {filters, product}) {
     EXPECT_GE(figure(held, detector, "detected"), 0.9);
-    EXPECT_GE(figure(held, detector, "right joint"), 0.9);
-    EXPECT_LT(figure(held, detector, "median delay"), 0.2);
-    EXPECT_EQ(figure(held, detector, "false alarms"), 0.0);
+    EXPECT_GE(figure(held, detector, "right joint"), 0.9) << detector[1];
+    EXPECT_LT(figure(held, detector, "median delay"), 0.2) << detector[1];
+    EXPECT_EQ(figure(held, detector, "false alarms"), 0.0) << detector[1];
   }
 }
 
