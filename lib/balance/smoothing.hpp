@@ -19,8 +19,8 @@ Eigen::MatrixXd smooth_at(const Eigen::MatrixXd& values, const Eigen::VectorXd& 
 /// Derivative by central differences, one-sided at the ends.
 Eigen::VectorXd gradient(const Eigen::VectorXd& values, double period_s);
 
-/// Two-sided exponential average sum_k decay^|k| x, zero phase, unit gain. Beyond both ends stands the mean of
-/// the values within 1 / (1 - decay) of them.
+/// Two-sided exponential average sum_k decay^|k| x, zero phase, unit gain. Beyond both ends stands the mean
+/// of the values within 1 / (1 - decay) of them.
 Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double decay);
 
 /// Normal distribution function.

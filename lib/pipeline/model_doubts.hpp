@@ -24,8 +24,9 @@ struct ModelDoubts {
 /// A robot that does not explain the logs, or that no robot is.
 ModelDoubts doubts_about(const Identification& identification);
 
-/// A model that misses most of the faults it was trained on, or alarms where there are none. Missing most is no
-/// grave doubt where second residuals judge the logs, too: they find faults that these runs do not ask for.
+/// A model that misses most of the faults it was trained on, or alarms where there are none. Missing most is
+/// no grave doubt where second residuals judge the logs, too: they find faults that these runs do not ask
+/// for.
 ModelDoubts doubts_about(const Validation& validation, bool has_relations);
 
 /// All of them as one list, the grave first.

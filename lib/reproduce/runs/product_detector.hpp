@@ -16,7 +16,8 @@ struct HealthyLogs {
 };
 HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double sigma);
 
-/// Learns on one thread. `quick`: from few simulated faults of three kinds and with a coarse residual network.
+/// Learns on one thread. `quick`: from few simulated faults of three kinds and with a coarse residual
+/// network.
 Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed);
 Identification identify_robot(const HealthyLogs& healthy);
 /// The motion model of a known robot, its noise matched to these logs.
