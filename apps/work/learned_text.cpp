@@ -77,7 +77,7 @@ std::string reach_table(const Model& model) {
 std::string limits_text(const EvidenceLimits& limits, const std::vector<FaultLabel>& labels) {
   double least = std::numeric_limits<double>::infinity();
   for (const FaultLabel& label : labels) least = std::min(least, limits.of(label.kind));
-  std::string text = fmt::format("A fault is told from {:.0f} nats on", least);
+  std::string text = fmt::format("A fault is reported from {:.0f} nats on", least);
   FaultKind last = FaultKind::none;
   for (const FaultLabel& label : labels) {
     if (label.kind != last && limits.of(label.kind) > least)

@@ -7,7 +7,6 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/dynamics.hpp"
-#include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
 namespace {
@@ -19,13 +18,7 @@ using Eigen::VectorXd;
 /// Momentum and force (see MomentumAndForce) of each base parameter, that one 1 and the others 0.
 class BaseMotion {
  public:
-  explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid) {
-    for (int p = 0; p < rigid.base(); ++p) {
-      FastDynamics unit(chain_of(rigid, VectorXd::Unit(rigid.base(), p)));
-      if (!unit.planar()) break;
-      units_.push_back(std::move(unit));
-    }
-  }
+  explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid), units_(unit_dynamics(rigid)) {}
 
   /// Joints x base each.
   void at(const JointVector<double>& q, const JointVector<double>& dq, MatrixXd& momentum, MatrixXd& force) {
@@ -127,6 +120,16 @@ Chain<double> chain_of(const RigidColumns& rigid, const VectorXd& theta) {
     chain.rotor_inertia[i] = numbers[n * kLinkParameters + i];
   }
   return chain;
+}
+
+std::vector<FastDynamics> unit_dynamics(const RigidColumns& rigid) {
+  std::vector<FastDynamics> out;
+  for (int p = 0; p < rigid.base(); ++p) {
+    FastDynamics unit(chain_of(rigid, VectorXd::Unit(rigid.base(), p)));
+    if (!unit.planar()) return {};
+    out.push_back(std::move(unit));
+  }
+  return out;
 }
 
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,

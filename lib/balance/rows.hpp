@@ -6,6 +6,7 @@
 
 #include "lib/balance/row_setting.hpp"
 #include "lib/balance/uniform_log.hpp"
+#include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
 
@@ -42,6 +43,9 @@ double velocity_reach_s(const RowSetting& setting, double share);
 
 /// The chain that moves as `theta` says; its friction does not count.
 Chain<double> chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);
+
+/// The chain by base parameter, that one 1 and the others 0; none where the axes are not all parallel.
+std::vector<FastDynamics> unit_dynamics(const RigidColumns& rigid);
 
 /// Velocity of each sample (rows x joints): the positions' differences where these are more precise, the
 /// logged velocity where that one is.

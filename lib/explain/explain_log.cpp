@@ -14,7 +14,7 @@ namespace {
 constexpr double kShortest_s =
     1.5;                           // from 50 Hz on: the lead in which no onset is looked for, and some moves
 constexpr int kFewestCoarse = 20;  // samples
-constexpr int kWithTheLog = 2;     // samples behind the first onset that can be told
+constexpr int kAtTheStart = 2;     // samples behind the earliest onset: a fault that begins with the log
 
 /// By joint: standard deviations that the healthy robot leaves of the log's readings.
 std::vector<double> loudness_of(const CoarseLog& log) {
@@ -36,8 +36,8 @@ ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
   return fault;
 }
 
-/// One fault at most. One of no kind that begins with the log is none: the log may be one that the model does
-/// not fit from its first row on, and is told as such.
+/// At most one fault. An unknown fault that begins with the log is not reported: the model may not fit the
+/// log from its first row on, and the loudness of the log says so.
 ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
                                     const EvidenceLimits& limits) {
   const std::optional<CoarseLog> followed = followed_log(log, model);
@@ -49,7 +49,7 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
   if (!fault) return out;
   if (fault->claim.kind == FaultKind::unknown) {
     fault = with_first_strike(std::move(*fault), read);
-    if (fault->claim.onset_s <= read.time_s(read.first_onset() + kWithTheLog)) {
+    if (fault->claim.onset_s <= read.time_s(read.first_onset() + kAtTheStart)) {
       out.loudness = loudness_of(read);
       return out;
     }

@@ -128,7 +128,7 @@ void ExplainMonitor::explain_window(bool is_followed) {
     if (known != before.end()) {
       episodes_[known->episode].end_s = std::min(fault.claim.end_s, until_s);
       if (fault.claim.end_s > end_s) lasting_.push_back(*known);
-    } else if (fault.claim.onset_s <= until_s && !is_told(fault.claim)) {
+    } else if (fault.claim.onset_s <= until_s && !is_reported(fault.claim)) {
       episodes_.push_back(
           {fault, std::min(fault.claim.end_s, until_s),
            residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
@@ -154,8 +154,8 @@ void ExplainMonitor::explain_window(bool is_followed) {
     residuals_.pop_front();
 }
 
-/// Whether a window before has told a fault of this joint that began at about the same time.
-bool ExplainMonitor::is_told(const FaultClaim& claim) const {
+/// Whether an earlier window has reported a fault of this joint that began at about the same time.
+bool ExplainMonitor::is_reported(const FaultClaim& claim) const {
   return std::any_of(episodes_.begin(), episodes_.end(), [&](const MonitoredEpisode& episode) {
     return episode.fault.claim.joint == claim.joint &&
            std::abs(episode.onset_s() - claim.onset_s) < kOverlap_s && decided_s_ &&

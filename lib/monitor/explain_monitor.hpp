@@ -39,7 +39,7 @@ class ExplainMonitor {
  private:
   void take_rows(const Log& segment, int begin, int end);
   void explain_window(bool is_followed);
-  bool is_told(const FaultClaim& claim) const;
+  bool is_reported(const FaultClaim& claim) const;
   void add_day(const std::vector<DayEffect>& day);
   std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
 

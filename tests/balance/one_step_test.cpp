@@ -80,8 +80,8 @@ TEST(OneStep, SlopesAreThoseOfFiniteDifferences) {
       EXPECT_LT((both - steps.number_of(k).col(p)).norm(), kSlopeWithin * (1.0 + both.norm()))
           << k << " " << p;
       const VectorXd other = (state_after(numbers, changed + step, about, k) - next) / 1e-6;
-      const VectorXd told = steps.columns(MatrixXd(numbers.size(), 0), MatrixXd(step / 1e-6)).col(k);
-      EXPECT_LT((other - told).norm(), kSlopeWithin * (1.0 + other.norm())) << k << " " << p;
+      const VectorXd linear = steps.columns(MatrixXd(numbers.size(), 0), MatrixXd(step / 1e-6)).col(k);
+      EXPECT_LT((other - linear).norm(), kSlopeWithin * (1.0 + other.norm())) << k << " " << p;
     }
   }
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "lib/balance/one_step/interval_motion.hpp"
 
@@ -72,26 +71,15 @@ int substeps_of(const StepSetting& setting, const MotionPlan& plan, const Vector
                   static_cast<int>(std::ceil(setting.period_s * std::min(per_s, kMostSubsteps_Hz) - 1e-9)));
 }
 
-/// Which law moves the robot through an interval.
-enum class Mover : std::uint8_t { usual, other, both };
-
-Mover mover_of(double start_s, double period_s, double begin_s, double end_s) {
-  const double a = std::clamp(begin_s - start_s, 0.0, period_s),
-               b = std::max(a, std::clamp(end_s - start_s, 0.0, period_s));
-  if (b - a <= kShortest_s) return Mover::usual;
-  return a <= kShortest_s && period_s - b <= kShortest_s ? Mover::other : Mover::both;
-}
-
-/// Takes interval `k` from the known steps; false where they do not hold.
+/// Takes interval `k`, whose parts are `now`, from the known steps; false where they do not hold.
 bool take_known(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
-                const MotionPlan& plan, const KnownSteps& known, int k, LinearSteps& out) {
+                const MotionPlan& plan, const Parts& now, const KnownSteps& known, int k, LinearSteps& out) {
   if (known.steps == nullptr) return false;
-  const bool one_law = plan.within == nullptr;
-  const double start_s = log.time_s(k);
-  const Mover now = one_law ? Mover::usual : mover_of(start_s, setting.period_s, plan.begin_s, plan.end_s),
-              then = mover_of(start_s, setting.period_s, known.begin_s, known.end_s);
-  const bool linear = now == Mover::other && then == Mover::usual && known.change != nullptr;
-  if (now == Mover::both || then == Mover::both || (now != then && !linear)) return false;
+  const Parts then =
+      parts_of(log.time_s(k), setting.period_s, {plan.usual, plan.within, known.begin_s, known.end_s});
+  if (now.count > 1 || then.count > 1) return false;
+  const bool is_other = now.part[0].within, was_other = then.part[0].within;
+  if (is_other != was_other && !(is_other && known.laws_are_alike)) return false;
   if (known.about != &about &&
       (known.about->col(k) != about.col(k) || known.about->col(k + 1) != about.col(k + 1)))
     return false;
@@ -99,10 +87,7 @@ bool take_known(const UniformLog& log, const Trajectory& about, const StepSettin
   out.slope.middleCols(k * out.states, out.states) = steps.slope_of(k);
   out.number.middleCols(k * out.numbers, out.numbers) = steps.number_of(k);
   out.miss.col(k) = steps.miss.col(k);
-  if (now == Mover::usual) return true;
-  auto within = out.within.middleCols((k - out.within_begin) * out.numbers, out.numbers);
-  within = steps.number_of(k);
-  if (linear) out.miss.col(k) += within * *known.change;
+  if (is_other) out.within.middleCols((k - out.within_begin) * out.numbers, out.numbers) = steps.number_of(k);
   return true;
 }
 
@@ -138,7 +123,7 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
       out.within.setZero(states, numbers * (intervals - k));
     }
     if (touched) out.within_end = k + 1;
-    if (take_known(log, about, setting, plan, known, k, out)) continue;
+    if (take_known(log, about, setting, plan, parts, known, k, out)) continue;
     auto slope = out.slope.middleCols(k * states, states);
     auto number = out.number.middleCols(k * numbers, numbers);
     const IntervalTorque torque = torque_of(log, k, setting, plan);

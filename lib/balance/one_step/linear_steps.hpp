@@ -50,9 +50,7 @@ struct KnownSteps {
   const LinearSteps* steps = nullptr;  ///< null: none
   const Trajectory* about = nullptr;
   double begin_s = 1e300, end_s = 1e300;  ///< from when to when the other law moved the robot in them
-  /// By how much the numbers of the other law differ from the usual ones, where known steps of the usual law
-  /// stand for those of the other one, linear in that difference; null: they do not.
-  const Eigen::VectorXd* change = nullptr;
+  bool laws_are_alike = false;            ///< steps of the usual law stand for those of the other one, too
 };
 
 /// Linear in the state and in the numbers of both laws.

@@ -33,11 +33,7 @@ Chain<double> chain_with_friction(const MotionBody& body, const VectorXd& number
 MotionBody::MotionBody(RigidColumns rigid, VectorXd friction_width)
     : rigid_(std::move(rigid)), friction_width_(std::move(friction_width)) {
   rigid_.chain.friction.assign(rigid_.joints(), {});
-  for (int p = 0; p < rigid_.base(); ++p) {
-    FastDynamics one(chain_of(rigid_, VectorXd::Unit(rigid_.base(), p)));
-    if (!one.planar()) break;
-    unit_.push_back(std::move(one));
-  }
+  unit_ = unit_dynamics(rigid_);
 }
 
 void MotionBody::torque_by_parameter(const JointVector<double>& q, const JointVector<double>& dq,

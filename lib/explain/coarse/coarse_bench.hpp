@@ -48,12 +48,10 @@ class CoarseBench {
                              const std::shared_ptr<const CoarseSteps>& known);
 };
 
-inline constexpr double kLongSample_s =
-    0.05;                                 ///< from which a step of Newton is bounded by a share of a sample
-inline constexpr double kMuchLeft = 3.0;  ///< mean square from which an explanation may be none
-inline constexpr double kMayWinAtCoarse =
-    0.3;  ///< of the best evidence, that a better round or onset may make the best
-inline constexpr double kSettled_s = 2e-4;  ///< an onset that moves less is settled
+inline constexpr double kLongSample_s = 0.05;   ///< a step of Newton is at most a share of a longer sample
+inline constexpr double kMuchLeft = 3.0;        ///< mean square from which an explanation may be none
+inline constexpr double kMayWinAtCoarse = 0.3;  ///< of the best evidence: another round may make it the best
+inline constexpr double kSettled_s = 2e-4;      ///< an onset that moves less is settled
 
 /// Whether a fault of the kind changes numbers that move the robot, and stays.
 inline bool is_linear_at_coarse(FaultKind kind) {

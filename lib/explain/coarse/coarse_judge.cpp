@@ -124,14 +124,12 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   const MotionPlan plan{&healthy, moves ? &faulty : nullptr, guess.onset_s, end_of(guess)};
   Linearised out;
   KnownSteps known;
-  VectorXd change;
   if (at.known) {
     known = {&at.known->steps, &at.known->about};
     if (moves) known.begin_s = at.known->begin_s, known.end_s = at.known->end_s;
   } else if (at.is_first && log.healthy_steps.intervals > 0) {
     known = {&log.healthy_steps, &log.about};
-    change = VectorXd::Zero(usual.size());
-    if (guess.kind != FaultKind::locked && at.size.size() == 0) known.change = &change;
+    known.laws_are_alike = guess.kind != FaultKind::locked && at.size.size() == 0;
   }
   out.steps = linear_steps(log.log, at.about, m.setting, plan, known);
   out.finite = out.steps.miss.allFinite() && out.steps.slope.allFinite() &&
