@@ -16,7 +16,7 @@ if [ -e "$out" ] && [ -n "$(ls -A "$out")" ] && [ ! -e "$out/style.css" ]; then
 fi
 mkdocs build --strict --quiet -f "$here/site/mkdocs.yml" -d "$out"
 # What builds the site is no part of it, and a map of the site says when it was built.
-rm -rf "$out/site" "$out/build_site.sh" "$out"/sitemap.xml*
+rm -rf "$out/site" "$out/build_site.sh" "$out"/pictures/*.py "$out"/sitemap.xml*
 # A page opened as a file cannot fetch JSON, but it can load a script: the search index becomes one.
 { printf 'const searchIndex = '; cat "$out/search/search_index.json"; } >"$out/search_index.js"
 rm -rf "$out/search"

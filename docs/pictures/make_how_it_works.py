@@ -14,9 +14,10 @@ The numbers come from a short implementation of the equations of the page for an
   every 24 ms; the columns are the base parameters a, b, c, m3 and the friction of each joint;
 - equation (2): the effects of a day with the prior standard deviations of a day that was never seen; the gain and the offset
   of joint 3, which carries its weight, are left out;
-- equation (3): ordinary least squares over the three healthy logs stands for the fit over days;
-- equation (4): a constant variance for each joint and an autoregression of order 3; the program has more terms;
-- equations (5) and (6): evidence of the columns of a fault from an onset on.
+- equations (3) and (4): a constant variance for each joint with .4 % of each term of the model, and an autoregression of order
+  3; the program has more terms;
+- equations (5), (6) and (9): evidence of the columns of a fault from an onset on;
+- equation (7): ordinary least squares over the three healthy logs stands for the fit over days.
 """
 import csv
 import os
@@ -181,9 +182,11 @@ def new_axes(height, panels, **more):
 
 def save(figure, folder, name, words):
     path = folder / f"how-it-works-{name}.svg"
-    figure.savefig(path, facecolor="white", metadata={"Date": None, "Creator": None, "Title": words})
+    figure.savefig(path, facecolor="white", metadata={"Date": None})
     text = re.sub(r"\d+\.\d{3,}", lambda number: f"{float(number[0]):.2f}", path.read_text("utf-8"))
     text = re.sub(r"'DejaVu Sans'[^;\"]*", "Helvetica, Arial, sans-serif", text)
+    text = re.sub(r"<!DOCTYPE[^>]*>\n|\s*<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r"(<svg[^>]*)>", lambda tag: f'{tag[1]} role="img">\n<title>{words}</title>', text, count=1)
     lines = [line.rstrip() for line in text.splitlines()]
     lines.insert(1, "<!-- SPDX-License-Identifier: MIT; made by docs/pictures/make_how_it_works.py -->")
     path.write_text("\n".join(lines) + "\n", "utf-8")
