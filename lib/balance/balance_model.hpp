@@ -10,7 +10,7 @@
 namespace faultline {
 
 /// A robot as its torque-balance rows show it, with what is normal to differ from day to day and the noise of
-/// the rows: what explains a log (physics, section 11).
+/// the rows: what explains a log (equation (2) of docs/how-it-works.md).
 struct BalanceModel {
   RowSetting setting;
   RigidColumns rigid;
@@ -32,9 +32,9 @@ struct BalanceModel {
   ColumnLayout layout() const { return layout_of(rigid, setting); }
 };
 
-/// Where the effects of a day stand: relative change of each base parameter; then, for each joint, relative
-/// friction, its relative slope over the log, gain and offset of the torque, relative width of the friction's
-/// step at rest; then the delay of all torques, samples.
+/// Where the effects of a day stand (equation (2) of docs/how-it-works.md): relative change of each base
+/// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
+/// the torque, relative width of the friction's step at rest; then the delay of all torques, samples.
 struct DayLayout {
   int base = 0, joints = 0;
 

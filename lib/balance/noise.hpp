@@ -8,9 +8,9 @@
 
 namespace faultline {
 
-/// Variance of one joint's rows: base + torque tau^2 + rest (1 - tanh^2(dq / width)) + speed dq^2 + timing
-/// step^2, where step^2 is the square of the torque's steps within the kernel: what a step that acts a share
-/// of a sample earlier or later leaves.
+/// Variance of one joint's rows (equation (3) of docs/how-it-works.md): base + torque tau^2 + rest (1 -
+/// tanh^2(dq / width)) + speed dq^2 + timing step^2, where step^2 is the square of the torque's steps within
+/// the kernel: what a step that acts a share of a sample earlier or later leaves.
 struct JointNoise {
   double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0, timing = 0.0;
   Eigen::VectorXd filter;   ///< autoregression of the rows over their standard deviation: 1, -a1, -a2, ..
@@ -27,8 +27,8 @@ struct RowNoise {
 Eigen::MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNoise& noise,
                         const Eigen::VectorXd& loudness);
 
-/// Rows of several columns as white rows of unit variance: divided by their standard deviation, then
-/// filtered. `columns` are of one joint.
+/// Rows of several columns as white rows of unit variance (equation (4) of docs/how-it-works.md): divided by
+/// their standard deviation, then filtered. `columns` are of one joint.
 Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Eigen::VectorXd& std, const JointNoise& noise);
 
 /// What healthy logs left unexplained, with the rows it was left in.

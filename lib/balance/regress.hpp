@@ -16,7 +16,8 @@ struct NormalEquations {
 
 NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows);
 
-/// What a linear regression with a Gaussian prior of mean zero gives (Bishop 2006, section 3.5).
+/// What a linear regression with a Gaussian prior of mean zero gives (equation (5) of docs/how-it-works.md;
+/// Bishop 2006, section 3.5).
 struct Regression {
   Eigen::VectorXd estimate;
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the posterior's inverse covariance

@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// The torque balance of a log on a coarse grid (physics, section 11): the smoothed torque of each row and
-/// joint, and what each parameter of the robot adds to it. Row k stands for the motion within the kernel
-/// around time_s[k]; rows whose kernel leaves the log do not exist.
+/// The torque balance of a log on a coarse grid (equation (1) of docs/how-it-works.md): the smoothed torque
+/// of each row and joint, and what each parameter of the robot adds to it. Row k stands for the motion within
+/// the kernel around time_s[k]; rows whose kernel leaves the log do not exist.
 struct BalanceRows {
   Eigen::VectorXd time_s;
   Eigen::VectorXi sample;       ///< by row: the sample before its middle

@@ -78,7 +78,7 @@ void forget(CriterionState& state) {
   state.open.reset();
 }
 
-/// Equation 9. True when the sample ends the open episode.
+/// Equation 9 of the paper. True when the sample ends the open episode.
 bool consecutive_step(const CriterionOptions& options, double time, const VectorXd& outputs,
                       CriterionState& state) {
   if (!outputs.allFinite()) {

@@ -17,8 +17,9 @@ struct EvidenceLimits {
   double of(FaultKind kind) const { return nats[static_cast<std::size_t>(kind)]; }
 };
 
-/// Limits from healthy logs, each explained by a model that was learned from the others: thrice the evidence
-/// that any of them gave for a kind, at least that of any kind, at least kLeastEvidence.
+/// Limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that was
+/// learned from the others: thrice the evidence that any of them gave for a kind, at least that of any kind,
+/// at least kLeastEvidence.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens

@@ -44,8 +44,8 @@ const LinearFault* linear_of(const std::vector<LinearFault>& faults, const Fault
 /// each joint that rises and falls in between (half a sine).
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s);
 
-/// The columns switched on at the onset and off at the end, smoothed as the rows are; those that grow begin
-/// with nothing.
+/// The columns switched on at the onset and off at the end (equation (9) of docs/how-it-works.md), smoothed
+/// as the rows are; those that grow begin with nothing.
 FaultColumns between(FaultColumns columns, const BalanceRows& rows, const RowSetting& setting, double onset_s,
                      double end_s);
 

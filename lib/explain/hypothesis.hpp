@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// A fault that may explain a log, judged exactly.
+/// A fault that may explain a log, judged exactly (equation (6) of docs/how-it-works.md).
 struct FaultHypothesis : FaultClaim {
   double gain = 0.0;  ///< nats by which it explains the log better than what is known of it without
   Explanation fit{};

@@ -63,9 +63,9 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   return best;
 }
 
-/// The moment from which the log shows that the fault is gone: the evidence of its absence since then (a
-/// cumulative sum; Page 1954) is large beside what is left over, and nearly all that its torque could give. A
-/// fault that goes on in another form than its columns gives less.
+/// The moment from which the log shows that the fault is gone (equation (11) of docs/how-it-works.md): the
+/// evidence of its absence since then (a cumulative sum; Page 1954) is large beside what is left over, and
+/// nearly all that its torque could give. A fault that goes on in another form than its columns gives less.
 std::optional<double> end_of(const LogFit& fit, const FaultHypothesis& h) {
   const Stacked without = fit.left_without_fault(h.fit);
   const double enough = kEndEvidence * std::max(1.0, h.fit.mean_square());

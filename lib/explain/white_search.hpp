@@ -35,7 +35,7 @@ struct WhiteSearch {
 WhiteSearch white_search(const LogFit& fit);
 
 /// Evidence for columns that are switched on at each row for `length` rows (0: to the end), from cumulative
-/// normal equations: nats by row, one vector for each length.
+/// normal equations (equation (10) of docs/how-it-works.md): nats by row, one vector for each length.
 std::vector<Eigen::VectorXd> onset_gains(const WhiteSearch& search, const FaultColumns& columns,
                                          const std::vector<int>& lengths);
 /// The same where the sizes are known: `size` has those of each onset (rows x sizes).

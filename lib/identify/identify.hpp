@@ -27,7 +27,7 @@ struct IdentifyOptions {
   void check() const;
 };
 
-/// Identifies `robot` from logs of healthy runs (physics.md section 5): a weak-form regression for a start,
+/// Identifies `robot` from logs of healthy runs (docs/how-it-works.md): a weak-form regression for a start,
 /// then output error by multiple shooting. Facts in robot.known are kept. Logs whose file name is in
 /// robot.payloads carry that mass: they settle masses and lengths, the identified robot is that without
 /// payload. Reads every log once from its start. Throws Error(input) when the logs have too few usable rows,

@@ -51,8 +51,8 @@ struct Learned {
   LearnedResidual residual;
 };
 
-/// Learns one robot from its healthy logs: identify it, learn its fault-free motion, match the filters'
-/// noise, simulate faults on the identified robot, train the networks and fill the case base with them (and
+/// Learns one robot from its healthy logs: identify it, learn its fault-free motion, learn how its days
+/// differ, simulate faults on the identified robot, train the networks and fill the case base with them (and
 /// with the labelled logs, if any), and measure all that on further simulated runs. Where no healthy log has
 /// a torque, the model knows only how the joints follow their references (tracking_model()). Logs that the
 /// others contradict are left out (trusted_robot()); Model::doubts keeps what else speaks against the model.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Logs that are not what the robot file says. None may end as `converged` with wrong masses, and most are
-// named for what they are. The table that is printed is the one of docs/identify.md.
+// named for what they are. The table that is printed is the one of docs/results.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

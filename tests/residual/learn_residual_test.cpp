@@ -21,7 +21,7 @@ LearnedResidual learn_on(const Log& log, const Robot& robot, const ResidualOptio
   return learn_residual_generator(logs, robot, 0.0, options);
 }
 
-TEST(LearnResidual, ThePapersNetworkPredictsTheBenchRobot) {  // physics.md: 3.9e-5 by LM with 2500 patterns
+TEST(LearnResidual, ThePapersNetworkPredictsTheBenchRobot) {  // a study: 3.9e-5 by LM with 2500 patterns
   const Log log = bench_log(bench_robot(), {.duration_s = 130.0});
   const LearnedResidual learned = learn_on(
       log, bench_robot(),

@@ -27,8 +27,8 @@ struct MotionPlan {
 /// A trajectory: q, then dq, of every sample: 2 joints x samples.
 using Trajectory = Eigen::MatrixXd;
 
-/// The one-step prediction of a log about a trajectory. Interval k lies between samples k and k + 1. Blocks
-/// of intervals stand side by side.
+/// The one-step prediction of a log about a trajectory (equation (12) of docs/how-it-works.md). Interval k
+/// lies between samples k and k + 1. Blocks of intervals stand side by side.
 struct LinearSteps {
   int states = 0, numbers = 0, intervals = 0;
   Eigen::MatrixXd slope;   ///< states x (states * intervals): by the state before

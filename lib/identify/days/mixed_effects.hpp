@@ -17,8 +17,9 @@ struct MixedEffects {
   Eigen::VectorXd moments;  ///< second moments of the effects about their mean, their doubt included
 };
 
-/// Best linear unbiased prediction (Henderson 1950), given the variance `between` the days. The normal matrix
-/// is an arrow: the robot, and a block for each day, which is eliminated.
+/// Best linear unbiased prediction (equation (7) of docs/how-it-works.md; Henderson 1950), given the variance
+/// `between` the days. The normal matrix is an arrow: the robot, and a block for each day, which is
+/// eliminated.
 MixedEffects fit_mixed_effects(DayDraft draft, const Eigen::VectorXd& between);
 
 /// The robot as all days but one show it, noise and what is not linear as by all.

@@ -7,7 +7,7 @@ namespace faultline {
 
 /// How long a joint may go without being judged, s, in a log that is called healthy: half a second, and at
 /// least ten samples. What a fault does that lasts shows as soon as the joint is judged again; what is over
-/// sooner, such as a touch, moves no robot far. Alarms take some ten samples, too (docs/pipeline.md).
+/// sooner, such as a touch, moves no robot far. Alarms take some ten samples, too (docs/how-it-works.md).
 inline double judged_moment_s(double sample_period_s) {
   constexpr double kMoment_s = 0.5, kMomentRows = 10.0;
   return std::max(kMoment_s, kMomentRows * sample_period_s);
