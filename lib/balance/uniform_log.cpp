@@ -123,6 +123,14 @@ UniformLog uniform_log(LogSource& log, double period_s) {
   return on_grid(all, placed(all, log.identity().path, period_s));
 }
 
+UniformLog rows_from(const UniformLog& log, int first) {
+  const auto rest = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
+    return values.rows() == 0 ? values : Eigen::MatrixXd(values.bottomRows(log.rows() - first));
+  };
+  return {log.time_s(first), log.period_s,  rest(log.q),
+          rest(log.dq),      rest(log.tau), {log.lost.begin() + first, log.lost.end()}};
+}
+
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
   std::vector<Log> read;
   std::vector<double> steps;

@@ -27,6 +27,9 @@ struct UniformLog {
 /// likely point (see sample_grid). Throws Error(input) when the log has fewer than two rows.
 UniformLog uniform_log(LogSource& log, double period_s);
 
+/// Its rows from `first` on.
+UniformLog rows_from(const UniformLog& log, int first);
+
 /// The whole of each log, from its start, on grids of one period: that which the stamps of the middle log
 /// show. Throws Error(input) when no log has two rows.
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs);

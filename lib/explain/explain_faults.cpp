@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/explain/fault_end.hpp"
 #include "lib/explain/judge.hpp"
 
 namespace faultline {
@@ -70,7 +71,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   if (!out.named.empty())
     out.unknown = as_unknown(out.named.front(), e, own, evidence);
   else
-    out.rest = {{}, effects_of(fit), loudness_of(fit)};
+    out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit)};
   return out;
 }
 
@@ -99,26 +100,29 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
   return {suffices ? alone : next.unknown};
 }
 
-std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out) {
-  std::vector<FaultClaim> out;
+/// Those of `before`, and those of all faults but one.
+std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out,
+                                   std::vector<FaultClaim> before) {
+  std::vector<FaultClaim> out = std::move(before);
   for (std::size_t k = 0; k < faults.size(); ++k)
     if (k != left_out) out.push_back(faults[k].claim);
   return out;
 }
 
 /// Each fault judged again with all others known, the weakest first: it goes where they explain the log
-/// without it.
+/// without it. `before` are known and stay.
 std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
-                                    const EvidenceLimits& limits, std::vector<ExplainedFault> faults) {
+                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
+                                    std::vector<ExplainedFault> faults) {
   std::stable_sort(faults.begin(), faults.end(),
                    [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
   for (std::size_t k = 0; k < faults.size();) {
-    const LogFit fit(log, model, claims_but(faults, k));
+    const LogFit fit(log, model, claims_but(faults, k, before));
     const LogExplanation e = explain_log(fit);
     const LogEvidence evidence = log_evidence(fit, e);
     const std::vector<ExplainedFault> again = named_faults(e, limits, evidence, 1);
-    const std::optional<FaultHypothesis> before = judge(fit, faults[k].claim);
-    const double gain = before ? before->gain : 0.0;
+    const std::optional<FaultHypothesis> first = judge(fit, faults[k].claim);
+    const double gain = first ? first->gain : 0.0;
     if (again.empty() && gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
       continue;
@@ -167,23 +171,26 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
 
 }  // namespace
 
-ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits) {
+ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
+                            const std::vector<FaultClaim>& lasting) {
+  const std::vector<FaultClaim> before = followed(log, model, lasting);
   ExplainedLog out;
   std::vector<ExplainedFault> faults;
   while (faults.size() < kMostFaults) {
-    const std::vector<FaultClaim> known = claims_but(faults, faults.size());
+    const std::vector<FaultClaim> known = claims_but(faults, faults.size(), before);
     NextFault next = next_fault(log, model, limits, known);
     out = std::move(next.rest);
     if (next.named.empty()) break;
     for (ExplainedFault& fault : best_faults(log, model, limits, known, next))
       faults.push_back(std::move(fault));
   }
-  if (faults.size() > 1) faults = jointly(log, model, limits, std::move(faults));
+  if (faults.size() > 1) faults = jointly(log, model, limits, before, std::move(faults));
   faults = unnested(std::move(faults));
   std::stable_sort(faults.begin(), faults.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
     return a.claim.onset_s < b.claim.onset_s;
   });
   out.faults = without_slips(std::move(faults));
+  out.followed = before;
   return out;
 }
 

@@ -38,23 +38,40 @@ ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
 
 /// At most one fault. An unknown fault that begins with the log is not reported: the model may not fit the
 /// log from its first row on, and the loudness of the log says so.
-ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
-                                    const EvidenceLimits& limits) {
-  const std::optional<CoarseLog> followed = followed_log(log, model);
-  if (!followed) return {};
-  const CoarseLog& read = *followed;
-  const LogExplanation e = explain_coarse(read);
-  std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(read, e));
+ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits) {
+  const LogExplanation e = explain_coarse(log);
+  std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(log, e));
   ExplainedLog out;
   if (!fault) return out;
   if (fault->claim.kind == FaultKind::unknown) {
-    fault = with_first_strike(std::move(*fault), read);
-    if (fault->claim.onset_s <= read.time_s(read.first_onset() + kAtTheStart)) {
-      out.loudness = loudness_of(read);
+    fault = with_first_strike(std::move(*fault), log);
+    if (fault->claim.onset_s <= log.time_s(log.first_onset() + kAtTheStart)) {
+      out.loudness = loudness_of(log);
       return out;
     }
   }
   out.faults.push_back(std::move(*fault));
+  return out;
+}
+
+/// While a fault lasts nothing else is looked for.
+ExplainedLog explain_at_coarse_rate(UniformLog log, const OneStepModel& model, const EvidenceLimits& limits,
+                                    std::vector<FaultClaim> lasting) {
+  double decided_s = log.start_s;
+  for (FaultClaim& claim : lasting) {
+    if (claim.end_s >= kNeverEnds)
+      if (const std::optional<CoarseLog> followed = followed_log(log, model))
+        claim = followed_coarse(*followed, std::move(claim), limits.of(claim.kind));
+    decided_s = std::max(decided_s, claim.end_s);
+  }
+  ExplainedLog out;
+  const double first = std::ceil((decided_s - log.start_s) / log.period_s);
+  if (first + kFewestCoarse <= log.rows()) {
+    if (first > 0.0) log = rows_from(log, static_cast<int>(first));
+    if (const std::optional<CoarseLog> rest = followed_log(std::move(log), model))
+      out = explained_coarse(*rest, limits);
+  }
+  out.followed = std::move(lasting);
   return out;
 }
 
@@ -69,10 +86,11 @@ bool can_explain(const UniformLog& log, const RobotRows& robot) {
   return log.rows() * log.period_s >= kShortest_s;
 }
 
-ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model) {
+ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
+                               const std::vector<FaultClaim>& lasting) {
   if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
-    return explain_at_coarse_rate(log, *coarse, model.limits);
-  return explain_faults(log, std::get<BalanceModel>(model.robot), model.limits);
+    return explain_at_coarse_rate(log, *coarse, model.limits, lasting);
+  return explain_faults(log, std::get<BalanceModel>(model.robot), model.limits, lasting);
 }
 
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {

@@ -25,16 +25,19 @@ double sample_period_s(const RobotRows& robot);
 
 /// What the whole of a log says.
 struct ExplainedLog {
-  std::vector<ExplainedFault> faults;  ///< by onset
-  std::vector<DayEffect> day;          ///< effects of the day beside the faults
-  std::vector<double> loudness;        ///< by joint: the noise of its rows, times that of the healthy logs
+  std::vector<ExplainedFault> faults{};  ///< by onset
+  std::vector<FaultClaim> followed{};    ///< those that lasted when the log began, in the order given
+  std::vector<DayEffect> day{};          ///< effects of the day beside the faults
+  std::vector<double> loudness{};        ///< by joint: the noise of its rows, times that of the healthy logs
 };
 
 /// Whether a log is long enough to say anything.
 bool can_explain(const UniformLog& log, const RobotRows& robot);
 
-/// Explains a log for which can_explain() is true.
-ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model);
+/// Explains a log for which can_explain() is true. `lasting` are faults that an earlier part of the log has
+/// shown and that last when this one begins: they are not searched for again, only for their ends.
+ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
+                               const std::vector<FaultClaim>& lasting = {});
 
 /// What a healthy log says, for evidence_limits().
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/refine.hpp"
+#include "lib/explain/fault_end.hpp"
 #include "lib/explain/white_search.hpp"
 
 namespace faultline {

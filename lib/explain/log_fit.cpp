@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 constexpr double kForgotten = 1e-9;    // share of a velocity that is left of it
 constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
 constexpr double kReadingDoubt = 0.1;  // of a false reading's size that is left when it is mended
+constexpr double kSizeDoubt = 0.05;    // share of the size of a fault that began before the log
 constexpr int kNoiseRounds = 3;
 
 /// What the size of a false reading that is mended still changes.
@@ -117,7 +118,10 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   std_ = (std_.array().square() + inexact.array().square()).sqrt();
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());
-  effect_variance_.tail(columns.sizes()) = columns.variance;
+  const bool is_compared = claim.onset_s >= log_.start_s || reads_wrong(claim.kind);
+  effect_variance_.tail(columns.sizes()) =
+      is_compared ? columns.variance
+                  : VectorXd((kSizeDoubt * claim.size).cwiseAbs2() + 1e-6 * columns.variance);
   for (int j = 0; j < joints(); ++j) {
     effect_column_[j].conservativeResize(Eigen::NoChange, effect_variance_.size());
     effect_column_[j].rightCols(columns.sizes()) = columns.column.middleRows(j * count(), count());

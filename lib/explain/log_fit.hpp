@@ -42,8 +42,10 @@ inline constexpr int kPathRounds = 4;  ///< of the work piece's path and the eff
 class LogFit {
  public:
   /// `known` are faults that the log is known to hold: their sizes are estimated beside the effects of the
-  /// day, false readings are mended, rows that say nothing do not count. Throws Error(input) when the log is
-  /// shorter than the kernels. The model must outlive it.
+  /// day (near the size of the claim where the fault began before the log: without healthy rows to compare
+  /// with, a lost torque and the gain of the day look alike), false readings are mended, rows that say
+  /// nothing do not count. Throws Error(input) when the log is shorter than the kernels. The model must
+  /// outlive it.
   LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {});
 
   /// Without the false readings that are known.

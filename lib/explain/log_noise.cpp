@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/balance/end_stop.hpp"
 #include "lib/balance/work_piece.hpp"
-#include "lib/explain/end_stop.hpp"
 #include "lib/explain/free_form.hpp"
 
 namespace faultline {

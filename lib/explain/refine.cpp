@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/explain/fault_end.hpp"
 #include "lib/explain/judge.hpp"
 
 namespace faultline {
@@ -19,7 +20,6 @@ constexpr double kLeastStay_s = 0.25;   // of a fault that stays for a while and
 constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
 constexpr int kMovesOfOnset = 40;
 constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
-constexpr double kAbsentShare = 0.7;   // of the evidence that an absent fault gives
 constexpr double kStillEnough = 0.5;   // of the evidence without an end that the one with it must have
 
 /// Whether the same fault is known from about this moment on, or a drift that goes on: it does not begin
@@ -63,32 +63,12 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   return best;
 }
 
-/// The moment from which the log shows that the fault is gone (equation (11) of docs/how-it-works.md): the
-/// evidence of its absence since then (a cumulative sum; Page 1954) is large beside what is left over, and
-/// nearly all that its torque could give. A fault that goes on in another form than its columns gives less.
-std::optional<double> end_of(const LogFit& fit, const FaultHypothesis& h) {
-  const Stacked without = fit.left_without_fault(h.fit);
-  const double enough = kEndEvidence * std::max(1.0, h.fit.mean_square());
-  double absent = 0.0, possible = 0.0, since = 0.0;
-  for (int k = 0; k < fit.count(); ++k) {
-    if (fit.time_s()[k] <= h.onset_s + kLeastFault_s) continue;
-    if (absent <= 0.0) absent = possible = 0.0, since = fit.time_s()[k];
-    for (int j = 0; j < fit.joints(); ++j) {
-      const double a = without[j * fit.count() + k], b = h.fit.left[j * fit.count() + k];
-      if (std::isnan(b)) continue;
-      absent += 0.5 * (b * b - a * a);
-      possible += 0.5 * (b - a) * (b - a);
-    }
-    if (absent > enough && absent > kAbsentShare * possible) return since;
-  }
-  return std::nullopt;
-}
-
 /// The hypothesis with an end, where the log shows that the fault is gone; it takes the place of the one
 /// without.
 void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   if (silences(h.kind) || h.end_s < kNeverEnds) return;
-  const std::optional<double> end_s = end_of(bench.fit, h);
+  const std::optional<double> end_s =
+      gone_from(bench.fit, {h.fit.left, bench.fit.left_without_fault(h.fit)}, h.onset_s + kLeastFault_s);
   if (!end_s) return;
   FaultClaim claim = h;
   claim.end_s = *end_s;

@@ -9,8 +9,6 @@
 namespace faultline {
 
 inline constexpr double kLeastFault_s = 0.1;  // before which no end is looked for
-/// Nats of a fault's absence that show its end, by the mean square that is left.
-inline constexpr double kEndEvidence = 50.0;
 
 /// Judges hypotheses of one log and keeps them all.
 struct JudgedHypotheses {

@@ -7,6 +7,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/explain/drift_search.hpp"
 #include "lib/explain/sensor_jumps.hpp"
 
@@ -74,20 +75,13 @@ std::vector<Candidate> search_collision(const WhiteSearch& s) {
 
 /// Since when joint `j` stands still, but for its spring.
 std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
-  const BalanceModel& m = fit.model();
-  const double row_s = m.setting.row_s(), compliance = m.setting.compliance[j];
-  const VectorXd torque = fit.rows().torque.col(j);
-  VectorXd x = fit.rows().q.col(j) - compliance * torque;
+  const double row_s = fit.model().setting.row_s();
+  const Standstill stands = standstill(fit, j);
   const int tail = std::min(fit.count(), static_cast<int>(kRest_s / row_s) + 3);
-  std::vector<double> end(x.data() + fit.count() - tail, x.data() + fit.count());
-  std::nth_element(end.begin(), end.begin() + tail / 2, end.end());
-  const double rest = end[tail / 2];
-  const double noise = std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
-                       gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();
-  const double tolerance = kSurelyStands * noise + kLeastTolerance +
-                           kSpringDoubt * compliance * (torque.maxCoeff() - torque.minCoeff());
+  const double rest =
+      upper_median({stands.place.data() + fit.count() - tail, stands.place.data() + fit.count()});
   int since = fit.count();
-  while (since > 0 && std::abs(x[since - 1] - rest) <= tolerance) --since;
+  while (since > 0 && std::abs(stands.place[since - 1] - rest) <= stands.tolerance) --since;
   const int first = std::max(6, static_cast<int>(kLead_s / row_s));
   std::vector<Candidate> out;
   for (const int before : {0, 2, 5})
@@ -115,6 +109,17 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
 }
 
 }  // namespace
+
+Standstill standstill(const LogFit& fit, int j) {
+  const BalanceModel& m = fit.model();
+  const double compliance = m.setting.compliance[j];
+  const VectorXd torque = fit.rows().torque.col(j);
+  const double noise = std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
+                       gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();
+  return {fit.rows().q.col(j) - compliance * torque,
+          kSurelyStands * noise + kLeastTolerance +
+              kSpringDoubt * compliance * (torque.maxCoeff() - torque.minCoeff())};
+}
 
 std::vector<Candidate> search(const LogFit& fit) {
   const WhiteSearch s = white_search(fit);

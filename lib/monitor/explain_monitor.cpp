@@ -68,14 +68,6 @@ int complete_rows(const Log& log) {
   return out;
 }
 
-/// What the rows say; nothing where they are too few.
-ExplainedLog explained_rows(const Log& rows, const Model& model) {
-  if (complete_rows(rows) < kFewestRows) return {};
-  MemorySource source(rows);
-  const UniformLog log = uniform_log(source, median_step(rows.time));
-  return can_explain(log, model.explain.robot) ? explain_whole_log(log, model.explain) : ExplainedLog{};
-}
-
 }  // namespace
 
 void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
@@ -115,52 +107,78 @@ void ExplainMonitor::finish() { explain_window(false); }
 /// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
 void ExplainMonitor::explain_window(bool is_followed) {
   if (window_.rows() == 0) return;
-  const double end_s = window_.time.back();
-  const double from_s = decided_s_.value_or(window_.time.front());
+  const double end_s = window_.time.back(), kept_s = end_s - kOverlap_s;
   const double until_s = is_followed ? end_s - 0.5 * kOverlap_s : end_s;
-  const ExplainedLog explained = explained_rows(window_, model_);
-  std::vector<Lasting> before;
-  std::swap(before, lasting_);
-  for (const ExplainedFault& fault : explained.faults) {
-    const auto known = std::find_if(before.begin(), before.end(), [&](const Lasting& l) {
-      return l.label == fault.label() || (l.label.joint == fault.claim.joint && fault.claim.onset_s < from_s);
-    });
-    if (known != before.end()) {
-      episodes_[known->episode].end_s = std::min(fault.claim.end_s, until_s);
-      if (fault.claim.end_s > end_s) lasting_.push_back(*known);
-    } else if (fault.claim.onset_s <= until_s && !is_reported(fault.claim)) {
-      episodes_.push_back(
-          {fault, std::min(fault.claim.end_s, until_s),
-           residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
-      if (fault.claim.end_s > end_s) lasting_.push_back({fault.label(), episodes_.size() - 1});
-    }
-  }
+  const ExplainedLog explained = explained_window();
+  const std::vector<Lasting> unfollowed = follow(explained.followed);
+  for (const ExplainedFault& fault : explained.faults)
+    if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
   add_day(explained.day);
   loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
   for (std::size_t j = 0; j < explained.loudness.size(); ++j)
     loudness_[j] = std::max(loudness_[j], explained.loudness[j]);
-  if (!is_followed) {
-    decided_s_.reset();
+  if (is_followed) {
+    std::erase_if(lasting_, [&](const Lasting& l) { return l.claim.end_s <= kept_s; });
+    decided_s_ = until_s;
+    keep_from(kept_s);
+  } else {
     lasting_.clear();
+    decided_s_.reset();
     window_ = {};
     residuals_.clear();
-    return;
   }
-  decided_s_ = until_s;
-  const double kept_s = end_s - kOverlap_s;
-  const auto first = std::lower_bound(window_.time.begin(), window_.time.end(), kept_s);
-  window_ = slice(window_, static_cast<int>(first - window_.time.begin()), window_.rows());
-  while (!residuals_.empty() && residuals_.front().time[residuals_.front().count() - 1] < kept_s)
-    residuals_.pop_front();
 }
 
-/// Whether an earlier window has reported a fault of this joint that began at about the same time.
-bool ExplainMonitor::is_reported(const FaultClaim& claim) const {
-  return std::any_of(episodes_.begin(), episodes_.end(), [&](const MonitoredEpisode& episode) {
-    return episode.fault.claim.joint == claim.joint &&
-           std::abs(episode.onset_s() - claim.onset_s) < kOverlap_s && decided_s_ &&
-           claim.onset_s < *decided_s_;
+/// What the rows of the window say beside the faults that reach into it; nothing where they are too few.
+ExplainedLog ExplainMonitor::explained_window() const {
+  std::vector<FaultClaim> lasting;
+  for (const Lasting& l : lasting_)
+    if (l.is_handed_on()) lasting.push_back(l.claim);
+  if (complete_rows(window_) >= kFewestRows) {
+    MemorySource source(window_);
+    const UniformLog log = uniform_log(source, median_step(window_.time));
+    if (can_explain(log, model_.explain.robot)) return explain_whole_log(log, model_.explain, lasting);
+  }
+  ExplainedLog out;
+  out.followed = std::move(lasting);
+  return out;
+}
+
+/// Takes what a window says of the faults that were handed on to it; returns the others.
+std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<FaultClaim>& followed) {
+  std::vector<Lasting> unfollowed;
+  std::erase_if(lasting_, [&](const Lasting& l) {
+    if (!l.is_handed_on()) unfollowed.push_back(l);
+    return !l.is_handed_on();
   });
+  for (std::size_t k = 0; k < lasting_.size(); ++k) {
+    lasting_[k].claim = followed[k];
+    episodes_[lasting_[k].episode].end_s = std::min(followed[k].end_s, window_.time.back());
+  }
+  return unfollowed;
+}
+
+/// A fault of the window: a further one, or an unknown one that goes on from the window before.
+void ExplainMonitor::report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed) {
+  const double end_s = std::min(fault.claim.end_s, window_.time.back());
+  if (!unfollowed.empty() && decided_s_ && fault.claim.onset_s < *decided_s_) {
+    Lasting goes_on = unfollowed.front();
+    goes_on.claim.end_s = fault.claim.end_s;
+    episodes_[goes_on.episode].end_s = end_s;
+    lasting_.push_back(goes_on);
+    return;
+  }
+  lasting_.push_back({fault.claim, episodes_.size()});
+  episodes_.push_back(
+      {fault, end_s, residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
+}
+
+/// Begins the next window with the rows from `time_s` on.
+void ExplainMonitor::keep_from(double time_s) {
+  const auto first = std::lower_bound(window_.time.begin(), window_.time.end(), time_s);
+  window_ = slice(window_, static_cast<int>(first - window_.time.begin()), window_.rows());
+  while (!residuals_.empty() && residuals_.front().time[residuals_.front().count() - 1] < time_s)
+    residuals_.pop_front();
 }
 
 void ExplainMonitor::add_day(const std::vector<DayEffect>& day) {

@@ -17,8 +17,8 @@ namespace faultline {
 inline constexpr double kEpisodeResiduals_s = 3.0;
 
 /// Gathers the rows of a log in windows of a minute and explains each of them. Windows overlap, so that
-/// an onset has rows before and behind it; a gap or a restart of the clock ends a window. Where segments end
-/// changes nothing, and memory does not grow with the log.
+/// an onset has rows before and behind it; a gap or a restart of the clock ends a window. A fault that lasts
+/// is known to the next window. Where segments end changes nothing, and memory does not grow with the log.
 class ExplainMonitor {
  public:
   /// The model outlives this.
@@ -39,15 +39,22 @@ class ExplainMonitor {
  private:
   void take_rows(const Log& segment, int begin, int end);
   void explain_window(bool is_followed);
-  bool is_reported(const FaultClaim& claim) const;
+  ExplainedLog explained_window() const;
+  void keep_from(double time_s);
   void add_day(const std::vector<DayEffect>& day);
   std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
 
-  /// A fault that lasts to the end of the window before.
+  /// A fault that reaches into the next window.
   struct Lasting {
-    FaultLabel label;
+    FaultClaim claim;
     std::size_t episode = 0;
+
+    /// The rows of an unknown fault that lasts say nothing: the next window looks at them anew.
+    bool is_handed_on() const { return claim.kind != FaultKind::unknown || claim.end_s < kNeverEnds; }
   };
+
+  std::vector<Lasting> follow(const std::vector<FaultClaim>& followed);
+  void report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed);
 
   const Model& model_;
   Log window_;

@@ -17,8 +17,7 @@ Model model() {
   return out;
 }
 
-/// Several days one after the other, each begins `gap_s` after the one before; from `loss_s` on joint 2 gets
-/// 70 % of its torque.
+/// Several days one after the other, each begins `gap_s` after the one before.
 Log days(int count, double gap_s) {
   Log out;
   for (int day = 0; day < count; ++day) {
@@ -30,9 +29,10 @@ Log days(int count, double gap_s) {
   return out;
 }
 
-void lose_torque(Log& log, double from_s) {
+/// Joint 2 gets 70 % of its torque.
+void lose_torque(Log& log, double from_s, double until_s = kNeverEnds) {
   for (int k = 0; k < log.rows(); ++k)
-    if (log.time[k] >= from_s) log.tau[1][k] /= 0.7;
+    if (log.time[k] >= from_s && log.time[k] < until_s) log.tau[1][k] /= 0.7;
 }
 
 ExplainMonitor monitored(const Model& model, const Log& log, int segment_rows) {
@@ -77,17 +77,61 @@ TEST(ExplainMonitor, ALogThatWasCutWithItsStampsClosedHasNoFaultThere) {
   EXPECT_TRUE(monitored(m, cut, 4096).episodes().empty());
 }
 
+Log long_log(std::uint64_t seed, double duration_s) {
+  testing::ClosedFormRun run = testing::run_of(seed);
+  run.duration_s = duration_s;
+  return testing::simulate_closed_form(testing::of_day(1), run);
+}
+
 TEST(ExplainMonitor, AFaultAtTheBorderOfTwoWindowsIsOneFault) {
   const Model m = model();
-  testing::ClosedFormRun run = testing::run_of(35);
-  run.duration_s = 100.0;
-  Log log = testing::simulate_closed_form(testing::of_day(1), run);
+  Log log = long_log(35, 100.0);
   lose_torque(log, 56.0);
   const ExplainMonitor judged = monitored(m, log, 4096);
   ASSERT_EQ(judged.episodes().size(), 1u);
   EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
   EXPECT_NEAR(judged.episodes()[0].onset_s(), 56.0, 0.1);
   EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
+}
+
+TEST(ExplainMonitor, AFaultThatLastsForSeveralWindowsIsOneFaultWithItsEnd) {
+  const Model m = model();
+  Log log = long_log(36, 190.0);
+  lose_torque(log, 20.0, 151.0);
+  const ExplainMonitor judged = monitored(m, log, 4096);
+  ASSERT_EQ(judged.episodes().size(), 1u);
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(judged.episodes()[0].onset_s(), 20.0, 0.1);
+  EXPECT_NEAR(judged.episodes()[0].end_s, 151.0, 0.2);
+}
+
+TEST(ExplainMonitor, AFurtherFaultIsFoundBesideOneThatLasts) {
+  const Model m = model();
+  Log log = long_log(37, 150.0);
+  lose_torque(log, 20.0);
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 120.0) log.q[2][k] += 0.01;
+  const ExplainMonitor judged = monitored(m, log, 4096);
+  ASSERT_EQ(judged.episodes().size(), 2u);
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
+  EXPECT_EQ(judged.episodes()[1].fault.label().joint, 3);
+  EXPECT_NEAR(judged.episodes()[1].onset_s(), 120.0, 0.1);
+}
+
+TEST(ExplainMonitor, AnEncoderThatIsStuckForSeveralWindowsIsOneFaultWithItsEnd) {
+  const Model m = model();
+  Log log = long_log(38, 150.0);
+  const auto first = static_cast<std::size_t>(20.0 / m.sample_period_s);
+  for (std::size_t k = first; k < static_cast<std::size_t>(110.0 / m.sample_period_s); ++k) {
+    log.q[1][k] = log.q[1][first];
+    log.dq[1][k] = 0.0;
+  }
+  const ExplainMonitor judged = monitored(m, log, 4096);
+  ASSERT_EQ(judged.episodes().size(), 1u);
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::stuck_encoder, 2}));
+  EXPECT_NEAR(judged.episodes()[0].onset_s(), 20.0, 0.1);
+  EXPECT_NEAR(judged.episodes()[0].end_s, 110.0, 0.1);
 }
 
 TEST(ExplainMonitor, ALogOfAMomentIsNotJudged) {

@@ -8,6 +8,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/coarse_search.hpp"
+#include "lib/explain/fault_end.hpp"
 #include "lib/fault/fault_labels.hpp"
 
 namespace faultline {
@@ -237,6 +238,31 @@ LogExplanation explain_coarse(const CoarseLog& log) {
   out.best = bench.ranked();
   out.healthy_square = log.healthy.mean_square();
   return out;
+}
+
+FaultClaim followed_coarse(const CoarseLog& log, FaultClaim lasting, double limit) {
+  CoarseBench bench(log);
+  JudgedGuess best = bench.go({column_kind(lasting.kind), lasting.joint, lasting.onset_s, 0.0, lasting.size,
+                               lasting.velocity_is_true});
+  double end_s = log.end_s();
+  for (double step = 0.5 * (end_s - log.time_s(0)); step > 0.5 * log.period_s(); step *= 0.5)
+    for (const double moved_s : {end_s - step, end_s + step}) {
+      if (moved_s >= log.end_s()) continue;
+      CoarseGuess guess = best.guess;
+      guess.duration_s = moved_s - guess.onset_s;
+      JudgedGuess ends = bench.go(guess, CoarseBench::kCoarseRounds, best.fit.steps);
+      const double enough = best.guess.duration_s > 0.0 ? best.gain : best.gain + kEndEvidence;
+      if (ends.gain <= enough) continue;
+      best = std::move(ends);
+      end_s = moved_s;
+    }
+  if (best.gain <= limit) {
+    lasting.end_s = log.time_s(0);
+    return lasting;
+  }
+  if (best.guess.duration_s > 0.0) lasting.end_s = end_s;
+  if (best.fit.size.size() == lasting.size.size()) lasting.size = best.fit.size;
+  return lasting;
 }
 
 LogEvidence coarse_evidence(const CoarseLog& log, const LogExplanation& e) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/end_stop.hpp"
+#include "lib/balance/end_stop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/fault_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/statistics.hpp"
+#include "lib/explain/search.hpp"
+#include "lib/explain/sensor_jumps.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kAbsentShare = 0.7;     // of the evidence that an absent fault gives
+constexpr double kSurelyLasts_s = 10.0;  // at the beginning of a log
+constexpr int kRestRows = 8;             // that show where a locked joint stands
+constexpr int kMovesRows = 3;            // in succession that show that it moves again
+constexpr double kTakenBack = 0.3;       // of a false reading by which the jump back may differ
+
+/// When a joint that was locked moves again.
+std::optional<double> moves_from(const LogFit& fit, int joint) {
+  const auto [place, tolerance] = standstill(fit, joint);
+  const int rest_rows = std::min(kRestRows, fit.count());
+  const double rest = upper_median({place.data(), place.data() + rest_rows});
+  int moving = 0;
+  for (int k = 0; k < fit.count(); ++k) {
+    moving = std::abs(place[k] - rest) > tolerance ? moving + 1 : 0;
+    if (moving == kMovesRows) return fit.time_s()[k - kMovesRows + 1];
+  }
+  return std::nullopt;
+}
+
+/// When an encoder that was stuck gives another code.
+std::optional<double> reads_again_from(const LogFit& fit, int joint) {
+  const double start_s = fit.log().time_s(0);
+  for (const RepeatedCode& run : repeated_codes(fit, joint))
+    if (run.onset_s <= start_s) return run.end_s < kNeverEnds ? std::optional(run.end_s) : std::nullopt;
+  return start_s;
+}
+
+/// When a jump of the position takes a false reading back.
+std::optional<double> taken_back_at(const LogFit& fit, const FaultClaim& claim) {
+  std::optional<double> first;
+  for (const SensorJump& jump : sensor_jumps(fit, claim.joint - 1)) {
+    const double error = claim.kind == FaultKind::sensor_drift
+                             ? claim.size[0] * (jump.onset_s - claim.onset_s)
+                             : claim.size[0];
+    if (std::abs(jump.size + error) > kTakenBack * std::abs(error)) continue;
+    if (!first || jump.onset_s < *first) first = jump.onset_s;
+  }
+  return first;
+}
+
+/// A known fault and where its sizes stand among the effects of the log.
+struct KnownFault {
+  const FaultClaim& claim;
+  Eigen::Index begin = 0;
+
+  Eigen::Index sizes() const { return claim.size.size(); }
+};
+
+/// Whitened rows with the fault and without it. The effects are those that the first rows show, in which the
+/// fault is known to last: behind its end it would bend the effects of the day.
+WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault) {
+  const VectorXd effects = fit.day_before(fit.log().time_s(0) + kSurelyLasts_s);
+  Stacked torque = fit.residual() - fit.day_torque(effects);
+  if (fit.healthy().piece_level.size() > 0) torque -= fit.piece_torque(fit.healthy().piece_level);
+  WithAndWithout out;
+  out.with = fit.whitened(torque);
+  out.without = out.with + fit.white_effects().middleCols(fault.begin, fault.sizes()) *
+                               (fault.claim.size + effects.segment(fault.begin, fault.sizes()));
+  return out;
+}
+
+std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
+  const FaultClaim& claim = fault.claim;
+  if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1);
+  if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1);
+  if (reads_wrong(claim.kind))
+    if (const std::optional<double> back = taken_back_at(fit, claim)) return back;
+  return gone_from(fit, with_and_without(fit, fault), fit.log().time_s(0));
+}
+
+}  // namespace
+
+std::optional<double> gone_from(const LogFit& fit, const WithAndWithout& left, double from_s) {
+  double square = 0.0, count = 0.0;
+  for (const double z : left.with)
+    if (!std::isnan(z)) square += z * z, count += 1.0;
+  const double enough = kEndEvidence * std::max(1.0, square / std::max(1.0, count));
+  double absent = 0.0, possible = 0.0, since = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] <= from_s) continue;
+    if (absent <= 0.0) absent = possible = 0.0, since = fit.time_s()[k];
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double with = left.with[j * fit.count() + k], without = left.without[j * fit.count() + k];
+      if (std::isnan(with)) continue;
+      absent += 0.5 * (with * with - without * without);
+      possible += 0.5 * (with - without) * (with - without);
+    }
+    if (absent > enough && absent > kAbsentShare * possible) return since;
+  }
+  return std::nullopt;
+}
+
+std::vector<FaultClaim> followed(const UniformLog& log, const BalanceModel& model,
+                                 std::vector<FaultClaim> lasting) {
+  if (std::all_of(lasting.begin(), lasting.end(), [](const FaultClaim& c) { return c.end_s < kNeverEnds; }))
+    return lasting;
+  const LogFit fit(log, model, lasting);
+  Eigen::Index begin = model.day_variance.size();
+  for (FaultClaim& claim : lasting) {
+    const KnownFault fault{claim, begin};
+    if (!silences(claim.kind)) begin += fault.sizes();
+    if (claim.end_s < kNeverEnds) continue;
+    if (const std::optional<double> end_s = end_of(fit, fault))
+      claim.end_s = *end_s;
+    else if (reads_wrong(claim.kind))
+      claim.size += fit.healthy().day.segment(fault.begin, fault.sizes());
+  }
+  return lasting;
+}
+
+}  // namespace faultline
