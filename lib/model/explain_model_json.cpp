@@ -230,7 +230,7 @@ OneStepModel one_step_from_json(const nlohmann::json& json, const std::string& w
                m.torque_rms.size(), m.longest_repeat.size(), m.repeat_share.size()});
   check_sizes(where, 2 * n, {m.reading_variance.size()});
   check_sizes(where, m.layout().learned(), {m.theta.size()});
-  check_sizes(where, m.layout().base + 2 * n, {m.day_variance.size()});
+  check_sizes(where, m.day_layout().count(), {m.day_variance.size()});
   check_sizes(where, m.layout().base, {m.payload.size()});
   return m;
 }

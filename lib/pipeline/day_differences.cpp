@@ -41,11 +41,12 @@ struct DayDifferences {
     return states;
   }
   std::vector<SlowState> operator()(const OneStepModel& m) const {
-    const int base = m.layout().base, n = m.joints();
+    const StepDayLayout at = m.day_layout();
     std::vector<SlowState> states;
-    for (int j = 0; j < n; ++j) {
-      add(states, SlowKind::torque_offset, j, m.day_variance[base + n + j]);
-      add(states, SlowKind::friction, j, m.day_variance[base + j]);
+    for (int j = 0; j < m.joints(); ++j) {
+      add(states, SlowKind::torque_offset, j, m.day_variance[at.force(j)]);
+      add(states, SlowKind::friction, j, m.day_variance[at.friction(j)]);
+      add(states, SlowKind::torque_gain, j, m.day_variance[at.gain(j)]);
     }
     return states;
   }
@@ -65,22 +66,25 @@ struct Widen {
     if (stated.torque_offset != NormalRange{}.torque_offset)
       variance = std::max(variance, variance_of_range(stated.torque_offset * torque_scale[joint]));
   }
+  void gain(double& variance) const {
+    if (stated.torque_constant != NormalRange{}.torque_constant)
+      variance = std::max(variance, variance_of_range(stated.torque_constant));
+  }
   void operator()(BalanceModel& m) const {
     if (stated.work_piece_kg > 0.0) m.piece_kg = stated.work_piece_kg;
     const DayLayout at = day_layout(m.rigid);
     for (int j = 0; j < m.joints(); ++j) {
       friction(m.day_variance[at.friction(j)]);
       offset(m.day_variance[at.offset(j)], j);
-      double& gain = m.day_variance[at.gain(j)];
-      if (stated.torque_constant != NormalRange{}.torque_constant)
-        gain = std::max(gain, variance_of_range(stated.torque_constant));
+      gain(m.day_variance[at.gain(j)]);
     }
   }
   void operator()(OneStepModel& m) const {
-    const int base = m.layout().base, n = m.joints();
-    for (int j = 0; j < n; ++j) {
-      friction(m.day_variance[base + j]);
-      offset(m.day_variance[base + n + j], j);
+    const StepDayLayout at = m.day_layout();
+    for (int j = 0; j < m.joints(); ++j) {
+      friction(m.day_variance[at.friction(j)]);
+      offset(m.day_variance[at.force(j)], j);
+      gain(m.day_variance[at.gain(j)]);
     }
   }
 };

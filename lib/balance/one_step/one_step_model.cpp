@@ -27,13 +27,14 @@ VectorXd OneStepModel::numbers() const {
 
 MatrixXd OneStepModel::day_directions() const {
   const MotionLayout at = layout();
-  const int n = at.joints;
-  MatrixXd out = MatrixXd::Zero(at.count(), at.base + 2 * n);
-  for (int p = 0; p < at.base; ++p) out(p, p) = theta[p];
-  for (int j = 0; j < n; ++j) {
-    out(at.viscous(j), at.base + j) = theta[at.viscous(j)];
-    out(at.coulomb(j), at.base + j) = theta[at.coulomb(j)];
-    out(at.force(j), at.base + n + j) = 1.0;
+  const StepDayLayout day = day_layout();
+  MatrixXd out = MatrixXd::Zero(at.count(), day.count());
+  for (int p = 0; p < at.base; ++p) out(p, day.inertia(p)) = theta[p];
+  for (int j = 0; j < at.joints; ++j) {
+    out(at.viscous(j), day.friction(j)) = theta[at.viscous(j)];
+    out(at.coulomb(j), day.friction(j)) = theta[at.coulomb(j)];
+    out(at.force(j), day.force(j)) = 1.0;
+    out(at.gain(j), day.gain(j)) = 1.0;
   }
   return out;
 }

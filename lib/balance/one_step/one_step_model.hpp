@@ -11,6 +11,18 @@ namespace faultline {
 /// derivative.
 inline constexpr double kCoarse_s = 0.020;
 
+/// Where the effects of a day stand at coarse rates: relative change of each base parameter; then, for each
+/// joint, relative friction, force beside the torque (N m or N) and relative gain of the torque.
+struct StepDayLayout {
+  int base = 0, joints = 0;
+
+  int inertia(int parameter) const { return parameter; }
+  int friction(int joint) const { return base + joint; }
+  int force(int joint) const { return base + joints + joint; }
+  int gain(int joint) const { return base + 2 * joints + joint; }
+  int count() const { return base + 3 * joints; }
+};
+
 /// A robot as logs at coarse rates show it, with what is normal to differ from day to day and its noise.
 struct OneStepModel {
   MotionBody body;
@@ -19,10 +31,8 @@ struct OneStepModel {
   Eigen::VectorXd payload;           ///< what 1 kg at the tip adds to the base parameters
   double tip_mass = 0.0;             ///< kg that the last joint carries, as its torque shows it
   Eigen::VectorXd reading_variance;  ///< of q, then dq, of each joint
-  /// Prior variance of the effects of a day: relative change of each base parameter, then of each joint's
-  /// friction, then force beside the torque of each joint (N m or N).
-  Eigen::VectorXd day_variance;
-  bool torque_is_measured = false;  ///< behind the drive: then a loss of torque does not show
+  Eigen::VectorXd day_variance;      ///< prior variance of the effects of a day, see StepDayLayout
+  bool torque_is_measured = false;   ///< behind the drive: then a loss of torque does not show
 
   // What the healthy logs looked like, by joint.
   Eigen::VectorXd torque_rms, q_low, q_high, top_speed;  ///< speed that 1 in 200 rows exceeds
@@ -31,6 +41,7 @@ struct OneStepModel {
 
   int joints() const { return body.rigid().joints(); }
   MotionLayout layout() const { return body.layout(); }
+  StepDayLayout day_layout() const { return {layout().base, joints()}; }
   /// Numbers of the healthy robot on a usual day.
   Eigen::VectorXd numbers() const;
   /// Directions of the effects of a day in these numbers: numbers x effects.

@@ -11,6 +11,7 @@
 #include "lib/balance/rows.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/coarse_start.hpp"
+#include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/payload_columns.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/robot/dynamics.hpp"
@@ -33,6 +34,9 @@ constexpr int kInertiaRows = 40;        // of each log that the inertia is looke
 constexpr double kDayInertia = 1e-3;    // relative: how much masses differ by day at least
 constexpr double kDayFriction = 0.02;   // relative
 constexpr double kDayForce = 1e-3;      // of the usual torque
+constexpr double kDayGain = 1e-3;       // relative
+constexpr double kNoGain = 1e-5;        // of a slide along gravity: its gain looks like its mass
+constexpr double kCoarseUnseen = 2.0;   // times the variance between the days that were seen
 constexpr double kSpeedQuantile = 0.995;
 
 /// The columns of a space that links have a part in: a rotor's inertia is not told at coarse rates.
@@ -115,33 +119,65 @@ VectorXd stepped(const std::vector<UniformLog>& logs, const OneStepModel& m, con
   return m.theta;
 }
 
-/// One round over all logs: sums of the regression, trajectories smoothed anew, squares of what these leave.
-struct CoarseRound {
-  NormalEquations sums;
-  VectorXd square;  ///< by reading
-  double rows = 0.0;
+/// A healthy log, the trajectory that it is integrated about, and the effects of its day.
+struct CoarseDay {
+  UniformLog log;
+  Trajectory about;
+  VectorXd effect;
 };
 
-void go_through(const UniformLog& log, const OneStepModel& m, double doubt, Trajectory& about,
-                CoarseRound& round) {
-  const MotionLaw law(m.body, m.numbers());
-  const LinearSteps steps = linear_steps(log, about, m.setting, {.usual = &law});
+/// What the robot's own numbers change on a day: numbers x numbers of the robot.
+MatrixXd robot_directions(const OneStepModel& m, const VectorXd& effect) {
   const MotionLayout at = m.layout();
+  const StepDayLayout day = m.day_layout();
+  MatrixXd out = MatrixXd::Identity(at.count(), at.learned());
+  for (int p = 0; p < at.base; ++p) out(p, p) += effect[day.inertia(p)];
+  for (int j = 0; j < at.joints; ++j)
+    for (const int number : {at.viscous(j), at.coulomb(j)}) out(number, number) += effect[day.friction(j)];
+  return out;
+}
+
+/// One log, integrated: steps of the robot's numbers and effects of the day in one regression.
+struct CoarsePass {
+  NormalEquations sums;  ///< of the step, then of the effects
+  Trajectory about;      ///< smoothed anew
+  VectorXd square;       ///< by reading: what the smoothed trajectory leaves, summed
+};
+
+CoarsePass passed(const CoarseDay& day, const OneStepModel& m, double doubt) {
+  const MotionLayout at = m.layout();
+  const MatrixXd effects = m.day_directions();
+  const MotionLaw law(m.body, m.numbers() + effects * day.effect);
+  const LinearSteps steps = linear_steps(day.log, day.about, m.setting, {.usual = &law});
+  MatrixXd directions(at.count(), at.learned() + effects.cols());
+  directions << robot_directions(m, day.effect), effects;
   FilterInput in;
-  in.column = steps.columns(MatrixXd::Identity(at.count(), at.learned()), MatrixXd(at.count(), 0));
+  in.column = steps.columns(directions, MatrixXd(at.count(), 0));
   const MatrixXd wide = (doubt * m.torque_rms).replicate(1, steps.intervals);
-  in.process =
-      process_covariance(steps, at, (m.force_std(log, about).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
-  in.reading = readings(log) - about;
-  in.variance = m.variance_of_readings(log);
+  in.process = process_covariance(
+      steps, at, (m.force_std(day.log, day.about).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
+  in.reading = readings(day.log) - day.about;
+  in.variance = m.variance_of_readings(day.log);
   const Innovations filter = innovations(steps, in);
-  const NormalEquations sums = normal_equations(filter.white.rightCols(at.learned()), filter.white.col(0));
-  round.sums.matrix += sums.matrix;
-  round.sums.vector += sums.vector;
+  const auto white = filter.white.rightCols(directions.cols());
+  const VectorXd rows = filter.white.col(0) + white.rightCols(effects.cols()) * day.effect;
+  CoarsePass out{normal_equations(white, rows), {}, {}};
   MatrixXd variance;
-  about += smoothed(steps, filter, VectorXd::Zero(at.learned()), &variance);
-  round.square += ((readings(log) - about).cwiseAbs2() + variance.cwiseMax(0.0)).rowwise().sum();
-  round.rows += log.rows();
+  out.about = day.about + smoothed(steps, filter, VectorXd::Zero(directions.cols()), &variance);
+  out.square = ((readings(day.log) - out.about).cwiseAbs2() + variance.cwiseMax(0.0)).rowwise().sum();
+  return out;
+}
+
+/// Variance of the effects of a day at least.
+VectorXd least_day_variance(const OneStepModel& m) {
+  const StepDayLayout day = m.day_layout();
+  VectorXd std = VectorXd::Constant(day.count(), kDayInertia);
+  for (int j = 0; j < m.joints(); ++j) {
+    std[day.friction(j)] = kDayFriction;
+    std[day.force(j)] = kDayForce * m.torque_rms[j];
+    std[day.gain(j)] = carries_weight(m.body.rigid(), j) ? kNoGain : kDayGain;
+  }
+  return std.cwiseAbs2();
 }
 
 /// Kilograms that explain the last joint's torque best.
@@ -200,31 +236,39 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m);
   const MotionLayout at = m.layout();
-  std::vector<Trajectory> about;
-  for (const UniformLog& log : logs) about.push_back(readings(log));
-  const VectorXd precision = VectorXd::Constant(at.learned(), 1.0 / (kFree * kFree));
+  const VectorXd least = least_day_variance(m);
+  VectorXd between = least;
+  std::vector<CoarseDay> days;
+  double samples = 0.0;
+  for (const UniformLog& log : logs) {
+    days.push_back({log, readings(log), VectorXd::Zero(least.size())});
+    samples += log.rows();
+  }
   MatrixXd covariance;
   for (int it = 0; it < options.rounds; ++it) {
     const double doubt = it < kDoubtRounds ? kFirstDoubt * std::ldexp(1.0, -it) : 0.0;
-    CoarseRound round;
-    round.sums.matrix = MatrixXd::Zero(at.learned(), at.learned());
-    round.sums.vector = VectorXd::Zero(at.learned());
-    round.square = VectorXd::Zero(2 * at.joints);
-    for (std::size_t d = 0; d < logs.size(); ++d) go_through(logs[d], m, doubt, about[d], round);
-    const Regression fit = regress(round.sums, precision);
+    std::vector<DayBlock> blocks;
+    VectorXd square = VectorXd::Zero(2 * at.joints);
+    for (CoarseDay& day : days) {
+      CoarsePass pass = passed(day, m, doubt);
+      blocks.push_back(day_block(pass.sums, between));
+      day.about = std::move(pass.about);
+      square += pass.square;
+    }
+    const Regression fit =
+        regress(robot_sums(blocks), VectorXd::Constant(at.learned(), 1.0 / (kFree * kFree)));
     covariance = fit.covariance();
+    for (std::size_t d = 0; d < days.size(); ++d) days[d].effect = blocks[d].effect(fit.estimate);
     m.theta = stepped(logs, m, fit.estimate);
-    if (it >= kNoiseFrom)
-      m.reading_variance = (round.square / round.rows).cwiseMax(kLeastReading * kLeastReading);
+    if (it < kNoiseFrom) continue;
+    between = effect_moments(blocks, fit.estimate).square.cwiseMax(least);
+    m.reading_variance = (square / samples).cwiseMax(kLeastReading * kLeastReading);
   }
   m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, at.joints - 1);
   m.tip_mass = carried_by_last(logs, m);
-  m.day_variance.resize(at.base + 2 * at.joints);
+  m.day_variance = least + kCoarseUnseen * (between - least);
   for (int p = 0; p < at.base; ++p)
-    m.day_variance[p] =
-        9.0 * covariance(p, p) / std::max(Eigen::numext::abs2(m.theta[p]), 1e-12) + kDayInertia * kDayInertia;
-  m.day_variance.segment(at.base, at.joints).setConstant(kDayFriction * kDayFriction);
-  m.day_variance.tail(at.joints) = (kDayForce * m.torque_rms).cwiseAbs2();
+    m.day_variance[p] += 9.0 * covariance(p, p) / std::max(Eigen::numext::abs2(m.theta[p]), 1e-12);
   return m;
 }
 

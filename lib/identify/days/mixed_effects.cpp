@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/mixed_effects.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "lib/identify/days/day_arrow.hpp"
 
 namespace faultline {
 namespace {
@@ -13,17 +14,6 @@ using Eigen::VectorXd;
 constexpr double kDelayStd = 0.3;                      // samples
 constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not move
 constexpr double kPieceForce = 9.81;                   // N of 1 kg that may be there or not
-
-/// What one day adds to the normal equations of the robot, its effects eliminated.
-struct DayBlock {
-  Eigen::LLT<MatrixXd> factor;  ///< of the effects
-  MatrixXd cross;               ///< effects x parameters
-  VectorXd vector;              ///< of the effects
-  MatrixXd robot_matrix;
-  VectorXd robot_vector;
-
-  VectorXd effect(const VectorXd& theta) const { return factor.solve(vector - cross * theta); }
-};
 
 std::vector<int> free_columns(const DayDraft& draft) {
   std::vector<int> free;
@@ -56,59 +46,27 @@ std::vector<DayBlock> day_blocks(const DayDraft& draft, const std::vector<int>& 
     const MatrixXd y = whitened(day.rows.column, day, noise)(Eigen::all, free);
     const MatrixXd w = whitened(day.day_column, day, noise);
     const VectorXd r = whitened(day.rows.torque - day.piece, day, noise);
-    MatrixXd own = w.transpose() * w;
-    own.diagonal() += between.cwiseInverse();
-    DayBlock block{Eigen::LLT<MatrixXd>(own), w.transpose() * y, w.transpose() * r, {}, {}};
-    block.robot_matrix = y.transpose() * y - block.cross.transpose() * block.factor.solve(block.cross);
-    block.robot_vector = y.transpose() * r - block.cross.transpose() * block.factor.solve(block.vector);
-    out.push_back(std::move(block));
+    const Eigen::Index robot = y.cols(), effects = w.cols();
+    NormalEquations sums{MatrixXd::Zero(robot + effects, robot + effects), VectorXd(robot + effects)};
+    sums.matrix.topLeftCorner(robot, robot) = y.transpose() * y;
+    sums.matrix.bottomLeftCorner(effects, robot) = w.transpose() * y;
+    sums.matrix.bottomRightCorner(effects, effects) = w.transpose() * w;
+    sums.vector << y.transpose() * r, w.transpose() * r;
+    out.push_back(day_block(sums, between));
   }
   return out;
 }
-
-constexpr std::size_t kNoDay = static_cast<std::size_t>(-1);
 
 /// Parameters of the robot by all days but `left_out`.
 VectorXd theta_without(const std::vector<DayBlock>& blocks, const DayDraft& draft,
                        const std::vector<int>& free, std::size_t left_out) {
-  const auto count = static_cast<Eigen::Index>(free.size());
   const ColumnLayout layout = draft.model.layout();
-  MatrixXd a = MatrixXd::Zero(count, count);
-  VectorXd b = VectorXd::Zero(count);
-  for (Eigen::Index i = 0; i < count; ++i)
+  auto [a, b, square, rows] = robot_sums(blocks, left_out);
+  for (Eigen::Index i = 0; i < b.size(); ++i)
     if (free[i] >= layout.delay(0) && free[i] < layout.spring(0)) a(i, i) += 1.0 / (kDelayStd * kDelayStd);
-  for (std::size_t d = 0; d < blocks.size(); ++d) {
-    if (d == left_out) continue;
-    a += blocks[d].robot_matrix;
-    b += blocks[d].robot_vector;
-  }
   a.diagonal() *= 1.0 + kTinyRidge;
   a.diagonal().array() += kTiniest;
   return a.ldlt().solve(b);
-}
-
-/// Mean and second moments of the effects of all days but `left_out`, their doubt included.
-struct EffectMoments {
-  VectorXd mean, square;
-
-  VectorXd about_mean() const { return square - mean.cwiseAbs2(); }
-};
-
-EffectMoments effect_moments(const std::vector<DayBlock>& blocks, const VectorXd& theta, Eigen::Index effects,
-                             std::size_t left_out) {
-  EffectMoments out{VectorXd::Zero(effects), VectorXd::Zero(effects)};
-  double days = 0.0;
-  for (std::size_t d = 0; d < blocks.size(); ++d) {
-    if (d == left_out) continue;
-    const VectorXd effect = blocks[d].effect(theta);
-    out.mean += effect;
-    out.square +=
-        effect.cwiseAbs2() + blocks[d].factor.solve(MatrixXd::Identity(effects, effects)).diagonal();
-    days += 1.0;
-  }
-  out.mean /= days;
-  out.square /= days;
-  return out;
 }
 
 VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, const VectorXd& theta) {
@@ -142,7 +100,7 @@ MixedEffects fit_mixed_effects(DayDraft draft, const VectorXd& between) {
   const std::vector<int> free = free_columns(draft);
   const std::vector<DayBlock> blocks = day_blocks(draft, free, between);
   const VectorXd theta = theta_without(blocks, draft, free, kNoDay);
-  const EffectMoments moments = effect_moments(blocks, theta, between.size(), kNoDay);
+  const EffectMoments moments = effect_moments(blocks, theta);
   draft.model.theta = all_parameters(draft.model, free, theta);
   for (std::size_t d = 0; d < blocks.size(); ++d)
     draft.days[d].effect = blocks[d].effect(theta) - moments.mean;
@@ -155,8 +113,7 @@ std::vector<RobotWithoutDay> fit_without_each_day(const DayDraft& draft, const V
   std::vector<RobotWithoutDay> out;
   for (std::size_t d = 0; d < blocks.size(); ++d) {
     const VectorXd theta = theta_without(blocks, draft, free, d);
-    out.push_back({all_parameters(draft.model, free, theta),
-                   effect_moments(blocks, theta, between.size(), d).about_mean()});
+    out.push_back({all_parameters(draft.model, free, theta), effect_moments(blocks, theta, d).about_mean()});
   }
   return out;
 }
