@@ -70,6 +70,15 @@ std::vector<std::string> unjudged_spots(const LogFacts& log) {
   return spots;
 }
 
+std::vector<std::string> resting_spots(const LogFacts& log) {
+  std::vector<std::string> spots;
+  for (const int joint : log.resting)
+    spots.push_back(fmt::format(
+        "Joint {} hardly moved: faults that show in its motion (a lock, friction, a stuck encoder) cannot be seen.",
+        joint));
+  return spots;
+}
+
 std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,
                                         const std::vector<double>& judged_s) {
   std::vector<std::string> spots;

@@ -14,6 +14,8 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
 
 /// The stretches in which a joint could not be judged for longer than a moment, a sentence each, and one for
 /// those beyond the first few.
+/// What joints that hardly moved cannot show.
+std::vector<std::string> resting_spots(const LogFacts& log);
 std::vector<std::string> unjudged_spots(const LogFacts& log);
 /// "joint 2 could not be judged from 1.200 s to 9.990 s, the end of the log: its torque is missing".
 std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log);

@@ -134,6 +134,7 @@ struct LogFacts {
   bool is_tracked = false;                ///< without torque: held against references only
   std::vector<LogRun> runs;               ///< of its clock; one where it never restarts, or none for no file
   std::vector<UnjudgedStretch> unjudged;  ///< by start
+  std::vector<int> resting;               ///< joints, from 1, that hardly moved beside the healthy logs
   std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
   bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
   Issues issues;
@@ -159,6 +160,7 @@ struct Diagnosis {
   std::vector<ConditionItem> condition;     ///< what differs from day to day; empty where it was not followed
   /// By joint: torque that the model misses, times that in the learned logs; empty where that is as usual.
   std::vector<double> roughness;
+  double judged_share = 1.0;  ///< of the log, whose rows the regression could use; 1 where it has no part
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

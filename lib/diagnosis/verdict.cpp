@@ -24,6 +24,7 @@ constexpr double kWild = 150.0;  // times healthy: the largest residual of healt
 constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
 constexpr double kVerdictPercent = 100.0;
 constexpr std::int64_t kFewestRows = 20;
+constexpr double kFewestJudged = 0.75;    // of the log, likewise
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
 
 /// Where the model misses so much more torque than in the learned logs that what was learned of its power is
@@ -32,9 +33,8 @@ std::string why_too_rough(const std::vector<double>& roughness) {
   const auto worst = std::max_element(roughness.begin(), roughness.end());
   if (worst == roughness.end() || *worst < kRough) return "";
   return fmt::format(
-      "no fault was found, but from the first rows on the model misses {:.2g} times as much torque at joint "
-      "{} as in the learned logs, and faults that it finds there may hide here; where the robot is so on "
-      "purpose, learn a model with such logs",
+      "no fault was found, but the model misses {:.2g} times as much torque at joint {} as in the learned logs, "
+      "so that a fault may hide there; where the robot is so on purpose, learn a model with such logs",
       *worst, worst - roughness.begin() + 1);
 }
 
@@ -84,6 +84,21 @@ std::string why_not_judged(const LogFacts& log) {
       judged_window_s(log.sample_period_s));
 }
 
+/// Why too little of the log could be explained; empty if it was enough.
+std::string why_too_thin(double judged_share) {
+  if (judged_share >= kFewestJudged) return "";
+  return fmt::format(
+      "no fault was found, but the regression could use only {:.0f} % of the log: it needs some seconds of "
+      "complete rows in succession, and rows or cells are missing too often, or the log is too short",
+      kVerdictPercent * judged_share);
+}
+
+/// Why a log that shows no motion says nothing; empty where a joint moves.
+std::string why_at_rest(const LogFacts& log) {
+  if (static_cast<int>(log.resting.size()) < log.joints) return "";
+  return "no fault was found, but no joint moved: most faults show in motion only";
+}
+
 /// What a healthy verdict speaks of: the whole log only where all of it was judged.
 std::string judged_part(const LogFacts& log) {
   const auto read =
@@ -107,6 +122,8 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
   if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
   if (const std::string unjudged = why_not_judged(diagnosis.log); !unjudged.empty()) return unjudged;
+  if (const std::string thin = why_too_thin(diagnosis.judged_share); !thin.empty()) return thin;
+  if (const std::string rest = why_at_rest(diagnosis.log); !rest.empty()) return rest;
   if (power < kLeastPower)
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -14,7 +15,11 @@ namespace faultline {
 struct EvidenceLimits {
   std::array<double, kFaultKinds> nats{};
 
-  double of(FaultKind kind) const { return nats[static_cast<std::size_t>(kind)]; }
+  /// A drive that clips is an unknown fault, and healthy logs that resemble a lost torque resemble it, too.
+  double of(FaultKind kind) const {
+    const double own = nats[static_cast<std::size_t>(kind)];
+    return kind == FaultKind::unknown ? std::max(own, of(FaultKind::torque_loss)) : own;
+  }
 };
 
 /// Limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that was

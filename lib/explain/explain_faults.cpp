@@ -49,6 +49,12 @@ std::vector<double> loudness_of(const LogFit& fit) {
   return out;
 }
 
+/// Time of the rows whose kernel crosses no lost sample.
+double judged_s(const LogFit& fit) {
+  const std::vector<bool>& lost = fit.rows().lost;
+  return fit.model().setting.row_s() * static_cast<double>(std::count(lost.begin(), lost.end(), false));
+}
+
 /// Whether two faults of one joint begin so close to each other that the second is what the columns of the
 /// first lack of its form.
 bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
@@ -71,7 +77,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   if (!out.named.empty())
     out.unknown = as_unknown(out.named.front(), e, own, evidence);
   else
-    out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit)};
+    out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit), .judged_s = judged_s(fit)};
   return out;
 }
 

@@ -42,6 +42,8 @@ ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits
   const LogExplanation e = explain_coarse(log);
   std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(log, e));
   ExplainedLog out;
+  out.judged_s =
+      log.period_s() * static_cast<double>(std::count(log.log.lost.begin(), log.log.lost.end(), false));
   if (!fault) return out;
   if (fault->claim.kind == FaultKind::unknown) {
     fault = with_first_strike(std::move(*fault), log);

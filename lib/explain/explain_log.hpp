@@ -19,6 +19,11 @@ using RobotRows = std::variant<BalanceModel, OneStepModel>;
 struct ExplainModel {
   RobotRows robot;
   EvidenceLimits limits;
+  /// Of a log that is explained at once, s: that of the healthy logs which the limits come from, since what a
+  /// model lacks gives evidence in proportion to the rows.
+  double window_s = kLongestWindow_s;
+
+  static constexpr double kShortestWindow_s = 20.0, kLongestWindow_s = 60.0;
 };
 
 double sample_period_s(const RobotRows& robot);
@@ -29,6 +34,7 @@ struct ExplainedLog {
   std::vector<FaultClaim> followed{};    ///< those that lasted when the log began, in the order given
   std::vector<DayEffect> day{};          ///< effects of the day beside the faults
   std::vector<double> loudness{};        ///< by joint: the noise of its rows, times that of the healthy logs
+  double judged_s = 0.0;                 ///< of the log, by rows that count
 };
 
 /// Whether a log is long enough to say anything.

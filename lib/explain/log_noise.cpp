@@ -26,9 +26,13 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
   return out;
 }
 
-constexpr double kRowsOfHealthyLogs = 30.0;                   // that the noise of the healthy logs counts for
-constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;  // of the log: rows that count in any case
-constexpr double kLost = 1e3;  // times the least standard deviation: a row that does not count
+constexpr double kRowsOfHealthyLogs = 30.0;  // that the noise of the healthy logs counts for
+/// From the first motion of the log on, unless it changes before: rows that count in any case. A log at rest
+/// says nothing of its noise.
+constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
+constexpr double kJustBefore_s = 0.2;  // the first motion: the kernel reaches so far
+constexpr double kMoves = 0.05;        // of a joint's greatest healthy speed
+constexpr double kLost = 1e3;          // times the least standard deviation: a row that does not count
 
 /// Sums of products of rows that lie 0, 1, .. `order` apart.
 VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
@@ -36,6 +40,15 @@ VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
   for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
     out[lag] = rows.head(rows.size() - lag).dot(rows.tail(rows.size() - lag));
   return out;
+}
+
+/// When any joint first moves; the first row where none does.
+double first_motion_s(const LogFit& fit) {
+  const VectorXd& top = fit.model().top_speed;
+  for (int k = 0; k < fit.count(); ++k)
+    if ((fit.rows().dq.row(k).transpose().cwiseAbs().array() > kMoves * top.array()).any())
+      return fit.time_s()[k];
+  return fit.time_s()[0];
 }
 
 }  // namespace
@@ -63,7 +76,9 @@ RowNoise own_noise(const LogFit& fit) {
     torque -=
         fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
   const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
-  const double first_s = fit.time_s()[0], length_s = fit.time_s()[fit.count() - 1] - first_s;
+  const double motion_s = first_motion_s(fit),
+               first_s = change.onset_s > motion_s - kJustBefore_s ? motion_s : fit.time_s()[0],
+               length_s = fit.time_s()[fit.count() - 1] - first_s;
   const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
                                   first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
   RowNoise out = fit.model().noise;

@@ -238,7 +238,7 @@ OneStepModel one_step_from_json(const nlohmann::json& json, const std::string& w
 }  // namespace
 
 nlohmann::json explain_model_to_json(const ExplainModel& model) {
-  nlohmann::json json = {{"limits", nlohmann::json::object()}};
+  nlohmann::json json = {{"limits", nlohmann::json::object()}, {"window_s", model.window_s}};
   for (int k = 0; k < kFaultKinds; ++k)
     json["limits"][to_string(static_cast<FaultKind>(k))] = model.limits.nats[static_cast<std::size_t>(k)];
   if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
@@ -253,6 +253,7 @@ ExplainModel explain_model_from_json(const nlohmann::json& json, const std::stri
   for (int k = 0; k < kFaultKinds; ++k)
     model.limits.nats[static_cast<std::size_t>(k)] =
         number_from_json(json.at("limits"), to_string(static_cast<FaultKind>(k)), where);
+  model.window_s = number_from_json(json, "window_s", where);
   if (json.contains("one_step"))
     model.robot = one_step_from_json(json.at("one_step"), where);
   else

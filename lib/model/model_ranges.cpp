@@ -56,6 +56,7 @@ constexpr std::array kRanges = {
     PlacedRange{"/validation/rows/*/p90_delay_s", {-1e6, 1e6}},
     PlacedRange{"/validation", kPositive},
     PlacedRange{"/explain/limits", kPositive},
+    PlacedRange{"/explain/window_s", kPositive},
     PlacedRange{"/explain/balance/setting/decimation", kNaturalCount},
     PlacedRange{"/explain/balance/setting/torque_lag", {-1e3, 1e3}},
     PlacedRange{"/explain/balance/setting/period_s", kPeriod},

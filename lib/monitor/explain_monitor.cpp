@@ -10,8 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kWindow_s = 60.0;
-constexpr double kOverlap_s = 20.0;     // of two windows; the middle parts what each decides
+constexpr double kOverlap = 1.0 / 3.0;  // of a window and the next; the middle parts what each decides
 constexpr double kLongestGap_s = 2.0;   // that a window spans
 constexpr double kFasterBetween = 2.0;  // times the velocity at both ends, between two rows
 constexpr double kLeastJump = 0.01;     // rad or m
@@ -86,7 +85,7 @@ void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::ve
     const double first_s = window_.rows() > 0 ? window_.time.front() : segment.time[begin];
     const bool is_gap =
         is_new_run || t - last.t() > kLongestGap_s || is_break(last, now, model_.sample_period_s);
-    if (!is_gap && t - first_s < kWindow_s) continue;
+    if (!is_gap && t - first_s < model_.explain.window_s) continue;
     take_rows(segment, begin, k);
     explain_window(!is_gap);
     begin = k;
@@ -107,13 +106,16 @@ void ExplainMonitor::finish() { explain_window(false); }
 /// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
 void ExplainMonitor::explain_window(bool is_followed) {
   if (window_.rows() == 0) return;
-  const double end_s = window_.time.back(), kept_s = end_s - kOverlap_s;
-  const double until_s = is_followed ? end_s - 0.5 * kOverlap_s : end_s;
+  const double overlap_s = kOverlap * model_.explain.window_s;
+  const double end_s = window_.time.back(), kept_s = end_s - overlap_s;
+  const double until_s = is_followed ? end_s - 0.5 * overlap_s : end_s;
   const ExplainedLog explained = explained_window();
   const std::vector<Lasting> unfollowed = follow(explained.followed);
   for (const ExplainedFault& fault : explained.faults)
     if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
   add_day(explained.day);
+  judged_s_ += explained.judged_s;
+  read_s_ += end_s - window_.time.front();
   loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
   for (std::size_t j = 0; j < explained.loudness.size(); ++j)
     loudness_[j] = std::max(loudness_[j], explained.loudness[j]);

@@ -16,9 +16,10 @@ namespace faultline {
 /// From an onset on, over which the residuals of an episode are told.
 inline constexpr double kEpisodeResiduals_s = 3.0;
 
-/// Gathers the rows of a log in windows of a minute and explains each of them. Windows overlap, so that
-/// an onset has rows before and behind it; a gap or a restart of the clock ends a window. A fault that lasts
-/// is known to the next window. Where segments end changes nothing, and memory does not grow with the log.
+/// Gathers the rows of a log in windows (ExplainModel::window_s) and explains each of them. Windows overlap,
+/// so that an onset has rows before and behind it; a gap or a restart of the clock ends a window. A fault
+/// that lasts is known to the next window. Where segments end changes nothing, and memory does not grow with
+/// the log.
 class ExplainMonitor {
  public:
   /// The model outlives this.
@@ -33,6 +34,8 @@ class ExplainMonitor {
   const std::vector<MonitoredEpisode>& episodes() const { return episodes_; }
   /// What the log tells of the effects of its day; empty where nothing could be explained.
   std::vector<DayEffect> day() const;
+  /// Share of the log whose rows count for the regression; 0 where no window could be explained.
+  double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
   /// By joint: the noise of the rows, times that of the healthy logs, in the loudest window.
   const std::vector<double>& loudness() const { return loudness_; }
 
@@ -65,6 +68,7 @@ class ExplainMonitor {
   std::vector<MonitoredEpisode> episodes_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
   std::vector<double> loudness_;
+  double judged_s_ = 0.0, read_s_ = 0.0;  ///< over all windows
 };
 
 }  // namespace faultline

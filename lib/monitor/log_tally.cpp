@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
@@ -13,6 +15,8 @@
 
 namespace faultline {
 namespace {
+
+constexpr double kHardly = 0.01;  // of the range of the healthy logs
 
 bool can_track(const Log& segment, const Model& model) {
   return std::any_of(model.relations.begin(), model.relations.end(), [&](const SignalRelation& relation) {
@@ -70,6 +74,11 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();
   has_velocity = !segment.dq.empty();
+  q_low.resize(segment.q.size(), std::numeric_limits<double>::infinity());
+  q_high.resize(segment.q.size(), -std::numeric_limits<double>::infinity());
+  for (std::size_t j = 0; j < segment.q.size(); ++j)
+    for (const double q : segment.q[j])
+      if (std::isfinite(q)) q_low[j] = std::min(q_low[j], q), q_high[j] = std::max(q_high[j], q);
   for (int k = 0; k < segment.rows(); ++k) {
     bool complete = true;
     for (int j = 0; j < segment.joints(); ++j)
@@ -77,6 +86,20 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
                  (segment.tau.empty() || std::isfinite(segment.tau[j][k]));
     judgeable_rows += complete;
   }
+}
+
+/// Joints, from 1, that move less than a small part of what the healthy logs hold.
+std::vector<int> resting_joints(const LogTally& tally, const Model& model) {
+  std::vector<int> out;
+  if (!model.has_mechanics()) return out;
+  const auto [low, high] =
+      std::visit([](const auto& robot) { return std::pair(robot.q_low, robot.q_high); }, model.explain.robot);
+  for (int j = 0; j < low.size(); ++j) {
+    const auto joint = static_cast<std::size_t>(j);
+    if (joint < tally.q_low.size() && tally.q_high[joint] - tally.q_low[joint] < kHardly * (high[j] - low[j]))
+      out.push_back(j + 1);
+  }
+  return out;
 }
 
 LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model) {
@@ -98,6 +121,7 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.has_velocity = tally.has_velocity;
   facts.issues = log.issues();
   facts.runs = log.identity().runs;
+  facts.resting = resting_joints(tally, model);
   facts.unjudged = tally.stretches.longer_than_a_moment(quality.time.period_s);
   for (const UnjudgedStretch& thin : tally.thin.stretches()) facts.unjudged.push_back(thin);
   std::stable_sort(facts.unjudged.begin(), facts.unjudged.end(),

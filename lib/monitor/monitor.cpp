@@ -84,7 +84,8 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .relation_episodes = relations.episodes(),
           .relations_judged_s = relations.judged_s(),
           .relations_beyond_s = relations.beyond_s(),
-          .roughness = explained.loudness()};
+          .roughness = explained.loudness(),
+          .judged_share = by_samples ? 1.0 : explained.judged_share()};
 }
 
 MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, double end_s) {

@@ -22,6 +22,7 @@ struct MonitoredLog {
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
   std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged
   std::vector<double> roughness;           ///< Diagnosis::roughness
+  double judged_share = 1.0;               ///< Diagnosis::judged_share
 };
 
 }  // namespace faultline

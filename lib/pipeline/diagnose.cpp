@@ -59,7 +59,7 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
     for (std::string& spot : tracking_spots(model, run.relations_judged_s)) spots.push_back(std::move(spot));
     return spots;
   }
-  for (auto& more : {blind_spots(model.robot.log.torque, run.log.has_velocity),
+  for (auto& more : {resting_spots(run.log), blind_spots(model.robot.log.torque, run.log.has_velocity),
                      relation_spots(model.relations, run.relations_judged_s),
                      drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
                      weak_spots(model.validation), rough_spots(run.roughness),
@@ -174,6 +174,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.day, model.robot.chain);
   diagnosis.roughness = run.roughness;
+  diagnosis.judged_share = run.judged_share;
   diagnosis.cannot_see = unseen_by(run, model);
   settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/explained_robot.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/pipeline/day_differences.hpp"
 
 namespace faultline {
@@ -16,6 +18,15 @@ RobotRows as_stated(RobotRows rows, const Model& model) {
   const bool is_measured = model.robot.log.torque == TorqueMeaning::measured;
   std::visit([&](auto& each) { each.torque_is_measured = is_measured; }, rows);
   return with_stated_ranges(std::move(rows), model.robot.normal, model.motion.torque_scale);
+}
+
+/// As long as the logs that the limits come from.
+double window_s(const std::vector<UniformLog>& logs) {
+  std::vector<double> length_s;
+  for (const UniformLog& log : logs) length_s.push_back(log.rows() * log.period_s);
+  if (length_s.empty()) return ExplainModel::kLongestWindow_s;
+  return std::clamp(upper_median(std::move(length_s)), ExplainModel::kShortestWindow_s,
+                    ExplainModel::kLongestWindow_s);
 }
 
 }  // namespace
@@ -40,6 +51,7 @@ ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& ro
     if (can_explain(uniform[k], others)) out.left_out[k] = explain_healthy(uniform[k], others);
   });
   model.explain.limits = raised(evidence_limits(out.left_out), options.more_nats);
+  model.explain.window_s = window_s(uniform);
   return out;
 }
 
