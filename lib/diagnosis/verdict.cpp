@@ -95,7 +95,7 @@ std::string why_too_thin(double judged_share) {
 
 /// Why a log that shows no motion says nothing; empty where a joint moves.
 std::string why_at_rest(const LogFacts& log) {
-  if (static_cast<int>(log.resting.size()) < log.joints) return "";
+  if (log.resting.empty() || std::ssize(log.resting) < log.joints) return "";
   return "no fault was found, but no joint moved: most faults show in motion only";
 }
 
