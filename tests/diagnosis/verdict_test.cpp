@@ -245,6 +245,29 @@ TEST(Verdict, ALogThatTheModelMissesManyTimesMoreOfIsNotCalledHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
+TEST(Verdict, ALogOfWhichLittleCouldBeExplainedIsNotCalledHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.judged_share = 0.4;
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("only 40 % of the log"), std::string::npos);
+  diagnosis.judged_share = 0.9;
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+}
+
+TEST(Verdict, ALogInWhichNoJointMovesIsNotCalledHealthy) {
+  Diagnosis diagnosis = of_log(1000, 1000);
+  diagnosis.log.joints = 3;
+  diagnosis.log.resting = {1, 2, 3};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
+  EXPECT_NE(diagnosis.verdict_reason.find("no joint moved"), std::string::npos);
+  diagnosis.log.resting = {1, 3};
+  settle_verdict(diagnosis, {}, kPeriod_s);
+  EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
+}
+
 TEST(Verdict, AFaultStandsInARoughLog) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {9.0};

@@ -77,11 +77,12 @@ struct ClosedFormRun {
   double clips_from_s = 1e9;                        ///< from then on the drives give no more than `clip`
   std::array<double, 3> clip = {1e9, 1e9, 1e9};     ///< N m or N
   std::uint64_t seed = 1;
+  double bandwidth = 12.0;  ///< of the controller, rad/s
 };
 
 /// Sums of two sines followed by PD with the torque held over a sample; white noise on q and dq.
 inline Log simulate_closed_form(const ClosedFormScara& robot, const ClosedFormRun& run) {
-  constexpr double kBandwidth = 12.0;
+  const double bandwidth = run.bandwidth;
   Random random(run.seed);
   std::array<std::array<double, 3>, 3> phase;
   for (auto& of : phase)
@@ -107,7 +108,7 @@ inline Log simulate_closed_form(const ClosedFormScara& robot, const ClosedFormRu
     for (int j = 0; j < 3; ++j) {
       double q = 0.0, dq = 0.0;
       reference(k * run.period_s, j, q, dq);
-      tau[j] = inertia[j] * (kBandwidth * kBandwidth * (q - x.q[j]) + 2 * kBandwidth * (dq - x.dq[j])) +
+      tau[j] = inertia[j] * (bandwidth * bandwidth * (q - x.q[j]) + 2 * bandwidth * (dq - x.dq[j])) +
                (j == 2 ? robot.carried() * 9.81 : 0.0);
       log.q[j].push_back(x.q[j] + run.q_noise * random.normal());
       log.dq[j].push_back(x.dq[j] + run.dq_noise * random.normal());
