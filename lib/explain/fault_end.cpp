@@ -13,31 +13,40 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kAbsentShare = 0.7;     // of the evidence that an absent fault gives
-constexpr double kSurelyLasts_s = 10.0;  // at the beginning of a log
-constexpr int kRestRows = 8;             // that show where a locked joint stands
-constexpr int kMovesRows = 3;            // in succession that show that it moves again
-constexpr double kTakenBack = 0.3;       // of a false reading by which the jump back may differ
+constexpr double kAbsentShare = 0.7;    // of the evidence that an absent fault gives
+constexpr double kSurelyLasts_s = 5.0;  // at the beginning of a log, or behind the onset
+constexpr int kRestRows = 8;            // that show where a locked joint stands
+constexpr int kMovesRows = 3;           // in succession that show that it moves again
+constexpr double kTakenBack = 0.3;      // of a false reading by which the jump back may differ
 
-/// When a joint that was locked moves again.
-std::optional<double> moves_from(const LogFit& fit, int joint) {
+/// When a joint that is locked from `from_s` on moves again: with its spring or without, as the lock may be
+/// on either side of it.
+std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
   const auto [place, tolerance] = standstill(fit, joint);
-  const int rest_rows = std::min(kRestRows, fit.count());
-  const double rest = upper_median({place.data(), place.data() + rest_rows});
+  const VectorXd q = fit.rows().q.col(joint);
+  int first = 0;
+  while (first < fit.count() && fit.time_s()[first] < from_s) ++first;
+  const int rest_rows = std::min(kRestRows, fit.count() - first);
+  if (rest_rows < kMovesRows) return std::nullopt;
+  const auto rest_of = [&](const VectorXd& values) {
+    return upper_median({values.data() + first, values.data() + first + rest_rows});
+  };
+  const double rest = rest_of(place), q_rest = rest_of(q);
   int moving = 0;
-  for (int k = 0; k < fit.count(); ++k) {
-    moving = std::abs(place[k] - rest) > tolerance ? moving + 1 : 0;
+  for (int k = first; k < fit.count(); ++k) {
+    const double off = std::min(std::abs(place[k] - rest), std::abs(q[k] - q_rest));
+    moving = off > tolerance ? moving + 1 : 0;
     if (moving == kMovesRows) return fit.time_s()[k - kMovesRows + 1];
   }
   return std::nullopt;
 }
 
-/// When an encoder that was stuck gives another code.
-std::optional<double> reads_again_from(const LogFit& fit, int joint) {
-  const double start_s = fit.log().time_s(0);
+/// When an encoder that is stuck from `from_s` on gives another code.
+std::optional<double> reads_again_from(const LogFit& fit, int joint, double from_s) {
   for (const RepeatedCode& run : repeated_codes(fit, joint))
-    if (run.onset_s <= start_s) return run.end_s < kNeverEnds ? std::optional(run.end_s) : std::nullopt;
-  return start_s;
+    if (run.onset_s <= from_s && run.end_s > from_s)
+      return run.end_s < kNeverEnds ? std::optional(run.end_s) : std::nullopt;
+  return from_s;
 }
 
 /// When a jump of the position takes a false reading back.
@@ -61,10 +70,10 @@ struct KnownFault {
   Eigen::Index sizes() const { return claim.size.size(); }
 };
 
-/// Whitened rows with the fault and without it. The effects are those that the first rows show, in which the
-/// fault is known to last: behind its end it would bend the effects of the day.
-WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault) {
-  const VectorXd effects = fit.day_before(fit.log().time_s(0) + kSurelyLasts_s);
+/// Whitened rows with the fault and without it. The effects are those that the rows before `until_s` show, up
+/// to which the fault is known to last: behind its end it would bend the effects of the day.
+WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault, double until_s) {
+  const VectorXd effects = fit.day_before(until_s);
   Stacked torque = fit.residual() - fit.day_torque(effects);
   if (fit.healthy().piece_level.size() > 0) torque -= fit.piece_torque(fit.healthy().piece_level);
   WithAndWithout out;
@@ -76,11 +85,12 @@ WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault) {
 
 std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
   const FaultClaim& claim = fault.claim;
-  if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1);
-  if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1);
+  const double from_s = std::max(fit.log().time_s(0), claim.onset_s + reach_s(fit.model().setting));
+  if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1, from_s);
+  if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1, from_s);
   if (reads_wrong(claim.kind))
     if (const std::optional<double> back = taken_back_at(fit, claim)) return back;
-  return gone_from(fit, with_and_without(fit, fault), fit.log().time_s(0));
+  return gone_from(fit, with_and_without(fit, fault, from_s + kSurelyLasts_s), from_s);
 }
 
 }  // namespace
