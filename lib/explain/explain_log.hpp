@@ -19,8 +19,8 @@ using RobotRows = std::variant<BalanceModel, OneStepModel>;
 struct ExplainModel {
   RobotRows robot;
   EvidenceLimits limits;
-  /// Of a log that is explained at once, s: that of the healthy logs which the limits come from, since what a
-  /// model lacks gives evidence in proportion to the rows.
+  /// Of a log that is explained at once, s: about that of the healthy logs which the limits come from, since
+  /// what a model lacks gives evidence in proportion to the rows.
   double window_s = kLongestWindow_s;
 
   static constexpr double kShortestWindow_s = 20.0, kLongestWindow_s = 60.0;

@@ -11,6 +11,7 @@
 namespace faultline {
 namespace {
 
+constexpr double kSlack = 1.25;        // lengths of a healthy log that a window has
 constexpr double kHealthyKnown = 0.8;  // share of the work that is done when the healthy robot is known
 
 /// Rows as the robot file says: what its torque is, and how far days may differ.
@@ -20,12 +21,12 @@ RobotRows as_stated(RobotRows rows, const Model& model) {
   return with_stated_ranges(std::move(rows), model.robot.normal, model.motion.torque_scale);
 }
 
-/// As long as the logs that the limits come from.
+/// About as long as the logs that the limits come from: a log of their length is one window.
 double window_s(const std::vector<UniformLog>& logs) {
   std::vector<double> length_s;
   for (const UniformLog& log : logs) length_s.push_back(log.rows() * log.period_s);
   if (length_s.empty()) return ExplainModel::kLongestWindow_s;
-  return std::clamp(upper_median(std::move(length_s)), ExplainModel::kShortestWindow_s,
+  return std::clamp(kSlack * upper_median(std::move(length_s)), ExplainModel::kShortestWindow_s,
                     ExplainModel::kLongestWindow_s);
 }
 
