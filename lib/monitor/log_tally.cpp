@@ -10,6 +10,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/channel_names.hpp"
 #include "lib/log/columns/joint_count.hpp"
 #include "lib/robot/axis_units.hpp"
 
@@ -74,11 +75,6 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();
   has_velocity = !segment.dq.empty();
-  q_low.resize(segment.q.size(), std::numeric_limits<double>::infinity());
-  q_high.resize(segment.q.size(), -std::numeric_limits<double>::infinity());
-  for (std::size_t j = 0; j < segment.q.size(); ++j)
-    for (const double q : segment.q[j])
-      if (std::isfinite(q)) q_low[j] = std::min(q_low[j], q), q_high[j] = std::max(q_high[j], q);
   for (int k = 0; k < segment.rows(); ++k) {
     bool complete = true;
     for (int j = 0; j < segment.joints(); ++j)
@@ -95,8 +91,11 @@ std::vector<int> resting_joints(const LogTally& tally, const Model& model) {
   const auto [low, high] =
       std::visit([](const auto& robot) { return std::pair(robot.q_low, robot.q_high); }, model.explain.robot);
   for (int j = 0; j < low.size(); ++j) {
-    const auto joint = static_cast<std::size_t>(j);
-    if (joint < tally.q_low.size() && tally.q_high[joint] - tally.q_low[joint] < kHardly * (high[j] - low[j]))
+    const auto q = std::find_if(
+        tally.quality.channels.begin(), tally.quality.channels.end(), [&](const ChannelSummary& channel) {
+          return channel.canonical && channel.name == to_string(Channel{Quantity::q, j + 1});
+        });
+    if (q != tally.quality.channels.end() && q->max - q->min < kHardly * (high[j] - low[j]))
       out.push_back(j + 1);
   }
   return out;

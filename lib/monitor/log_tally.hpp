@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "lib/diagnosis/diagnosis.hpp"
 #include "lib/log/log_source.hpp"
@@ -24,7 +23,6 @@ struct LogTally {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
   bool has_velocity = false;
-  std::vector<double> q_low, q_high;  ///< by joint, rad or m
   JudgedStretches stretches;
   ThinStretches thin;    ///< of the log with its lost rows as empty ones
   QualityState quality;  ///< gaps, missing values, implausible units and the like

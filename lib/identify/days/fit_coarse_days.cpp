@@ -156,7 +156,8 @@ CoarsePass passed(const CoarseDay& day, const OneStepModel& m, double doubt) {
   const MatrixXd wide = (doubt * m.torque_rms).replicate(1, steps.intervals);
   in.process = process_covariance(
       steps, at, (m.force_std(day.log, day.about).cwiseAbs2() + wide.cwiseAbs2()).cwiseSqrt());
-  in.reading = readings(day.log) - day.about;
+  const Trajectory read = readings(day.log);
+  in.reading = read - day.about;
   in.variance = m.variance_of_readings(day.log);
   const Innovations filter = innovations(steps, in);
   const auto white = filter.white.rightCols(directions.cols());
@@ -164,7 +165,7 @@ CoarsePass passed(const CoarseDay& day, const OneStepModel& m, double doubt) {
   CoarsePass out{normal_equations(white, rows), {}, {}};
   MatrixXd variance;
   out.about = day.about + smoothed(steps, filter, VectorXd::Zero(directions.cols()), &variance);
-  out.square = ((readings(day.log) - out.about).cwiseAbs2() + variance.cwiseMax(0.0)).rowwise().sum();
+  out.square = ((read - out.about).cwiseAbs2() + variance.cwiseMax(0.0)).rowwise().sum();
   return out;
 }
 
