@@ -129,11 +129,12 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
     const std::vector<ExplainedFault> again = named_faults(e, limits, evidence, 1);
     const std::optional<FaultHypothesis> first = judge(fit, faults[k].claim);
     const double gain = first ? first->gain : 0.0;
-    if (again.empty() && gain <= limits.of(faults[k].claim.kind)) {
+    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0])) {
+      faults[k] = again[0];
+    } else if (gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
       continue;
     }
-    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0])) faults[k] = again[0];
     ++k;
   }
   return faults;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/fault_end.hpp"
@@ -15,8 +17,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFreeRowCost =
-    1.5;  // nats of a row and joint of which nothing is said: that of 1.7 standard deviations
+/// Nats of a row and joint of which nothing is said: that of 1.7 standard deviations.
+constexpr double kFreeRowCost = 1.5;
 
 /// Nats that each row costs: by joint as the rows before the change explain them, or each row of the change
 /// with a torque of its own as large as is usual for the joint, whichever costs less.
@@ -35,54 +37,111 @@ VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
   return out;
 }
 
-}  // namespace
-
-FreeForm free_form(const LogFit& fit) {
-  const int rows = fit.count(), n = fit.joints();
-  const int effects = static_cast<int>(fit.effect_variance().size());
+/// Whitened rows that no explanation but the healthy robot and the day has yet: without the work piece as
+/// seen before a fault could bend the effects of the day, and nothing where the piece changes, since a row
+/// does not know the time of that change.
+Stacked rows_to_explain(const LogFit& fit) {
   Stacked torque = fit.residual();
-  if (fit.has_piece())  // as seen before a fault could bend the effects of the day
+  if (fit.has_piece())
     torque -=
         fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
   Stacked white = fit.whitened(torque);
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
-  for (int k = 0; k < static_cast<int>(changes.size()); ++k)  // the time of a change is not known to a row
-    for (int j = 0; j < n && changes[k]; ++j) white[j * rows + k] = 0.0;
-  NormalEquations sums{MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
+  for (int k = 0; k < static_cast<int>(changes.size()); ++k)
+    for (int j = 0; j < fit.joints() && changes[k]; ++j) white[j * fit.count() + k] = 0.0;
+  return white;
+}
+
+/// Sums over rows of one joint, from which the cost of any effects of the day follows.
+NormalEquations no_rows(Eigen::Index effects) {
+  return {MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
+}
+
+void add_row(NormalEquations& sums, const VectorXd& effects, double white) {
+  sums.matrix += effects * effects.transpose();
+  sums.vector += white * effects;
+  sums.square += white * white;
+  sums.rows += 1.0;
+}
+
+/// Sum of squares that the effects of the day leave of rows.
+double square_left(const NormalEquations& rows, const VectorXd& day) {
+  return rows.square - 2.0 * day.dot(rows.vector) + day.dot(rows.matrix * day);
+}
+
+/// The joints of which a change may cost the rows.
+enum class ChangeOf { all_joints, some_joints };
+
+/// The change that costs least: from it on each row of all joints costs kFreeRowCost, or of those joints
+/// alone of which the rows would cost more as they are explained before it.
+Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
+  const int rows = fit.count(), n = fit.joints();
+  const Eigen::Index effects = fit.effect_variance().size();
+  const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
+  const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
+  std::vector<NormalEquations> all(n, no_rows(effects)), before = all;
+  const auto add = [&](std::vector<NormalEquations>& sums, int k) {
+    for (int j = 0; j < n && counts(k); ++j)
+      add_row(sums[j], fit.white_effects().row(j * rows + k).transpose(), white[j * rows + k]);
+  };
+  for (int k = 0; k < rows; ++k) add(all, k);
   const VectorXd precision = fit.effect_variance().cwiseInverse();
   const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
   double least = std::numeric_limits<double>::infinity();
-  int best = first;
-  VectorXd day = VectorXd::Zero(effects);
+  Change best{first, 0.0, VectorXd::Zero(effects)};
   for (int k = 0; k + kTail < rows; ++k) {
-    for (int j = 0; j < n; ++j) {
-      const double y = white[j * rows + k];
-      if (!changes.empty() && changes[k]) continue;
-      const VectorXd w = fit.white_effects().row(j * rows + k).transpose();
-      sums.matrix += w * w.transpose();
-      sums.vector += y * w;
-      sums.square += y * y;
-    }
+    add(before, k);
     if (k < first) continue;
-    const Regression before = regress(sums, precision);
-    const double cost =
-        0.5 * (sums.square - before.estimate.dot(sums.vector)) + kFreeRowCost * n * (rows - 1 - k);
+    NormalEquations sums = no_rows(effects);
+    for (const NormalEquations& joint : before) {
+      sums.matrix += joint.matrix;
+      sums.vector += joint.vector;
+      sums.square += joint.square;
+    }
+    Regression day = regress(sums, precision);
+    double cost = 0.5 * precision.dot(day.estimate.cwiseAbs2());
+    for (int j = 0; j < n; ++j) {
+      const double explained = 0.5 * square_left(all[j], day.estimate),
+                   costs_before = 0.5 * square_left(before[j], day.estimate),
+                   free = costs_before + kFreeRowCost * (rows - 1 - k);
+      cost += of == ChangeOf::all_joints ? free : std::min(free, explained);
+    }
     if (cost >= least) continue;
     least = cost;
-    best = k;
-    day = before.estimate;
+    best = {k, 0.0, std::move(day.estimate)};
   }
-  FreeForm out;
-  out.onset_s = fit.time_s()[std::min(best + 1, rows - 1)];
-  out.left = white - fit.white_effects() * day;
-  out.day = std::move(day);
-  double back = 0.0, most = kEndEvidence;
-  for (int k = rows - 1; k > best && fit.time_s()[k] > out.onset_s + kLeastFault_s; --k) {
-    for (int j = 0; j < n; ++j) back += kFreeRowCost - 0.5 * Eigen::numext::abs2(out.left[j * rows + k]);
+  best.onset_s = fit.time_s()[std::min(best.last_row + 1, rows - 1)];
+  return best;
+}
+
+/// From when on the healthy robot explains the rows again; kNeverEnds where it does not.
+double explained_again_s(const LogFit& fit, const Stacked& left, const Change& change) {
+  const int rows = fit.count();
+  double back = 0.0, most = kEndEvidence, out = kNeverEnds;
+  for (int k = rows - 1; k > change.last_row && fit.time_s()[k] > change.onset_s + kLeastFault_s; --k) {
+    for (int j = 0; j < fit.joints(); ++j)
+      back += kFreeRowCost - 0.5 * Eigen::numext::abs2(left[j * rows + k]);
     if (back <= most) continue;
     most = back;
-    out.end_s = fit.time_s()[k];
+    out = fit.time_s()[k];
   }
+  return out;
+}
+
+}  // namespace
+
+Change first_change(const LogFit& fit) {
+  return cheapest_change(fit, rows_to_explain(fit), ChangeOf::some_joints);
+}
+
+FreeForm free_form(const LogFit& fit) {
+  const Stacked white = rows_to_explain(fit);
+  Change change = cheapest_change(fit, white, ChangeOf::all_joints);
+  FreeForm out;
+  out.onset_s = change.onset_s;
+  out.left = white - fit.white_effects() * change.day;
+  out.end_s = explained_again_s(fit, out.left, change);
+  out.day = std::move(change.day);
   out.row_cost = row_costs(fit, out);
   return out;
 }

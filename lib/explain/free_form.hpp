@@ -8,6 +8,17 @@ namespace faultline {
 
 inline constexpr int kRowsOfChange = 6;  ///< on each side of a change of the work piece: kernel and filter
 
+/// Where the healthy robot and the day cease to explain a log.
+struct Change {
+  int last_row = 0;       ///< that they explain
+  double onset_s = 0.0;   ///< of the row after it
+  Eigen::VectorXd day{};  ///< effects, as the rows up to the last one show them
+};
+
+/// The moment from which on the rows of some joint cost more, as those before it explain them, than a few
+/// nats each.
+Change first_change(const LogFit& fit);
+
 /// A change of any form: the log is explained up to a moment, and what follows is a torque of the usual size
 /// that every row has of its own, on the joints that need one.
 struct FreeForm {
@@ -18,8 +29,10 @@ struct FreeForm {
   Stacked left{};  ///< whitened rows left over, with the effects that the rows before the onset show
 };
 
-/// The moment up to which rows are explained, and from when on they are again, where each row in between
-/// costs a few nats. The effects of the day are those of the rows before.
+/// The moment up to which rows are explained, and from when on they are again, where each row of every joint
+/// in between costs a few nats. It is later than first_change() where one joint alone changes a little: a
+/// fault of no kind needs more evidence than rows that are not counted as the noise of the log. The effects
+/// of the day are those of the rows before.
 FreeForm free_form(const LogFit& fit);
 
 /// How what the rows before a change cannot explain grows from it on.

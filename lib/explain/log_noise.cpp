@@ -70,7 +70,7 @@ MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const
 }
 
 RowNoise own_noise(const LogFit& fit) {
-  const FreeForm change = free_form(fit);
+  const Change change = first_change(fit);
   Stacked torque = fit.residual() - fit.day_torque(change.day);
   if (fit.has_piece())
     torque -=

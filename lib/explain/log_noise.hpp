@@ -17,9 +17,10 @@ Eigen::VectorXd row_loudness(const UniformLog& log, const BalanceModel& model);
 Eigen::MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model,
                               const Eigen::VectorXd& loudness);
 
-/// The noise of a log as its rows before any change show it (free_form()), joint by joint where it is louder
-/// than that of the healthy logs: a robot may have what no healthy log had, such as ripple or friction that
-/// depends on load, and what it leaves from the first row on is no evidence for a fault that begins later.
+/// The noise of a log as its rows before any change show it (first_change()), joint by joint where it is
+/// louder than that of the healthy logs: a robot may have what no healthy log had, such as ripple or friction
+/// that depends on load, and what it leaves from the first row on is no evidence for a fault that begins
+/// later.
 RowNoise own_noise(const LogFit& fit);
 
 }  // namespace faultline
