@@ -23,7 +23,8 @@ struct FaultClaim {
   Eigen::VectorXd size{};
   /// From nothing at the onset; then `size` is that of each second, as friction that creeps.
   bool grows = false;
-  /// Of a drift: the velocity is measured apart from the position and does not drift with it.
+  /// Of a false position: the velocity is measured apart from it and shows nothing of it. A velocity that is
+  /// computed from the position drifts with it, and is wrong for a moment where it jumps.
   bool velocity_is_true = false;
 };
 

@@ -13,6 +13,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Velocities that a jump of the position reaches where the controller computes them from it: a difference
+/// and a filter.
+constexpr double kVelocityBefore_s = 0.02, kVelocityAfter_s = 0.1;
 constexpr double kReach = 1.5,
                  kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
 constexpr double kLongestReach_s = 0.1;    // beside a stuck encoder
@@ -157,6 +160,21 @@ StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const Fa
   return out;
 }
 
+namespace {
+
+/// Velocities around a jump of the position, which the controller computed from it: those of the positions
+/// without the jump.
+void mend_velocity(UniformLog& log, int j, double jump_s) {
+  const int rows = log.rows();
+  for (int k = 0; k < rows; ++k) {
+    if (log.time_s(k) < jump_s - kVelocityBefore_s || log.time_s(k) > jump_s + kVelocityAfter_s) continue;
+    const int a = std::max(0, k - 1), b = std::min(rows - 1, k + 1);
+    log.dq(k, j) = (log.q(b, j) - log.q(a, j)) / (log.time_s(b) - log.time_s(a));
+  }
+}
+
+}  // namespace
+
 UniformLog without_false_reading(UniformLog log, const FaultClaim& claim) {
   const int j = claim.joint - 1;
   const double size = claim.size[0];
@@ -170,6 +188,8 @@ UniformLog without_false_reading(UniformLog log, const FaultClaim& claim) {
       if (log.dq.rows() > 0 && !claim.velocity_is_true) log.dq(k, j) -= size;
     }
   }
+  if (claim.kind == FaultKind::sensor_bias && log.dq.rows() > 0 && !claim.velocity_is_true)
+    for (const double jump_s : {claim.onset_s, claim.end_s}) mend_velocity(log, j, jump_s);
   return log;
 }
 

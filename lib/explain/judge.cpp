@@ -130,10 +130,10 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
-/// A drift that the velocity shows, too, or does not where it is measured apart.
-FaultHypothesis judge_drift(const LogFit& fit, FaultClaim claim) {
-  FaultHypothesis best = judge_reading(fit, claim);
+/// A false position that the velocity shows, too, or does not where it is measured apart.
+FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
   const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
+  FaultHypothesis best = judge_reading(fit, claim);
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
   FaultHypothesis other = judge_reading(fit, claim);
@@ -185,9 +185,8 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
     case FaultKind::collision:
       return judge_collision(fit, claim);
     case FaultKind::sensor_bias:
-      return judge_reading(fit, claim);
     case FaultKind::sensor_drift:
-      return judge_drift(fit, claim);
+      return judge_position(fit, claim);
     case FaultKind::locked:
     case FaultKind::stuck_encoder:
     case FaultKind::unknown:

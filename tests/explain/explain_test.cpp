@@ -16,6 +16,7 @@ namespace {
 using testing::ClosedFormRun;
 using testing::ClosedFormScara;
 using testing::fit_of;
+using testing::kExplainedPeriod_s;
 using testing::learned_from;
 using testing::of_day;
 using testing::run_of;
@@ -93,6 +94,23 @@ TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
   EXPECT_NEAR(fault->claim.size[0], 0.05, 0.003);
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
+}
+
+TEST(ExplainLog, APositionThatJumpsIsFoundWhereTheVelocityIsComputedFromIt) {
+  Log log = simulate_closed_form(of_day(0), run_of(13));
+  double filtered = 0.0;  // what the jump adds to a difference of the positions behind a filter of 40 Hz
+  for (int k = 0; k < log.rows(); ++k) {
+    const bool jumps = log.time[k] >= 3.0 && log.time[k] < 3.0 + kExplainedPeriod_s - 1e-9;
+    filtered += 0.5 * ((jumps ? 0.05 / kExplainedPeriod_s : 0.0) - filtered);
+    log.dq[1][k] += filtered;
+    if (log.time[k] >= 3.0) log.q[1][k] += 0.05;
+  }
+  const auto fault = decided(fit_of(std::move(log)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_NEAR(fault->claim.size[0], 0.05, 0.003);
+  EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
+  EXPECT_FALSE(fault->claim.velocity_is_true);
 }
 
 TEST(ExplainLog, AForceOfAMomentIsACollision) {
