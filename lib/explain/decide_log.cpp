@@ -9,6 +9,7 @@ namespace {
 constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
 constexpr double kLeastLoss = 0.08;      // share of the torque: less is the gain of another day
 constexpr double kOfNoKind = 200.0;      // nats by which a change of any form explains more
+constexpr double kNearlyAll = 0.05;      // of the excess over the noise that a halt leaves at most
 constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;    // of the best evidence
 constexpr std::size_t kTraced = 4;       // hypotheses whose evidence is traced
@@ -73,7 +74,8 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
     fault.claim = *best;
     fault.evidence = best->gain;
     fault.misfit = evidence.misfit(*best);
-    const double scale = std::max(1.0, best->fit.mean_square());
+    const double left = best->fit.mean_square(), scale = std::max(1.0, left);
+    fault.left_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
         fault.could_also_be.push_back({h->kind, h->joint});
@@ -117,11 +119,15 @@ bool leaves_much(const ExplainedFault& named) {
   return named.claim.kind != FaultKind::stuck_encoder && named.misfit > kOfNoKind;
 }
 
+bool suffices(const ExplainedFault& named) {
+  return !leaves_much(named) || (named.claim.kind == FaultKind::locked && named.left_share < kNearlyAll);
+}
+
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
                                          const LogEvidence& evidence) {
   const std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
   if (named.empty()) return std::nullopt;
-  if (!leaves_much(named.front())) return named.front();
+  if (suffices(named.front())) return named.front();
   return as_unknown(named.front(), e, limits, evidence);
 }
 

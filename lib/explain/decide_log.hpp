@@ -52,6 +52,8 @@ struct ExplainedFault {
   double evidence = 0.0;  ///< nats
   double limit = 0.0;     ///< nats that it had to pass
   double misfit = 0.0;    ///< nats by which a change of any form explains the log better
+  /// Of the mean square over that of the noise that the log leaves without the fault, the share with it.
+  double left_share = 0.0;
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
   std::vector<LabelScore> scores;         ///< of each kind and joint that was judged, best first
   EvidenceTrace trace;                    ///< of the best of them
@@ -86,8 +88,13 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, cons
 ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation,
                           const EvidenceLimits& limits, const LogEvidence& evidence);
 
-/// Whether a change of any form explains the log so much better that the fault is none of the kinds.
+/// Whether a change of any form explains the log so much better that a further fault or none of the kinds
+/// may.
 bool leaves_much(const ExplainedFault& named);
+
+/// Whether the fault alone explains the log: it leaves little, or it is a halt that leaves a small share of a
+/// great deal: a joint that halts shakes the robot in ways that no column has, such as on soft springs.
+bool suffices(const ExplainedFault& named);
 
 /// The fault that explains the log best, or `unknown` where a change of any form explains much more.
 /// Empty when no hypothesis passes its limit.

@@ -88,8 +88,7 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
                                         const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
   // A drive that clips is no known kind: what several known faults explain comes before it.
-  const bool suffices = !leaves_much(alone), is_known = alone.claim.kind != FaultKind::unknown;
-  if (suffices && is_known) return {alone};
+  if (suffices(alone) && alone.claim.kind != FaultKind::unknown) return {alone};
   for (const ExplainedFault& first : next.named) {
     if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
@@ -103,7 +102,7 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
       if (!leaves_much(together.back())) return together;
     }
   }
-  return {suffices ? alone : next.unknown};
+  return {suffices(alone) ? alone : next.unknown};
 }
 
 /// Those of `before`, and those of all faults but one.

@@ -177,6 +177,20 @@ Log with_cogging(Log log) {
   return log;
 }
 
+TEST(ExplainLog, AHaltThatLeavesASmallShareOfAGreatDealSuffices) {
+  ExplainedFault fault;
+  fault.claim.kind = FaultKind::locked;
+  fault.misfit = 5000.0;
+  fault.left_share = 0.02;
+  EXPECT_TRUE(leaves_much(fault));
+  EXPECT_TRUE(suffices(fault));
+  fault.left_share = 0.1;
+  EXPECT_FALSE(suffices(fault));
+  fault.claim.kind = FaultKind::torque_loss;
+  fault.left_share = 0.02;
+  EXPECT_FALSE(suffices(fault));
+}
+
 TEST(ExplainLog, WhatALogLeavesFromItsFirstRowOnIsItsNoise) {
   const LogFit fit = fit_of(with_cogging(simulate_closed_form(of_day(0), run_of(19))));
   const double usual = autocovariance(scara_model().noise.joint[1])[0];
