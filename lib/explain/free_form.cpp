@@ -57,11 +57,25 @@ NormalEquations no_rows(Eigen::Index effects) {
   return {MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
 }
 
-void add_row(NormalEquations& sums, const VectorXd& effects, double white) {
-  sums.matrix += effects * effects.transpose();
-  sums.vector += white * effects;
+/// A row of one joint, of which only the effects `some` are not 0.
+void add_row(NormalEquations& sums, const Eigen::Ref<const VectorXd>& effects, const std::vector<int>& some,
+             double white) {
+  for (const int a : some) {
+    for (const int b : some) sums.matrix(b, a) += effects[b] * effects[a];
+    sums.vector[a] += white * effects[a];
+  }
   sums.square += white * white;
   sums.rows += 1.0;
+}
+
+/// By joint, the effects of the day that reach its rows.
+std::vector<std::vector<int>> effects_of_joints(const MatrixXd& effects, int joints) {
+  const Eigen::Index rows = effects.cols() / joints;
+  std::vector<std::vector<int>> out(joints);
+  for (int j = 0; j < joints; ++j)
+    for (int e = 0; e < effects.rows(); ++e)
+      if (!effects.row(e).segment(j * rows, rows).isZero(0.0)) out[j].push_back(e);
+  return out;
 }
 
 /// Sum of squares that the effects of the day leave of rows.
@@ -76,23 +90,24 @@ enum class ChangeOf { all_joints, some_joints };
 /// alone of which the rows would cost more as they are explained before it.
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   const int rows = fit.count(), n = fit.joints();
-  const Eigen::Index effects = fit.effect_variance().size();
+  const MatrixXd effects = fit.white_effects().transpose();  // effects x rows
+  const std::vector<std::vector<int>> of_joint = effects_of_joints(effects, n);
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
   const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
-  std::vector<NormalEquations> all(n, no_rows(effects)), before = all;
+  std::vector<NormalEquations> all(n, no_rows(effects.rows())), before = all;
   const auto add = [&](std::vector<NormalEquations>& sums, int k) {
     for (int j = 0; j < n && counts(k); ++j)
-      add_row(sums[j], fit.white_effects().row(j * rows + k).transpose(), white[j * rows + k]);
+      add_row(sums[j], effects.col(j * rows + k), of_joint[j], white[j * rows + k]);
   };
   for (int k = 0; k < rows; ++k) add(all, k);
   const VectorXd precision = fit.effect_variance().cwiseInverse();
   const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
   double least = std::numeric_limits<double>::infinity();
-  Change best{first, 0.0, VectorXd::Zero(effects)};
+  Change best{first, 0.0, VectorXd::Zero(effects.rows())};
   for (int k = 0; k + kTail < rows; ++k) {
     add(before, k);
     if (k < first) continue;
-    NormalEquations sums = no_rows(effects);
+    NormalEquations sums = no_rows(effects.rows());
     for (const NormalEquations& joint : before) {
       sums.matrix += joint.matrix;
       sums.vector += joint.vector;

@@ -17,29 +17,61 @@ constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
 constexpr int kFirstOnsetRow = 6;  // rows
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
-/// Normal equations of columns over some rows; with the effects not yet taken away.
-struct SwitchedSums {
-  MatrixXd square, cross;
-  VectorXd vector;
+/// Normal equations of columns over some rows, with the effects not yet taken away. The sums of many onsets
+/// stand side by side in one matrix, each of them in a column.
+class SwitchedSums {
+ public:
+  SwitchedSums(Eigen::Index sizes, Eigen::Index effects, Eigen::Index onsets)
+      : sizes_(sizes), effects_(effects), sums_(MatrixXd::Zero(sizes * (sizes + effects + 1), onsets)) {}
 
-  void add_row(const WhiteSearch& s, const StackedColumns& columns, int t) {
+  /// Row `t` added to the sums of one onset.
+  void add_row(const WhiteSearch& s, const StackedColumns& columns, int t, Eigen::Index onset) {
     const int rows = s.fit.count();
+    Eigen::Map<MatrixXd> square(at(onset), sizes_, sizes_),
+        cross(at(onset) + sizes_ * sizes_, effects_, sizes_);
+    Eigen::Map<VectorXd> vector(at(onset) + sizes_ * (sizes_ + effects_), sizes_);
     for (int j = 0; j < s.fit.joints(); ++j) {
-      const Eigen::RowVectorXd x = columns.row(j * rows + t);
-      if (x.isZero(0.0)) continue;
       const double std = s.fit.std()(t, j), weight = s.precision[j] / (std * std);
-      square += weight * x.transpose() * x;
-      vector += weight * s.left[j * rows + t] * x.transpose();
-      cross += weight * x.transpose() * s.effects[j].row(t);
+      for (Eigen::Index a = 0; a < sizes_; ++a) {
+        const double x = columns(j * rows + t, a);
+        if (x == 0.0) continue;
+        for (Eigen::Index b = 0; b < sizes_; ++b) square(b, a) += weight * x * columns(j * rows + t, b);
+        vector[a] += weight * x * s.left[j * rows + t];
+        cross.col(a) += weight * x * s.effects[j].col(t);
+      }
     }
   }
-  MatrixXd without_effects() const { return square - cross * cross.transpose(); }
-};
+  void begin_with(Eigen::Index onset, Eigen::Index other) { sums_.col(onset) = sums_.col(other); }
+  /// Those of one onset without those of a later one.
+  SwitchedSums between(Eigen::Index onset, Eigen::Index end) const {
+    SwitchedSums out(sizes_, effects_, 1);
+    out.sums_.col(0) = sums_.col(onset) - sums_.col(end);
+    return out;
+  }
+  /// Of the first onset: the matrix without what the effects of the day explain, its quadratic form, the
+  /// vector.
+  MatrixXd without_effects() const {
+    const Eigen::Map<const MatrixXd> square(sums_.data(), sizes_, sizes_),
+        cross(sums_.data() + sizes_ * sizes_, effects_, sizes_);
+    return square - cross.transpose() * cross;
+  }
+  double quadratic_form(const VectorXd& of) const {
+    const Eigen::Map<const MatrixXd> square(sums_.data(), sizes_, sizes_),
+        cross(sums_.data() + sizes_ * sizes_, effects_, sizes_);
+    double known = 0.0;
+    for (Eigen::Index e = 0; e < effects_; ++e) known += Eigen::numext::abs2(cross.row(e).dot(of));
+    return of.dot(square.lazyProduct(of)) - known;
+  }
+  Eigen::Map<const VectorXd> vector() const {
+    return Eigen::Map<const VectorXd>(sums_.data() + sizes_ * (sizes_ + effects_), sizes_);
+  }
 
-SwitchedSums no_rows(const WhiteSearch& s, const StackedColumns& columns) {
-  const Eigen::Index k = columns.cols();
-  return {MatrixXd::Zero(k, k), MatrixXd::Zero(k, s.effects.front().cols()), VectorXd::Zero(k)};
-}
+ private:
+  double* at(Eigen::Index onset) { return sums_.data() + onset * sums_.rows(); }
+
+  Eigen::Index sizes_, effects_;
+  MatrixXd sums_;
+};
 
 /// Nats by which columns explain more, their sizes and the effects integrated out.
 double gain_of(const SwitchedSums& sums, const VectorXd& variance) {
@@ -49,7 +81,7 @@ double gain_of(const SwitchedSums& sums, const VectorXd& variance) {
   double volume = 0.0;
   for (int i = 0; i < variance.size(); ++i)
     volume += elementary::log(factor.matrixLLT()(i, i)) + 0.5 * elementary::log(variance[i]);
-  return 0.5 * sums.vector.dot(factor.solve(sums.vector)) - volume;
+  return 0.5 * sums.vector().dot(factor.solve(sums.vector())) - volume;
 }
 
 }  // namespace
@@ -75,7 +107,7 @@ WhiteSearch white_search(const LogFit& fit) {
   const Eigen::LLT<MatrixXd> factor(a);
   out.left = y - fit.day_torque(factor.solve(b));
   for (int j = 0; j < fit.joints(); ++j)
-    out.effects.push_back(factor.matrixL().solve(fit.effect_columns()[j].transpose()).transpose());
+    out.effects.push_back(factor.matrixL().solve(fit.effect_columns()[j].transpose()));
   return out;
 }
 
@@ -83,28 +115,25 @@ std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& colu
                                   const std::vector<int>& lengths) {
   const int rows = s.fit.count();
   std::vector<VectorXd> out(lengths.size(), VectorXd(rows));
-  std::vector<SwitchedSums> from(rows + 1, no_rows(s, columns.column));  // by row: it and all later rows
+  SwitchedSums from(columns.column.cols(), s.effects.front().rows(), rows + 1);  // row t and all later rows
   for (int t = rows - 1; t >= 0; --t) {
-    from[t] = from[t + 1];
-    from[t].add_row(s, columns.column, t);
+    from.begin_with(t, t + 1);
+    from.add_row(s, columns.column, t, t);
   }
   for (std::size_t l = 0; l < lengths.size(); ++l)
-    for (int t = 0; t < rows; ++t) {
-      const int end = lengths[l] > 0 ? std::min(t + lengths[l], rows) : rows;
-      const SwitchedSums within{from[t].square - from[end].square, from[t].cross - from[end].cross,
-                                from[t].vector - from[end].vector};
-      out[l][t] = gain_of(within, columns.variance);
-    }
+    for (int t = 0; t < rows; ++t)
+      out[l][t] =
+          gain_of(from.between(t, lengths[l] > 0 ? std::min(t + lengths[l], rows) : rows), columns.variance);
   return out;
 }
 
 VectorXd onset_gains_of_size(const WhiteSearch& s, const StackedColumns& columns, const MatrixXd& size) {
   VectorXd out(s.fit.count());
-  SwitchedSums sums = no_rows(s, columns);
+  SwitchedSums sums(columns.cols(), s.effects.front().rows(), 1);
   for (int t = s.fit.count() - 1; t >= 0; --t) {
-    sums.add_row(s, columns, t);
+    sums.add_row(s, columns, t, 0);
     const VectorXd of_onset = size.row(t).transpose();
-    out[t] = of_onset.dot(sums.vector) - 0.5 * of_onset.dot(sums.without_effects() * of_onset);
+    out[t] = of_onset.dot(sums.vector()) - 0.5 * sums.quadratic_form(of_onset);
   }
   return out;
 }

@@ -25,7 +25,7 @@ struct Candidate {
 struct WhiteSearch {
   const LogFit& fit;
   Eigen::VectorXd precision;             ///< by joint, of a row over its standard deviation
-  std::vector<Eigen::MatrixXd> effects;  ///< by joint, rows x effects: columns whose sizes have unit variance
+  std::vector<Eigen::MatrixXd> effects;  ///< by joint, effects x rows: columns whose sizes have unit variance
   Stacked left;                          ///< torque left over, effects taken away
 
   /// Torque of joint `joint` (from 0) left over, times its precision in each row.
