@@ -188,10 +188,11 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   draft.choice.weak.shift = draft.torque.shift;
   settle_terms(id.space, draft);
   if (!draft.torque.not_a_robot.empty())
-    id.issues.add(make_issue("infeasible", Severity::warning,
-                             draft.torque.not_a_robot +
-                                 "; the nearest robot that can be was taken instead: values next to that "
-                                 "bound are not told by these logs"));
+    id.issues.add(
+        make_issue("infeasible", Severity::warning,
+                   draft.torque.not_a_robot +
+                       "; the nearest feasible robot was taken instead: these logs do not determine "
+                       "values next to that bound"));
   return draft;
 }
 

@@ -67,7 +67,7 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   if (physical.contradiction > kContradicts) add_contradiction(physical.contradiction, id);
   if (!physical.hardly_told.empty() && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += fmt::format("; these motions hardly tell {}", fmt::join(physical.hardly_told, ", "));
+    id.reason += fmt::format("; these motions hardly determine {}", fmt::join(physical.hardly_told, ", "));
   }
   if (!physical.guessed_lengths.empty()) add_guess(physical, id);
   Robot sized = id.robot;

@@ -30,8 +30,8 @@ struct IdentifyOptions {
 /// Identifies `robot` from logs of healthy runs (docs/how-it-works.md): a weak-form regression for a start,
 /// then output error by multiple shooting. Facts in robot.known are kept. Logs whose file name is in
 /// robot.payloads carry that mass: they settle masses and lengths, the identified robot is that without
-/// payload. Reads every log once from its start. Throws Error(input) when the logs have too few usable rows,
-/// every log carries a payload, or a log has other joints than the robot.
+/// payload. Each log is read from its start, more than once. Throws Error(input) when the logs have too few
+/// rows, every log carries a payload, or a log has other joints than the robot.
 Identification identify(std::span<LogSource* const> logs, const Robot& robot,
                         const IdentifyOptions& options = {}, const Progress& progress = {});
 

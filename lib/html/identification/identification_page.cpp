@@ -66,7 +66,7 @@ std::string render_identification_html(const Identification& id) {
   for (int j = 0; j < std::ssize(id.joint_fits); ++j)
     text += part(fmt::format("joint-{}", j + 1).c_str(), fmt::format("Joint {}", j + 1).c_str(),
                  still_figures(joint_figures(id, j)));
-  text += part("motion", "What the motion tells", excitation_tables(id));
+  text += part("motion", "Excitation: how well the motion determines the parameters", excitation_tables(id));
   text += part("trend", "From log to log",
                html_list(trend_lines(id)) + still_figures(trend_figures(id)) + trend_table(id));
   text += part("logs", "Logs", log_tables(id));

@@ -101,12 +101,14 @@ std::string excitation_tables(const Identification& id) {
   const std::string mixture = mixture_text(id.excitation);
   return html_list(excitation_lines(id)) +
          html_table({"joint", "position", "fastest forward", "fastest back", "time forward", "lacks"}, joints,
-                    "What the motion tells") +
+                    "Motion of each joint") +
          html_table(FactTable{
-             "How much of what each parameter does to the torque no mixture of the others makes up (1: all)",
-             {"parameter", "its own", "hardest to tell from"},
+             "Share of each parameter's effect on the torque that no mixture of the other parameters has (1: all of it)",
+             {"parameter", "its own", "hardest to separate from"},
              parameters}) +
-         (mixture.empty() ? "" : html_part("The mixture that is told least", html_list({mixture})));
+         (mixture.empty()
+              ? ""
+              : html_part("The mixture of parameters that is determined least", html_list({mixture})));
 }
 
 std::string trend_table(const Identification& id) {

@@ -21,14 +21,14 @@ struct ParameterExcitation {
   std::string name;
   double own = 0.0;  ///< share of its column that no mixture of the others makes up: 1 stands alone, 0 is not
                      ///< told; NaN where the logs do not show it at all
-  std::string mixed_with;  ///< the parameter it is hardest to tell from; empty when there is none
+  std::string mixed_with;  ///< the parameter it is hardest to separate from; empty when there is none
 };
 
 /// What the motion of the logs tells, whatever the torques were.
 struct Excitation {
   std::vector<JointExcitation> joints;
   std::vector<ParameterExcitation> parameters;  ///< base parameters but rotors that do not pay, fv_j, fc_j
-  /// The mixture that is told least: weight by parameter, largest 1, those below a tenth left out.
+  /// The mixture that is determined least: weight by parameter, largest 1, those below a tenth left out.
   std::vector<std::pair<std::string, double>> weakest;
 
   std::vector<int> columns;     ///< of the parameter space, those of `parameters`; not kept in JSON

@@ -21,9 +21,9 @@ constexpr double kLeastEigenvalue = 1e-14;
 std::string what_lacks(const JointFit& fit, double forward, bool still) {
   if (still) return "it never moves";
   if (forward > kOneWay)
-    return "it moves forward only: its friction is not told from an offset of its torque";
+    return "it moves forward only: its friction cannot be separated from an offset of its torque";
   if (forward < 1.0 - kOneWay)
-    return "it moves back only: its friction is not told from an offset of its torque";
+    return "it moves back only: its friction cannot be separated from an offset of its torque";
   double count = 0.0, sum = 0.0, square = 0.0;
   for (std::size_t k = 0; k < fit.size(); ++k) {
     if (!fit.moving[k]) continue;
@@ -33,7 +33,7 @@ std::string what_lacks(const JointFit& fit, double forward, bool still) {
   }
   const double mean = sum / std::max(count, 1.0);
   if (square / std::max(count, 1.0) - mean * mean < kOneSpeed * kOneSpeed * mean * mean)
-    return "it moves at one speed: its viscous friction is not told from its Coulomb friction";
+    return "it moves at one speed: its viscous friction cannot be separated from its Coulomb friction";
   return "";
 }
 
