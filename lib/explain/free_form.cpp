@@ -83,6 +83,21 @@ double square_left(const NormalEquations& rows, const VectorXd& day) {
   return rows.square - 2.0 * day.dot(rows.vector) + day.dot(rows.matrix * day);
 }
 
+/// Nats of the rows of a joint if the change does not reach it, and if it does. Its rows have the variance
+/// that those before the change show, at least 1, that of the healthy logs.
+struct CostOfJoint {
+  double explained = 0.0, free = 0.0;
+};
+
+CostOfJoint cost_of_joint(const NormalEquations& all, const NormalEquations& before, const VectorXd& day) {
+  const double square = square_left(before, day), rest = all.rows - before.rows,
+               variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + before.rows)),
+               row = 0.5 * elementary::log(variance),
+               costs_before = before.rows * row + 0.5 * square / variance;
+  return {costs_before + rest * row + 0.5 * (square_left(all, day) - square) / variance,
+          costs_before + rest * (row + kFreeRowCost)};
+}
+
 /// The joints of which a change may cost the rows.
 enum class ChangeOf { all_joints, some_joints };
 
@@ -116,10 +131,12 @@ Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
     Regression day = regress(sums, precision);
     double cost = 0.5 * precision.dot(day.estimate.cwiseAbs2());
     for (int j = 0; j < n; ++j) {
-      const double explained = 0.5 * square_left(all[j], day.estimate),
-                   costs_before = 0.5 * square_left(before[j], day.estimate),
-                   free = costs_before + kFreeRowCost * (rows - 1 - k);
-      cost += of == ChangeOf::all_joints ? free : std::min(free, explained);
+      if (of == ChangeOf::all_joints) {
+        cost += 0.5 * square_left(before[j], day.estimate) + kFreeRowCost * (rows - 1 - k);
+      } else {
+        const CostOfJoint joint = cost_of_joint(all[j], before[j], day.estimate);
+        cost += std::min(joint.free, joint.explained);
+      }
     }
     if (cost >= least) continue;
     least = cost;

@@ -8,6 +8,9 @@ namespace faultline {
 
 inline constexpr int kRowsOfChange = 6;  ///< on each side of a change of the work piece: kernel and filter
 
+/// Rows that the noise of the healthy logs counts for in the noise of a log.
+inline constexpr double kRowsOfHealthyLogs = 30.0;
+
 /// Where the healthy robot and the day cease to explain a log.
 struct Change {
   int last_row = 0;       ///< that they explain

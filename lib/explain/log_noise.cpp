@@ -26,7 +26,6 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
   return out;
 }
 
-constexpr double kRowsOfHealthyLogs = 30.0;  // that the noise of the healthy logs counts for
 /// From the first motion of the log on, unless it changes before: rows that count in any case. A log at rest
 /// says nothing of its noise.
 constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
