@@ -41,11 +41,7 @@ VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
 /// seen before a fault could bend the effects of the day, and nothing where the piece changes, since a row
 /// does not know the time of that change.
 Stacked rows_to_explain(const LogFit& fit) {
-  Stacked torque = fit.residual();
-  if (fit.has_piece())
-    torque -=
-        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
-  Stacked white = fit.whitened(torque);
+  Stacked white = fit.whitened(torque_without_piece(fit));
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
   for (int k = 0; k < static_cast<int>(changes.size()); ++k)
     for (int j = 0; j < fit.joints() && changes[k]; ++j) white[j * fit.count() + k] = 0.0;
@@ -161,6 +157,12 @@ double explained_again_s(const LogFit& fit, const Stacked& left, const Change& c
 }
 
 }  // namespace
+
+Stacked torque_without_piece(const LogFit& fit) {
+  if (!fit.has_piece()) return fit.residual();
+  const PieceRamps ramps = piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s);
+  return fit.residual() - fit.piece_torque(ramps.level);
+}
 
 Change first_change(const LogFit& fit) {
   return cheapest_change(fit, rows_to_explain(fit), ChangeOf::some_joints);

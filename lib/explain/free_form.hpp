@@ -8,6 +8,10 @@ namespace faultline {
 
 inline constexpr int kRowsOfChange = 6;  ///< on each side of a change of the work piece: kernel and filter
 
+/// Torque that the robot leaves unexplained without the work piece, whose path is that before anything was
+/// known of the day.
+Stacked torque_without_piece(const LogFit& fit);
+
 /// Rows that the noise of the healthy logs counts for in the noise of a log.
 inline constexpr double kRowsOfHealthyLogs = 30.0;
 

@@ -103,7 +103,9 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
     claim.size = VectorXd::Constant(1, value);
     return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
   };
-  Stacked at = size == 0.0 ? fit.residual() : residual_with(size),
+  // Without a size a drift changes nothing; a jump still says that the velocity is computed from the
+  // position.
+  Stacked at = size == 0.0 && !bias ? fit.residual() : residual_with(size),
           slope = (at - residual_with(size + step)) / step;
   for (int round = 0; round < kReadingRounds; ++round) {
     const double doubt = size == 0.0 ? usual : 0.3 * std::abs(size) + 1e-5;

@@ -70,10 +70,7 @@ MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const
 
 RowNoise own_noise(const LogFit& fit) {
   const Change change = first_change(fit);
-  Stacked torque = fit.residual() - fit.day_torque(change.day);
-  if (fit.has_piece())
-    torque -=
-        fit.piece_torque(piece_ramps(fit.first_path(), fit.time_s(), fit.model().setting.kernel_s).level);
+  const Stacked torque = torque_without_piece(fit) - fit.day_torque(change.day);
   const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
   const double motion_s = first_motion_s(fit),
                first_s = change.onset_s > motion_s - kJustBefore_s ? motion_s : fit.time_s()[0],

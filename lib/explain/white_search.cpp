@@ -50,17 +50,11 @@ class SwitchedSums {
   }
   /// Of the first onset: the matrix without what the effects of the day explain, its quadratic form, the
   /// vector.
-  MatrixXd without_effects() const {
-    const Eigen::Map<const MatrixXd> square(sums_.data(), sizes_, sizes_),
-        cross(sums_.data() + sizes_ * sizes_, effects_, sizes_);
-    return square - cross.transpose() * cross;
-  }
+  MatrixXd without_effects() const { return square() - cross().transpose() * cross(); }
   double quadratic_form(const VectorXd& of) const {
-    const Eigen::Map<const MatrixXd> square(sums_.data(), sizes_, sizes_),
-        cross(sums_.data() + sizes_ * sizes_, effects_, sizes_);
     double known = 0.0;
-    for (Eigen::Index e = 0; e < effects_; ++e) known += Eigen::numext::abs2(cross.row(e).dot(of));
-    return of.dot(square.lazyProduct(of)) - known;
+    for (Eigen::Index e = 0; e < effects_; ++e) known += Eigen::numext::abs2(cross().row(e).dot(of));
+    return of.dot(square().lazyProduct(of)) - known;
   }
   Eigen::Map<const VectorXd> vector() const {
     return Eigen::Map<const VectorXd>(sums_.data() + sizes_ * (sizes_ + effects_), sizes_);
@@ -68,6 +62,8 @@ class SwitchedSums {
 
  private:
   double* at(Eigen::Index onset) { return sums_.data() + onset * sums_.rows(); }
+  Eigen::Map<const MatrixXd> square() const { return {sums_.data(), sizes_, sizes_}; }
+  Eigen::Map<const MatrixXd> cross() const { return {sums_.data() + sizes_ * sizes_, effects_, sizes_}; }
 
   Eigen::Index sizes_, effects_;
   MatrixXd sums_;

@@ -103,7 +103,7 @@ std::string excitation_tables(const Identification& id) {
          html_table({"joint", "position", "fastest forward", "fastest back", "time forward", "lacks"}, joints,
                     "Motion of each joint") +
          html_table(FactTable{
-             "Share of each parameter's effect on the torque that no mixture of the other parameters has (1: all of it)",
+             "Share of each parameter's effect on the torque that no combination of the others reproduces (1: all)",
              {"parameter", "its own", "hardest to separate from"},
              parameters}) +
          (mixture.empty()
