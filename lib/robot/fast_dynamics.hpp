@@ -37,6 +37,13 @@ class FastDynamics {
   /// True when the fast path is in use.
   bool planar() const { return planar_; }
   const Chain<double>& chain() const { return chain_; }
+  /// Whether the torque of the bodies can depend on a joint's position or its velocity.
+  bool depends_on_position(int joint) const {
+    return !planar_ || (depends_on_velocity(joint) && (gravity_in_plane_ || joint != revolute_joint_[0]));
+  }
+  bool depends_on_velocity(int joint) const {
+    return !planar_ || chain_.geometry[joint].kind == AxisKind::revolute;
+  }
 
   /// M(q) and h(q, dq) + G(q).
   void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kPeriod_s = 0.073;
-constexpr double kSlopeWithin = 0.01;  // of a slope, where friction changes its sign within a substep
+constexpr double kSlopeWithin = 0.01;  // of a slope, where friction changes its sign within two substeps
 
 /// Two links in a vertical plane; the base parameters are the mass numbers of the links themselves.
 MotionBody planar_arm() {
@@ -52,7 +52,7 @@ TEST(OneStep, SlopesAreThoseOfFiniteDifferences) {
   const MotionBody body = planar_arm();
   const VectorXd numbers = numbers_of(body);
   const UniformLog log = driven_log(3);
-  const StepSetting setting{kPeriod_s, false, 0.02};
+  const StepSetting setting{kPeriod_s, false, 0.01};
   Trajectory about(4, 3);
   about << 0.3, 0.35, 0.4, -0.5, -0.4, -0.3, 0.9, 0.8, 0.7, -1.1, -1.2, -1.0;
   const double onset = 1.4 * kPeriod_s;

@@ -11,7 +11,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Weights and places of the four stages of Runge and Kutta.
-constexpr int kMiddleStage = 2;  // stands in the middle of a step
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
 void stop_locked(const MotionLaw& law, VectorXd& state) {
@@ -83,33 +82,23 @@ Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int sub
   for (int j = 0; j < n; ++j)
     if (part.law->is_locked(j)) out.by_state(n + j, n + j) = 0.0;
   MotionSlopes begin, middle, end, mean;
-  JointVector<double> q(n), dq(n), ddq(n);
-  VectorXd rate(2 * n), sum(2 * n);
-  const auto accelerate = [&](double at, MotionSlopes* slopes) {
-    const JointVector<double> tau = torque.at(at);
+  const auto slopes_at = [&](double at, MotionSlopes& slopes) {
+    const JointVector<double> q = state.head(n), dq = state.tail(n), tau = torque.at(at);
+    JointVector<double> ddq(n);
     part.law->acceleration(q, dq, tau, ddq);
-    if (slopes != nullptr) part.law->slopes(q, dq, tau, ddq, *slopes);
-    rate << dq, ddq;
+    part.law->slopes(q, dq, tau, ddq, slopes);
   };
-  q = state.head(n);
-  dq = state.tail(n);
-  accelerate(part.begin_s, &begin);
-  for (int s = 0; s < substeps; ++s) {
+  const auto step_to = [&](int s) {
     const double at = part.begin_s + s * h;
-    sum = kWeight[0] * rate;
-    for (int stage = 1; stage < 4; ++stage) {
-      const double step = kPlace[stage] * h;
-      q = state.head(n) + step * rate.head(n);
-      dq = state.tail(n) + step * rate.tail(n);
-      accelerate(at + step, stage == kMiddleStage ? &middle : nullptr);
-      sum += kWeight[stage] * rate;
-    }
-    state += h * sum;
-    q = state.head(n);
-    dq = state.tail(n);
-    accelerate(at + h, &end);
+    move({part.law, at - h, at, part.within}, torque, 1, state);
+    return at;
+  };
+  slopes_at(part.begin_s, begin);
+  for (int s = 2; s <= substeps; s += 2) {
+    slopes_at(step_to(s - 1), middle);
+    slopes_at(step_to(s), end);
     mean_of(begin, middle, end, mean);
-    out.move(h, mean);
+    out.move(2.0 * h, mean);
     std::swap(begin, end);
   }
   return out;

@@ -36,8 +36,8 @@ struct Tangent {
 
 /// Moves the state through one part by Runge-Kutta steps of fourth order.
 void move(const Part& part, const IntervalTorque& torque, int substeps, Eigen::VectorXd& state);
-/// The same, with its derivatives; the slopes of a substep are Simpson's mean of those at its begin, middle
-/// and end.
+/// The same, with its derivatives, which take one step for two of the state: its slopes are Simpson's mean of
+/// those before, between and after the two. `substeps` is even.
 Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps,
                          Eigen::VectorXd& state);
 

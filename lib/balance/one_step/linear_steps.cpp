@@ -51,7 +51,7 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
   return out;
 }
 
-/// Substeps of an interval, as fast motion and friction that changes its sign ask for.
+/// Substeps of an interval, as fast motion and friction that changes its sign ask for: an even number.
 int substeps_of(const StepSetting& setting, const MotionPlan& plan, const VectorXd& begin,
                 const VectorXd& end) {
   const MotionBody& body = plan.usual->body();
@@ -67,8 +67,8 @@ int substeps_of(const StepSetting& setting, const MotionPlan& plan, const Vector
       if (share_near_rest(begin[n + j], end[n + j], body.friction_width()[j]) > 0.0)
         per_s = std::max(per_s, rate[j]);
   }
-  return std::max(1,
-                  static_cast<int>(std::ceil(setting.period_s * std::min(per_s, kMostSubsteps_Hz) - 1e-9)));
+  const double pairs = 0.5 * setting.period_s * std::min(per_s, kMostSubsteps_Hz);
+  return 2 * std::max(1, static_cast<int>(std::ceil(pairs - 1e-9)));
 }
 
 /// Takes interval `k`, whose parts are `now`, from the known steps; false where they do not hold.

@@ -79,13 +79,14 @@ void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& 
                        MotionSlopes& out) const {
   const int n = joints();
   const MotionLayout at = body_->layout();
-  StateMatrix by_state(n, 2 * n);
+  StateMatrix by_state = StateMatrix::Zero(n, 2 * n);
   JointMatrix<double> inertia;
   JointVector<double> bias;
   dynamics_.inertia_and_bias(q, dq, inertia, bias);
   const JointVector<double> torque = bias + inertia.lazyProduct(ddq);
   JointVector<double> moved = q;
   for (int j = 0; j < n; ++j) {
+    if (!dynamics_.depends_on_position(j)) continue;
     moved[j] = q[j] + kNudge;
     by_state.col(j) = (torque - dynamics_.body_torque(moved, dq, ddq)) / kNudge;
     moved[j] = q[j];
@@ -97,9 +98,11 @@ void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& 
   for (int j = 0; j < n; ++j) {
     const Friction<double>& f = dynamics_.chain().friction[j];
     const double saturated = elementary::tanh(dq[j] / f.width);
-    moved[j] = dq[j] + kNudge;
-    by_state.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
-    moved[j] = dq[j];
+    if (dynamics_.depends_on_velocity(j)) {
+      moved[j] = dq[j] + kNudge;
+      by_state.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
+      moved[j] = dq[j];
+    }
     by_state(j, n + j) -= f.viscous + f.coulomb / f.width * (1.0 - saturated * saturated);
     out.torque(j, at.viscous(j)) = -dq[j];
     out.torque(j, at.coulomb(j)) = -saturated;
