@@ -10,6 +10,7 @@
 namespace faultline {
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFreeShare = 0.9;  // of the torque lost, from which a joint swings freely
@@ -41,6 +42,16 @@ CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<
   return guess;
 }
 
+/// Nats by which an explanation beats the healthy robot on the same day, by sample. The healthy robot's own
+/// day is bent by the fault, so that the rows before it would speak for the fault, too.
+VectorXd row_gain(const CoarseLog& log, const CoarseExplanation& fit) {
+  const CoarseExplanation& healthy = log.healthy;
+  const VectorXd bent = healthy.day_column * (fit.day - healthy.day);
+  const Eigen::Map<const MatrixXd> more(bent.data(), healthy.left.rows(), healthy.left.cols());
+  const MatrixXd gain = 0.5 * ((healthy.left - more).cwiseAbs2() - fit.left.cwiseAbs2() - fit.log_ratio);
+  return gain.colwise().sum().transpose();
+}
+
 FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   FaultHypothesis out;
   out.kind = judged.kind;
@@ -57,17 +68,12 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   out.fit.day = judged.fit.day;
   out.fit.size = judged.fit.size;
   out.fit.left = Eigen::Map<const VectorXd>(judged.fit.left.data(), judged.fit.left.size());
-  out.fit.row_gain = 0.5 * (log.healthy.left.cwiseAbs2() - judged.fit.left.cwiseAbs2() - judged.fit.log_ratio)
-                               .colwise()
-                               .sum()
-                               .transpose();
+  out.fit.row_gain = row_gain(log, judged.fit);
   return out;
 }
 
-/// Whether the trajectory that a kind implies is another one than that which was smoothed.
-bool moves_anew(FaultKind kind) {
-  return kind != FaultKind::stuck_encoder && kind != FaultKind::unknown && kind != FaultKind::locked;
-}
+/// Whether a kind implies another trajectory than that which was smoothed.
+bool moves_anew(FaultKind kind) { return kind != FaultKind::unknown; }
 
 }  // namespace
 

@@ -201,6 +201,7 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, columns - effects - (how.move_onset ? 1 : 0));
   if (how.move_onset) out.onset_step_s = fit.estimate[columns - 1];
+  if (guess.kind == FaultKind::none) out.day_column = x.leftCols(effects);
   out.about = at.about + smoothed(lin.steps, filter, change);
   return out;
 }

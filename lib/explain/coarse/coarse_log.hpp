@@ -28,7 +28,10 @@ struct CoarseExplanation {
   Eigen::MatrixXd left;         ///< 2 joints x samples: innovations left over, in standard deviations
   Eigen::MatrixXd variance;     ///< of each innovation; NaN where there was no reading
   Eigen::MatrixXd log_ratio;    ///< ln of `variance` over that of the healthy robot; 0 where there is none
-  Trajectory about;             ///< smoothed
+  /// (2 joints * samples) x effects: what the effects of the day take away from the innovations. Only of the
+  /// healthy robot.
+  Eigen::MatrixXd day_column;
+  Trajectory about;  ///< smoothed
   std::shared_ptr<const CoarseSteps> steps{};  ///< of the round that this is from
 
   double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }

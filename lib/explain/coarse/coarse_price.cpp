@@ -19,12 +19,27 @@ constexpr double kRepeatedSample = 2.0;  // nats a repeated code of a joint that
 constexpr double kRepeats = 0.98;        // share of codes that repeat where an encoder is stuck
 constexpr int kMostRepeats = 500;        // samples that count
 
-/// Share of the samples from `from` on that repeat the position before.
-double share_repeated(const CoarseLog& log, int j, int from) {
-  const int first = std::min(from + 1, log.samples() - 2);
+/// Samples from `from` on that repeat the position before.
+int repeats_from(const CoarseLog& log, int j, int from) {
   int same = 0;
-  for (int k = first + 1; k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
-  return log.samples() - from > 3 ? static_cast<double>(same) / (log.samples() - 1 - first) : 0.0;
+  for (int k = std::max(1, from); k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
+  return same;
+}
+
+/// Share of the samples from `from` on that repeat the position before, but for the first two.
+double share_repeated(const CoarseLog& log, int j, int from) {
+  const int first = std::min(from + 2, log.samples() - 1);
+  return log.samples() - from > 3 ? static_cast<double>(repeats_from(log, j, first)) / (log.samples() - first)
+                                  : 0.0;
+}
+
+/// Nats of a first false code that does not repeat the last true one: it may be any position that the joint
+/// passed since, where a true reading lies within its noise.
+double price_of_new_code(const CoarseLog& log, int j, int from) {
+  if (from < 1) return 0.0;
+  const double passed = std::abs(log.log.q(from, j) - log.log.q(from - 1, j));
+  const double noise = std::sqrt(2.0 * M_PI * log.model->reading_variance[j]);
+  return passed > noise ? elementary::log(passed / noise) : 0.0;
 }
 
 double price_of_friction(const CoarseLog& log, int j, const CoarseExplanation& fit, int from) {
@@ -50,11 +65,11 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
     case FaultKind::stuck_encoder: {
       if (share_repeated(log, j, from) < kRepeats) return kCodesMove;
       const double kept = log.keep.row(j).tail(late).sum();
-      const double evidence =
-          repeats_tell(*log.model, j)
-              ? std::min(late, kMostRepeats) * elementary::log(1.0 / log.model->repeat_share[j])
-              : 0.0;
-      return kSilentJoint + kUnreadSample * kept - evidence;
+      const double evidence = repeats_tell(*log.model, j)
+                                  ? std::min(repeats_from(log, j, from), kMostRepeats) *
+                                        elementary::log(1.0 / log.model->repeat_share[j])
+                                  : 0.0;
+      return kSilentJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
     }
     case FaultKind::locked:
       return kSilentJoint + (share_repeated(log, j, from) > kRepeats && repeats_tell(*log.model, j)

@@ -108,9 +108,12 @@ void judge_repeats(int j, CoarseBench& bench) {
   int same = samples;
   while (same > 1 && log.log.q(same - 1, j) == log.log.q(same - 2, j)) --same;
   if (samples - same < kFewestRepeated || samples - same <= 2 * m.longest_repeat[j]) return;
-  const double onset = log.time_s(std::max(same - 1, 1));
-  bench.go({FaultKind::stuck_encoder, j + 1, onset, 0.0, {}}, 1);
-  for (const double share : {-0.5, 0.5}) judge_lock(j, onset + share * log.period_s(), bench);
+  for (const int first : {same, same - 1}) {  // false code: the last true one repeated, or one read since
+    if (first < 1) continue;
+    const double onset_s = log.time_s(first) - 0.5 * log.period_s();
+    bench.go({FaultKind::stuck_encoder, j + 1, onset_s, 0.0, {}});
+    judge_lock(j, onset_s, bench);
+  }
 }
 
 /// Onsets that a hypothesis may have.
