@@ -13,12 +13,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFreeShare = 0.9;  // of the torque lost, from which a joint swings freely
-constexpr int kSameSamples = 3;     // between two onsets that count as one
+constexpr double kFreeShare = 0.9;   // of the torque lost, from which a joint swings freely
+constexpr double kFormDoubt = 0.05;  // share of its effect that a known fault may miss: no unknown force does
+constexpr int kSameSamples = 3;      // between two onsets that count as one
 /// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
 constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;
-constexpr double kNearSize = 0.2;  // share of a size
+constexpr double kNearSize = 0.2;          // share of a size
+constexpr double kLeastDuration_s = 1e-3;  // that a fault lasts
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
 
 /// Whether steps about one size stand for those about another one.
@@ -82,12 +84,22 @@ bool moves_with_onset(FaultKind kind) {
          kind != FaultKind::stuck_encoder && kind != FaultKind::unknown;
 }
 
+CoarseGuess with_times_moved(CoarseGuess guess, double onset_step_s, double end_step_s) {
+  if (guess.duration_s > 0.0) {
+    onset_step_s = std::min(onset_step_s, guess.duration_s - kLeastDuration_s);
+    guess.duration_s = std::max(kLeastDuration_s, guess.duration_s + end_step_s - onset_step_s);
+  }
+  guess.onset_s += onset_step_s;
+  return guess;
+}
+
 std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, const CoarseJudging& how) {
   const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
   const CoarseExplanation fit = judge_coarse(log, guess, how);
   if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return std::nullopt;
-  guess.onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
-                             log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
+  const double onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
+                                    log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
+  guess = with_times_moved(guess, onset_s - guess.onset_s, 0.0);
   guess.start = fit.size;
   return NewtonStep{std::move(guess), fit.onset_step_s, fit.steps};
 }
@@ -106,6 +118,7 @@ JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
                                         const std::shared_ptr<const CoarseSteps>& known) {
   JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds, .known = known})};
   out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
+  if (guess.kind == FaultKind::unknown) out.gain -= kFormDoubt * kFormDoubt * std::max(0.0, out.gain);
   if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
     out.kind = FaultKind::free_swinging;
   tried.push_back(guess);

@@ -62,6 +62,9 @@ inline bool is_linear_at_coarse(FaultKind kind) {
 /// Whether the onset of a kind lies between samples.
 bool moves_with_onset(FaultKind kind);
 
+/// The guess with its onset moved and, where it has an end, that moved by `end_step_s` of its own.
+CoarseGuess with_times_moved(CoarseGuess guess, double onset_step_s, double end_step_s);
+
 /// A step of Newton on onset and size together: where the guess should be, and by how much its onset wanted
 /// to move. Nothing where it cannot be integrated.
 struct NewtonStep {

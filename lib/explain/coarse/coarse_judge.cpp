@@ -20,7 +20,8 @@ using Eigen::VectorXd;
 
 constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
 constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
-constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory
+constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory,
+constexpr double kHoldsShare = 0.05;      // or of what the healthy robot leaves
 constexpr double kAbsurd = 1e6;           // derivative of a state by the one before: the integration diverged
 constexpr double kMostColumns = 4.0;      // prior standard deviations that a size may start from
 constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
@@ -260,7 +261,8 @@ CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, c
     if (!lin.finite) break;
     CoarseExplanation now = regressed(log, guess, at, lin, how);
     if (locked) now.about.row(n + j).tail(late).setZero();
-    const bool holds = now.mean_square() < kHolds;
+    const double much = log.healthy.left.size() > 0 ? kHoldsShare * log.healthy.mean_square() : 0.0;
+    const bool holds = now.mean_square() < std::max(kHolds, much);
     Setup next{now.day, {}, holds ? now.about : log.about, {}, false};
     if (reading && !holds) next.about -= now.size[0] * read_column(log, guess, from);
     next.size = now.size.size() > 0 ? within_reason(log, guess, now.size) : now.size;

@@ -31,7 +31,7 @@ struct CoarseExplanation {
   /// (2 joints * samples) x effects: what the effects of the day take away from the innovations. Only of the
   /// healthy robot.
   Eigen::MatrixXd day_column;
-  Trajectory about;  ///< smoothed
+  Trajectory about;                            ///< smoothed
   std::shared_ptr<const CoarseSteps> steps{};  ///< of the round that this is from
 
   double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }

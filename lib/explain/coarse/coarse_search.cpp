@@ -82,7 +82,8 @@ struct Base {
   Innovations filter;
   MatrixXd day;         ///< white columns of the day: rows x effects
   MatrixXd covariance;  ///< of its effects
-  VectorXd left;        ///< white rows left over
+  VectorXd row;         ///< white rows
+  VectorXd left;        ///< the same without the effects of the day
 };
 
 Base base_of(const CoarseLog& log, double forgiven) {
@@ -103,11 +104,11 @@ Base base_of(const CoarseLog& log, double forgiven) {
   out.filter = innovations(log.healthy_steps, in);
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
   out.day = keep.asDiagonal() * out.filter.white.rightCols(log.day.cols());
-  const VectorXd y = keep.cwiseProduct(out.filter.white.col(0));
+  out.row = keep.cwiseProduct(out.filter.white.col(0));
   MatrixXd a = out.day.transpose() * out.day;
   a.diagonal() += m.day_variance.cwiseInverse();
   out.covariance = a.llt().solve(MatrixXd::Identity(a.rows(), a.cols()));
-  out.left = y - out.day * (out.covariance * (out.day.transpose() * y));
+  out.left = out.row - out.day * (out.covariance * (out.day.transpose() * out.row));
   return out;
 }
 
@@ -176,11 +177,23 @@ void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<Coarse
   }
 }
 
-/// The first sample that no noise explains.
+/// The first sample that no noise explains, given the effects of the day as the samples before it show them:
+/// a fault bends those that the whole log shows.
 std::optional<int> strike_of(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states;
-  for (int k = log.first_onset(); k < log.samples(); ++k)
-    if (base.left.segment(k * states, states).squaredNorm() > kStrikes * states) return k;
+  VectorXd effect = VectorXd::Zero(base.day.cols());
+  MatrixXd covariance = log.model->day_variance.asDiagonal();
+  for (int k = 0; k < log.samples(); ++k) {
+    double square = 0.0;
+    for (int i = k * states; i < (k + 1) * states; ++i) {  // recursive least squares, row by row
+      const VectorXd x = base.day.row(i).transpose(), px = covariance * x;
+      const double variance = 1.0 + x.dot(px), off = base.row[i] - x.dot(effect);
+      square += off * off / variance;
+      effect += px * (off / variance);
+      covariance -= px * px.transpose() / variance;
+    }
+    if (k >= log.first_onset() && square > kStrikes * states) return k;
+  }
   return std::nullopt;
 }
 

@@ -121,10 +121,9 @@ bool may_begin(const CoarseLog& log, double onset_s) {
   return onset_s >= log.time_s(log.first_onset()) && onset_s < log.time_s(log.samples() - 3);
 }
 
-/// The guess with its onset moved by `step`, where that explains more; about the same trajectory.
-bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
-  CoarseGuess guess = best.guess;
-  guess.onset_s += step;
+/// The guess with its onset and its end moved, where that explains more; about the same trajectory.
+bool try_times(double onset_step_s, double end_step_s, JudgedGuess& best, CoarseBench& bench) {
+  const CoarseGuess guess = with_times_moved(best.guess, onset_step_s, end_step_s);
   if (!may_begin(bench.log, guess.onset_s)) return false;
   JudgedGuess now = bench.go(guess, 1, best.fit.steps);
   if (now.gain <= best.gain) return false;
@@ -132,12 +131,21 @@ bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
   return true;
 }
 
-/// Moves the onset by steps of a sample, then halved ones, while it explains more.
+bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
+  return try_times(step, 0.0, best, bench);
+}
+
+/// Moves the onset, and the end of what has one, by steps of a sample, then halved ones, while that explains
+/// more.
 JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
   const double period = bench.log.period_s();
+  const bool ends = best.guess.duration_s > 0.0;
   double step = std::max(period, kLeastFirstMove_s);
-  for (int moves = 0; moves < kMostMoves && step > std::max(kLeastMove * period, kLeastMove_s); ++moves)
-    if (!try_onset(-step, best, bench) && !try_onset(step, best, bench)) step *= 0.5;
+  for (int moves = 0; moves < kMostMoves && step > std::max(kLeastMove * period, kLeastMove_s); ++moves) {
+    bool any = try_onset(-step, best, bench) || try_onset(step, best, bench);
+    if (ends) any = try_times(0.0, -step, best, bench) || try_times(0.0, step, best, bench) || any;
+    if (!any) step *= 0.5;
+  }
   return best;
 }
 
@@ -154,7 +162,9 @@ JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
       leap *= 0.5;
   }
   if (leapt) best = walked(best, bench);
-  if (best.guess.onset_s == start.guess.onset_s || start.guess.kind == FaultKind::locked) return best;
+  const bool stayed =
+      best.guess.onset_s == start.guess.onset_s && best.guess.duration_s == start.guess.duration_s;
+  if (stayed || start.guess.kind == FaultKind::locked) return best;
   JudgedGuess anew = bench.go(best.guess, CoarseBench::kCoarseRounds, best.fit.steps);
   return anew.gain > best.gain ? anew : best;
 }
@@ -174,16 +184,8 @@ JudgedGuess settled(const JudgedGuess& start, CoarseBench& bench) {
 }
 
 void refine(const JudgedGuess& start, CoarseBench& bench) {
-  const FaultKind kind = start.guess.kind;
   JudgedGuess best = moved(start, bench);
-  if (moves_with_onset(kind)) best = settled(best, bench);
-  if (kind != FaultKind::collision) return;
-  for (const double factor : {0.5, 0.7, 1.4, 2.0}) {
-    CoarseGuess guess = best.guess;
-    guess.duration_s *= factor;
-    JudgedGuess now = bench.go(guess, CoarseBench::kCoarseRounds - 1, best.fit.steps);
-    if (now.gain > best.gain) best = std::move(now);
-  }
+  if (moves_with_onset(start.guess.kind)) settled(best, bench);
 }
 
 /// The best of each kind and joint; a free joint and a lost torque are one.
