@@ -30,6 +30,8 @@ namespace faultline {
 
 namespace {
 
+constexpr double kLittleLeft = 0.02;  // of the excess over the noise: no other reading is asked for
+
 /// Those of joints in which no fault was found.
 void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
   const std::vector<FaultFinding> named = faults;
@@ -122,6 +124,17 @@ void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& fa
         fault.end_s = std::min(fault.end_s, run.end_s);
 }
 
+/// Whether known kinds explain all but little of what the faults of a log change. Columns that change are like
+/// no kind but a joint that swings freely, which a torque in a smaller unit looks like.
+bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
+  return !episodes.empty() &&
+         std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {
+           const FaultKind kind = episode.fault.claim.kind;
+           return kind != FaultKind::unknown && kind != FaultKind::free_swinging &&
+                  episode.fault.left_share < kLittleLeft;
+         });
+}
+
 /// What looks like a fault may be a change of the log's columns. `has_log_rows`: the rows of `judged` are
 /// those of the log, not at another rate.
 void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
@@ -160,7 +173,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   const bool can_be_judged = rate.is_models() || doubts.find(kResampled);
   const MonitoredLog run = can_be_judged ? monitor(judged, model, options) : read_unjudged(log, model);
   std::vector<FaultFinding> faults = found_in(run, model, cases);
-  if (can_question(model) && !run.log.is_tracked)
+  if (can_question(model) && !run.log.is_tracked && !are_explained(run.episodes))
     question_faults(judged, &judged == &log, model, faults, doubts);
   end_with_run(run.log.runs, faults);
   Diagnosis diagnosis;

@@ -226,6 +226,7 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   out.size = VectorXd::Zero(sizes + (reads_wrong(guess.kind) ? 1 : 0));
   out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
   out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
+  out.day_column = MatrixXd::Zero(log.read.size(), log.day.cols());
   out.about = log.about;
   return out;
 }
