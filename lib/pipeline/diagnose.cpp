@@ -124,8 +124,8 @@ void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& fa
         fault.end_s = std::min(fault.end_s, run.end_s);
 }
 
-/// Whether known kinds explain all but little of what the faults of a log change. Columns that change are like
-/// no kind but a joint that swings freely, which a torque in a smaller unit looks like.
+/// Whether known kinds explain all but little of what the faults of a log change. Columns that change are
+/// like no kind but a joint that swings freely, which a torque in a smaller unit looks like.
 bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
   return !episodes.empty() &&
          std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {

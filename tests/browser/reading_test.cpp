@@ -67,7 +67,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
   const TemporaryFolder folder;
   expect_readable(made_page(
       folder, {"diagnose", kSamples + "golden/logs/torque_loss_2.csv", "--model",
-               kSamples + "golden/model-ecb517ac.json", "--cases", kSamples + "golden/cases-21e17cc3.db"}));
+               kSamples + "golden/model-df7f2541.json", "--cases", kSamples + "golden/cases-2662ecf0.db"}));
 }
 
 TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {

@@ -2,6 +2,7 @@
 #include "lib/balance/one_step/interval_motion.hpp"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace faultline {
@@ -12,6 +13,9 @@ using Eigen::VectorXd;
 
 /// Weights and places of the four stages of Runge and Kutta.
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+
+constexpr double kConverges = 2.0;  // largest rate times the step for which the Taylor series is good
+constexpr int kMostHalvings = 30;
 
 void stop_locked(const MotionLaw& law, VectorXd& state) {
   for (int j = 0; j < law.joints(); ++j)
@@ -30,6 +34,11 @@ void mean_of(const MotionSlopes& begin, const MotionSlopes& middle, const Motion
 
 void Tangent::move(double h, const MotionSlopes& at) {
   const auto n = at.inverse.rows(), numbers = by_number.cols();
+  int halvings = 0;  // until the series converges: friction near rest is fast
+  for (double size = h * at.by_state.cwiseAbs().maxCoeff(); size > kConverges && halvings < kMostHalvings;
+       size *= 0.5)
+    ++halvings;
+  h = std::ldexp(h, -halvings);
   using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxJoints, 3 * kMaxJoints>;
   Wide rate(2 * n, 3 * n), first(2 * n, 3 * n), sum(2 * n, 3 * n);  // by the state, by a torque
   first.setZero();
@@ -44,12 +53,17 @@ void Tangent::move(double h, const MotionSlopes& at) {
     sum = first + rate;
   }
   sum *= h;
-  const StateMatrix step = StateMatrix::Identity(2 * n, 2 * n) + sum.leftCols(2 * n);
+  StateMatrix step = StateMatrix::Identity(2 * n, 2 * n) + sum.leftCols(2 * n);
+  StateMatrix by_torque = sum.rightCols(n);
+  for (int k = 0; k < halvings; ++k) {
+    by_torque += step.lazyProduct(by_torque).eval();
+    step = step.lazyProduct(step).eval();
+  }
   by_state = step.lazyProduct(by_state).eval();
   for (Eigen::Index p = 0; p < numbers; ++p) {
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1> moved = step.lazyProduct(by_number.col(p));
     for (Eigen::Index j = 0; j < n; ++j)
-      if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * sum.col(2 * n + j);
+      if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * by_torque.col(j);
     by_number.col(p) = moved;
   }
 }

@@ -30,7 +30,8 @@ struct Tangent {
       : by_state(StateMatrix::Identity(states, states)), by_number(Eigen::MatrixXd::Zero(states, numbers)) {}
 
   /// Moves it by a step of length `h` whose slopes are constant: the Taylor series of fourth order of the
-  /// exponential.
+  /// exponential, by halved steps that are then doubled where it would not converge (Moler and Van Loan 2003,
+  /// method 3).
   void move(double h, const MotionSlopes& at);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults in logs of 20 rows a second of a robot in closed form whose friction differs by day. The torque is held
-// between samples, so that a fault that begins with a sample can be written into a healthy log.
+// Faults in logs of 20 rows a second of a robot in closed form whose friction differs by day. The torque is
+// held between samples, so that a fault that begins with a sample can be written into a healthy log.
 #include "lib/explain/coarse/explain_coarse.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,9 @@ std::vector<ExplainedFault> faults_of(const std::function<void(Log&)>& change) {
   return explain_whole_log(uniform_log(source, kPeriod_s), learned()).faults;
 }
 
-TEST(ExplainCoarse, AHealthyDayHasNoFault) { EXPECT_TRUE(faults_of([](Log&) {}).empty()); }
+TEST(ExplainCoarse, AHealthyDayHasNoFault) {
+  EXPECT_TRUE(faults_of([](Log&) {}).empty());
+}
 
 TEST(ExplainCoarse, AStuckEncoderBeginsBetweenItsLastTrueAndItsFirstFalseCode) {
   for (const int joint : {1, 2, 3}) {
