@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lib/core/elementary/elementary.hpp"
 
@@ -38,7 +39,7 @@ double share_repeated(const CoarseLog& log, int j, int from) {
 double price_of_new_code(const CoarseLog& log, int j, int from) {
   if (from < 1) return 0.0;
   const double passed = std::abs(log.log.q(from, j) - log.log.q(from - 1, j));
-  const double noise = std::sqrt(2.0 * M_PI * log.model->reading_variance[j]);
+  const double noise = std::sqrt(2.0 * std::numbers::pi * log.model->reading_variance[j]);
   return passed > noise ? elementary::log(passed / noise) : 0.0;
 }
 
