@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/coarse_search.hpp"
 #include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/explain_faults.hpp"
@@ -36,10 +37,19 @@ ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
   return fault;
 }
 
+/// Whether what explains a log best leaves more than noise, where smoothing did not converge: a robot that
+/// runs away is far from linear in its torques, and no hypothesis is judged rightly there.
+bool runs_away(const CoarseLog& log, const LogExplanation& e) {
+  return log.settled < log.samples() && !e.best.empty() && e.best.front().fit.mean_square() > kMuchLeft;
+}
+
 /// At most one fault. An unknown fault that begins with the log is not reported: the model may not fit the
 /// log from its first row on, and the loudness of the log says so.
 ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits) {
   const LogExplanation e = explain_coarse(log);
+  if (runs_away(log, e))
+    if (const std::optional<CoarseLog> before = settled_part(log))
+      if (ExplainedLog out = explained_coarse(*before, limits); !out.faults.empty()) return out;
   std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(log, e));
   ExplainedLog out;
   out.judged_s =

@@ -17,6 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double kMuchDoubt = 1.0;  // of the usual torque and of the logged one: any of it may be missing
 constexpr int kSmoothings = 4;      // of the whole log: a force as large as the torque settles
+constexpr double kStillChanges =
+    30.0;  // standard deviations of a reading that its last round may still change
 constexpr int kHealthyRounds = 2;
 constexpr double kFirstOnset_s = 0.5;
 constexpr int kFirstOnset = 6;          // samples
@@ -38,9 +40,19 @@ int first_wild(const LinearSteps& steps) {
   return steps.intervals;
 }
 
+/// First sample that the last round of smoothing still changed; their number where the trajectory has
+/// settled.
+int first_unsettled(const Trajectory& change, const MatrixXd& variance) {
+  const MatrixXd square = change.cwiseAbs2().cwiseQuotient(variance);
+  for (Eigen::Index k = 0; k < square.cols(); ++k)
+    if (!(square.col(k).maxCoeff() < kStillChanges * kStillChanges)) return static_cast<int>(k);
+  return static_cast<int>(square.cols());
+}
+
 /// A smoothed trajectory, or the interval through which the robot cannot be integrated.
 struct SmoothedLog {
   Trajectory about;
+  int settled = 0;  ///< see CoarseLog::settled
   std::optional<int> wild{};
 };
 
@@ -56,12 +68,13 @@ SmoothedLog smoothed_log(const CoarseLog& log) {
       (log.force_std.cwiseAbs2() + kMuchDoubt * kMuchDoubt * torque.cwiseAbs2()).colwise() +
       kMuchDoubt * kMuchDoubt * m.torque_rms.cwiseAbs2();
   MatrixXd missing = MatrixXd::Zero(n, log.samples() - 1);
+  int settled = 0;
   FilterInput in;
   in.column.resize(2 * n, 0);
   in.variance = log.variance;
   for (int round = 0; round < kSmoothings; ++round) {
     LinearSteps steps = linear_steps(log.log, about, m.setting, {.usual = &law, .force = &missing});
-    if (const int wild = first_wild(steps); wild < steps.intervals) return {{}, wild};
+    if (const int wild = first_wild(steps); wild < steps.intervals) return {{}, 0, wild};
     for (int k = 0; k < steps.intervals; ++k)
       steps.miss.col(k) -= steps.number_of(k).middleCols(force, n) * missing.col(k);
     in.process = process_covariance(steps, m.layout(), doubt.cwiseSqrt());
@@ -73,8 +86,9 @@ SmoothedLog smoothed_log(const CoarseLog& log) {
       missing.col(k) = by_force.colPivHouseholderQr().solve(off);
     }
     about += change;
+    settled = first_unsettled(change, log.variance);
   }
-  return {std::move(about)};
+  return {std::move(about), settled};
 }
 
 UniformLog first_rows(UniformLog log, int rows) {
@@ -159,12 +173,17 @@ std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model)
   SmoothedLog smooth = smoothed_log(out);
   if (smooth.wild) return followed_log(first_rows(std::move(out.log), *smooth.wild), model);
   out.about = std::move(smooth.about);
+  out.settled = smooth.settled;
   out.force_std = model.force_std(out.log, out.about);
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);
   out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});
   out.healthy = judge_coarse(out, {}, {.rounds = kHealthyRounds});
   return out;
+}
+
+std::optional<CoarseLog> settled_part(const CoarseLog& log) {
+  return followed_log(first_rows(log.log, log.settled), *log.model);
 }
 
 bool repeats_tell(const OneStepModel& model, int joint) {

@@ -45,6 +45,8 @@ struct CoarseLog {
   Eigen::MatrixXd day;        ///< directions of the day's effects in them
   Trajectory read;            ///< what was measured
   Trajectory about;           ///< smoothed, with much doubt about every torque
+  int settled = 0;            ///< samples up to which smoothing converges: behind them the robot runs away,
+                              ///< or its readings contradict each other
   LinearSteps healthy_steps;  ///< about it
   Eigen::MatrixXd variance;   ///< of the readings
   Eigen::MatrixXd force_std;  ///< joints x intervals
@@ -66,6 +68,9 @@ struct CoarseLog {
 CoarseLog coarse_log(UniformLog log, const OneStepModel& model);
 /// The same; nothing where it would throw.
 std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model);
+
+/// The part of the log up to which smoothing converges; nothing where too few rows are left.
+std::optional<CoarseLog> settled_part(const CoarseLog& log);
 
 /// Whether repeated codes of a position say anything: in healthy logs it hardly repeats, for its noise.
 bool repeats_tell(const OneStepModel& model, int joint);
