@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
+
 namespace faultline {
 namespace {
 
 constexpr double kLeastError = 0.1, kMostError = 0.35;  // periods: standard deviation of a stamp
+constexpr double kNormalMedian = 0.67;                  // median of |x| of a standard normal x
 constexpr double kLostPoint = 4.6;                      // nats: one row in a hundred
 constexpr double kMostLost = 10.0;                      // nats of a gap, however long: logs stop and go on
 constexpr double kMostWrong = 8.0;                      // nats of a stamp, however wrong: clocks jump
@@ -16,6 +20,9 @@ constexpr double kRowTooMany = 9.2;                     // nats: one row in ten 
 constexpr double kUnlikely = 30.0;    // nats behind the best beyond which a sequence is given up
 constexpr double kDoubtful = 0.25;    // periods
 constexpr int kAround = 2;            // points on each side of where a stamp lies
+constexpr int kStepsAround = 4;       // rows on each side that show how far a joint moves in a period
+constexpr double kMostOfStep = 10.0;  // nats that the positions add to a number of periods at most
+constexpr double kSpreads = 2.0;      // of the steps around: standard deviation of one of them
 constexpr double kPhaseGain = 0.005;  // of the phase for each row: some 200 rows
 
 /// The best sequence that ends at one point.
@@ -24,6 +31,7 @@ struct Ending {
   double cost = 0.0;
   double phase_s = 0.0;   ///< time of point 0, as the last rows show it
   int before = -1;        ///< ending of the row before
+  int row = 0;            ///< the one that stands at this point
   bool is_point = false;  ///< whether the last row stands at this point, else at none
 };
 
@@ -38,6 +46,16 @@ double stamp_error(std::span<const double> time, double period_s) {
   return std::clamp(std::sqrt(0.5 * sum / static_cast<double>(time.size() - 1)), kLeastError, kMostError);
 }
 
+/// Nats by which the joints speak against `periods` between rows `before` and `row`.
+double cost_of_step(const RowSteps& steps, int before, int row, int periods) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < steps.position.cols(); ++j) {
+    const double moved = steps.position(row, j) - steps.position(before, j), std = steps.std(row, j);
+    if (std > 0.0) sum += 0.5 * Eigen::numext::abs2((moved - periods * steps.usual(row, j)) / std);
+  }
+  return std::min(sum, kMostOfStep);
+}
+
 /// Keeps the better of two sequences that end at one point.
 void keep_better(const Ending& ending, std::vector<Ending>& endings) {
   const auto known =
@@ -48,9 +66,10 @@ void keep_better(const Ending& ending, std::vector<Ending>& endings) {
     *known = ending;
 }
 
-/// The endings of the next row, which is stamped `time`.
-std::vector<Ending> next_endings(const std::vector<Ending>& endings, double time, double period_s,
-                                 double error, double gain) {
+/// The endings of row `row`, which comes next and is stamped `time`.
+std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, double time, double period_s,
+                                 double error, const RowSteps& steps) {
+  const double gain = std::max(kPhaseGain, 1.0 / (row + 1.0));
   std::vector<Ending> out;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(endings.size()); ++i) {
@@ -60,12 +79,13 @@ std::vector<Ending> next_endings(const std::vector<Ending>& endings, double time
          ++point) {
       const double off_s = time - e.phase_s - period_s * point, z = off_s / (period_s * error);
       const double lost = std::min(kLostPoint * (point - e.point - 1), kMostLost);
-      const double cost = e.cost + std::min(0.5 * z * z, kMostWrong) + lost;
+      const double cost = e.cost + std::min(0.5 * z * z, kMostWrong) + lost +
+                          cost_of_step(steps, e.row, row, point - e.point);
       if (cost > least + kUnlikely) continue;
       least = std::min(least, cost);
-      keep_better({point, cost, e.phase_s + gain * off_s, i, true}, out);
+      keep_better({point, cost, e.phase_s + gain * off_s, i, row, true}, out);
     }
-    keep_better({e.point, e.cost + kRowTooMany, e.phase_s, i, false}, out);
+    keep_better({e.point, e.cost + kRowTooMany, e.phase_s, i, e.row, false}, out);
   }
   least = std::min_element(out.begin(), out.end(), [](const Ending& a, const Ending& b) {
             return a.cost < b.cost;
@@ -129,14 +149,38 @@ int SampleGrid::points() const {
   return most + 1;
 }
 
-SampleGrid sample_grid(std::span<const double> time, double period_s) {
+RowSteps row_steps(const std::vector<std::vector<double>>& positions) {
+  const auto joints = static_cast<int>(positions.size());
+  const int rows = joints > 0 ? static_cast<int>(positions[0].size()) : 0;
+  RowSteps out;
+  out.position = out.usual = out.std = Eigen::MatrixXd::Zero(rows, joints);
+  std::vector<double> step(static_cast<std::size_t>(std::max(rows, 1)), 0.0), around, off;
+  for (int j = 0; j < joints; ++j) {
+    for (int k = 0; k < rows; ++k) out.position(k, j) = positions[j][k];
+    for (int k = 1; k < rows; ++k) step[k] = positions[j][k] - positions[j][k - 1];
+    off.clear();
+    for (int k = 1; k < rows; ++k) {
+      around.assign(step.begin() + std::max(1, k - kStepsAround),
+                    step.begin() + std::min(rows, k + kStepsAround + 1));
+      const double usual = out.usual(k, j) = upper_median_of(around);
+      for (double& s : around) s = std::abs(s - usual);
+      out.std(k, j) = kSpreads * upper_median_of(around);  // a joint speeds up or slows down
+      if (const double d = std::abs(step[k] - usual); d > 0.0) off.push_back(d);
+    }
+    if (off.empty()) continue;
+    const double noise = upper_median_of(off) / kNormalMedian;
+    for (int k = 1; k < rows; ++k) out.std(k, j) = elementary::hypot(out.std(k, j), noise);
+  }
+  return out;
+}
+
+SampleGrid sample_grid(std::span<const double> time, double period_s, const RowSteps& steps) {
   SampleGrid grid{0.0, period_s, std::vector<int>(time.size(), -1)};
   if (time.size() < 2) return grid;
   const double error = stamp_error(time, period_s);
-  std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, true}}};
-  for (std::size_t k = 1; k < time.size(); ++k)
-    all.push_back(next_endings(all.back(), time[k], period_s, error,
-                               std::max(kPhaseGain, 1.0 / static_cast<double>(k + 1))));
+  std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, 0, true}}};
+  for (int row = 1; row < static_cast<int>(time.size()); ++row)
+    all.push_back(next_endings(all.back(), row, time[row], period_s, error, steps));
   std::vector<double> off(time.size(), 0.0);
   int at = 0;
   for (int i = 1; i < static_cast<int>(all.back().size()); ++i)

@@ -82,7 +82,10 @@ PlacedRows placed(const Log& all, const std::string& path, double period_s) {
     out.row.push_back(row);
     time.push_back(all.time[row]);
   }
-  out.grid = sample_grid(time, period_s);
+  std::vector<std::vector<double>> positions(all.q.size());
+  for (std::size_t j = 0; j < all.q.size(); ++j)
+    for (const int row : out.row) positions[j].push_back(all.q[j][row]);
+  out.grid = sample_grid(time, period_s, row_steps(positions));
   if (out.grid.points() < 2)
     throw Error(ErrorCode::input, path, "has fewer than two rows with all values; nothing can be said of it");
   return out;

@@ -62,5 +62,46 @@ TEST(SampleGrid, AClockThatRunsFastLosesNoRow) {
   EXPECT_NEAR(grid.period_s, 1.0001 * kPeriod_s, 1e-9);
 }
 
+/// Positions of two joints, one of which rests, at these points.
+std::vector<std::vector<double>> positions_at(const std::vector<int>& points) {
+  std::vector<std::vector<double>> out(2);
+  for (const int p : points) {
+    out[0].push_back(std::sin(1e-3 * p) + 1e-5 * ((p * 7919) % 11 - 5) / 5.0);
+    out[1].push_back(0.3);
+  }
+  return out;
+}
+
+TEST(SampleGrid, PositionsSayWhereARowThatIsStampedLateBelongs) {
+  std::vector<int> points = counted(300);
+  points.erase(points.begin() + 150);
+  std::vector<int> stamped = points;
+  stamped[149] = 150;  // the lost row's: the stamp looks right
+  const std::vector<double> time = stamps(stamped, {0.0, 0.4, 0.6, 0.2});
+  EXPECT_EQ(sample_grid(time, kPeriod_s).point[149], 150);
+  const SampleGrid grid = sample_grid(time, kPeriod_s, row_steps(positions_at(points)));
+  points[149] = -1;  // between its own point and that of its stamp
+  EXPECT_EQ(grid.point, points);
+}
+
+TEST(SampleGrid, JointsThatSpeedUpFastLoseNoRow) {
+  std::vector<double> time;
+  std::vector<std::vector<double>> positions(2);
+  for (int k = 0; k < 500; ++k) {
+    time.push_back(0.01 * k);
+    positions[0].push_back(0.8 * std::sin(40.0 * time.back()));
+    positions[1].push_back(0.3 * std::sin(90.0 * time.back()));
+  }
+  EXPECT_EQ(sample_grid(time, 0.01, row_steps(positions)).point, counted(500));
+}
+
+TEST(SampleGrid, APositionThatJumpsMovesNoRow) {
+  const std::vector<int> points = counted(300);
+  std::vector<std::vector<double>> positions = positions_at(points);
+  for (int k = 140; k < 300; ++k) positions[0][k] += 0.01;
+  const std::vector<double> time = stamps(points, {0.0, 0.4, -0.6, 0.2});
+  EXPECT_EQ(sample_grid(time, kPeriod_s, row_steps(positions)).point, points);
+}
+
 }  // namespace
 }  // namespace faultline
