@@ -200,7 +200,7 @@ EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& h) {
   const Stacked without = fit.left_without_fault(h.fit);
   const double edge = reach_s(fit.model().setting);
   EvidenceCourse out;
-  double sum = 0.0;
+  double sum = h.at_onset;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < h.onset_s - edge) continue;
     for (int j = 0; j < fit.joints(); ++j) {

@@ -12,6 +12,8 @@ namespace faultline {
 /// A fault that may explain a log, judged exactly (equation (6) of docs/how-it-works.md).
 struct FaultHypothesis : FaultClaim {
   double gain = 0.0;  ///< nats by which it explains the log better than what is known of it without
+  /// Part of `gain` that the readings at the onset give beside the rows of the torque balance.
+  double at_onset = 0.0;
   Explanation fit{};
 };
 

@@ -7,6 +7,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/judge_silent.hpp"
+#include "lib/explain/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {
@@ -136,9 +137,13 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
 FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
   const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
   FaultHypothesis best = judge_reading(fit, claim);
+  if (claim.velocity_is_true) best.at_onset = jump_evidence(fit, best);
+  best.gain += best.at_onset;
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
   FaultHypothesis other = judge_reading(fit, claim);
+  other.at_onset = jump_evidence(fit, other);
+  other.gain += other.at_onset;
   return other.gain > best.gain ? other : best;
 }
 

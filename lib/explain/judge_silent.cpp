@@ -18,6 +18,10 @@ constexpr double kDroppedCost = 1.2;  // nats a row that an unknown force explai
 constexpr int kSamplesBefore = 20;
 constexpr double kComesToRest = 0.3;   // share of repeats before a joint stands that shows that it brakes
 constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
+constexpr double kRepeated = 0.98;     // share of the samples from which a code repeats
+constexpr double kRests = 0.02;        // of a joint's greatest healthy speed: it stands
+constexpr double kSettles_s = 0.02;    // after which a joint that was locked stands
+constexpr double kShakes = 0.05;       // share of its evidence that the shaking of a halt explains at most
 constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
 
 /// Nats by which a joint that is said to be locked moves, but for its spring.
@@ -61,6 +65,39 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
           first > from ? static_cast<double>(before) / (first - from) : 1.0};
 }
 
+/// Whether the velocity of a joint reads anew from onset to end while the joint stands: a frozen encoder
+/// would repeat its velocity, too.
+bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
+  const UniformLog& log = fit.log();
+  const int j = claim.joint - 1;
+  if (log.dq.rows() == 0 || fit.model().setting.velocity_is_difference) return false;
+  int samples = 0, same = 0;
+  double square = 0.0;
+  for (int k = 1; k < log.rows(); ++k) {
+    if (log.time_s(k) < claim.onset_s + kSettles_s || log.time_s(k) >= claim.end_s) continue;
+    same += log.dq(k, j) == log.dq(k - 1, j);
+    square += Eigen::numext::abs2(log.dq(k, j));
+    ++samples;
+  }
+  return samples > 0 && same < kRepeated * samples &&
+         square < Eigen::numext::abs2(kRests * fit.model().top_speed[j]) * samples;
+}
+
+/// Nats by which the rows of the other joints are explained better with noise as large as they are while a
+/// joint is locked: its halt shakes an arm on soft springs, which the model does not follow. At most a share
+/// of the evidence of the lock itself: what another fault leaves is no shaking.
+double slack_of_halt(const LogFit& fit, const FaultClaim& claim, const Explanation& e, double gain) {
+  const LeftWithin left = left_within(fit, claim, e);
+  double slack = 0.0;
+  for (int j = 0; j < fit.joints(); ++j) {
+    const double rows = left.rows[j], square = left.square[j];
+    if (rows < 2.0 || square <= 1.0) continue;
+    const double louder = rows * (square - 1.0 - elementary::log(square)) - elementary::log(rows);
+    slack += 0.5 * std::max(0.0, louder);
+  }
+  return std::min(slack, std::max(0.0, kShakes * gain));
+}
+
 /// Rows at which the joint must stand still: those that lie within onset and end.
 std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
@@ -101,16 +138,19 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
     const std::vector<int> within = rows_within(fit, claim);
     if (within.size() < 5) return std::nullopt;
     price = price_of_motion(fit, j, within) + kStandingCost;
-    if (same > 0.98 && telling) price += 2.0 * samples;
+    if (same > kRepeated && telling) price += 2.0 * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
     price = kStandingCost + (slide ? 0.0 : 0.5 * kDroppedCost * lost);
-    if (same < 0.98 || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
+    if (same < kRepeated || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
+    if (velocity_shows_rest(fit, claim)) return std::nullopt;
     if (telling) price -= std::min(samples, 500) * elementary::log(1.0 / m.repeat_share[j]);
   }
   const FaultColumns jolt = claim.kind == FaultKind::locked ? jolt_columns(fit, claim) : FaultColumns{};
   Explanation e = fit.explain_with_piece(fit.residual(), jolt, {}, claim.onset_s, dropped);
   e.size.resize(0);
-  return hypothesis(fit, claim, std::move(e), price);
+  FaultHypothesis out = hypothesis(fit, claim, std::move(e), price);
+  if (claim.kind == FaultKind::locked) out.gain += slack_of_halt(fit, claim, out.fit, out.gain);
+  return out;
 }
 
 }  // namespace faultline

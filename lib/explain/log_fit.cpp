@@ -47,6 +47,22 @@ double Explanation::mean_square() const {
   return count > 0.0 ? sum / count : 1.0;
 }
 
+LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
+  LeftWithin out{VectorXd::Zero(fit.joints()), VectorXd::Zero(fit.joints())};
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] <= claim.onset_s || fit.time_s()[k] >= claim.end_s) continue;
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double left = e.left[j * fit.count() + k];
+      if (std::isnan(left)) continue;
+      out.square[j] += left * left;
+      ++out.rows[j];
+    }
+  }
+  for (int j = 0; j < fit.joints(); ++j)
+    out.square[j] = out.rows[j] > 0.0 ? out.square[j] / out.rows[j] : 1.0;
+  return out;
+}
+
 LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known)
     : known_(std::move(known)),
       log_(without_false_readings(std::move(log), known_)),
@@ -91,11 +107,28 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
     if (silent_[i]) std_.data()[i] *= kSilent;
   whiten_effects();
   settle_healthy();
+  loosen_halts();
   for (int round = 0; round < kNoiseRounds; ++round) {  // a louder log dates its change later
     noise_ = own_noise(*this);
     whiten_effects();
     settle_healthy();
   }
+}
+
+/// While a joint is known to be locked the rows of the others are as loud as they are: its halt shakes them.
+void LogFit::loosen_halts() {
+  MatrixXd louder = MatrixXd::Ones(count(), joints());
+  for (const FaultClaim& claim : known_) {
+    if (claim.kind != FaultKind::locked) continue;
+    const VectorXd factor = left_within(*this, claim, healthy_).square.cwiseMax(1.0).cwiseSqrt();
+    for (int k = 0; k < count(); ++k)
+      if (time_s()[k] > claim.onset_s && time_s()[k] < claim.end_s)
+        louder.row(k) = louder.row(k).cwiseMax(factor.transpose());
+  }
+  if (louder.isOnes(0.0)) return;
+  std_.array() *= louder.array();
+  whiten_effects();
+  settle_healthy();
 }
 
 void LogFit::whiten_effects() {

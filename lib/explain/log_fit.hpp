@@ -118,6 +118,7 @@ class LogFit {
 
   Prepared prepared(const Stacked& residual, const FaultColumns& columns, const StackedMask& dropped) const;
   Explanation explain(const Prepared& hypothesis, const PiecePath& path) const;
+  void loosen_halts();
   void add_fault(const FaultColumns& columns, const FaultClaim& claim);
   void settle_healthy();
   void whiten_effects();
@@ -149,5 +150,12 @@ class LogFit {
   Explanation healthy_;
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;
 };
+
+/// By joint: rows of an explanation that count from onset to end of a claim, and the mean of the squares of
+/// what it leaves of them, whitened; 1 where no row counts.
+struct LeftWithin {
+  Eigen::VectorXd rows, square;
+};
+LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
 
 }  // namespace faultline

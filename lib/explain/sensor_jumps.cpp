@@ -18,8 +18,15 @@ constexpr int kMost = 6;            // jumps of one joint
 constexpr int kAround = 14;         // samples on each side that a step is measured over
 constexpr double kFewWaves = 0.3;   // decay of the fusion below which the velocity says nothing of steps
 constexpr double kHighRate_s = 0.005;
+constexpr double kMostOfJump = 50.0;  // nats: alone it names no fault, for one reading may be false
 constexpr std::size_t kMostRuns = 3;  // of repeated codes
 constexpr int kManyRepeats = 12;      // samples: a healthy position that repeats longer says nothing by it
+
+/// Whether the velocity of joint `j` says nothing of steps of its position.
+bool is_from_positions(const LogFit& fit, int j) {
+  const RowSetting& setting = fit.model().setting;
+  return setting.velocity_is_difference || fit.log().dq.rows() == 0 || setting.fusion[j] < kFewWaves;
+}
 
 /// How much each sample is off a smooth motion, and by which size.
 VectorXd off_motion(const LogFit& fit, int j) {
@@ -27,8 +34,7 @@ VectorXd off_motion(const LogFit& fit, int j) {
   const RowSetting& setting = fit.model().setting;
   const int n = log.rows() - 1;
   VectorXd out(n);
-  const bool from_positions =
-      setting.velocity_is_difference || log.dq.rows() == 0 || setting.fusion[j] < kFewWaves;
+  const bool from_positions = is_from_positions(fit, j);
   for (int k = 0; k < n; ++k) {
     const auto step = [&](int i) {
       const int c = std::clamp(i, 0, n - 1);
@@ -37,6 +43,15 @@ VectorXd off_motion(const LogFit& fit, int j) {
     out[k] = from_positions ? step(k) - 0.5 * (step(k - 2) + step(k + 2))
                             : step(k) - 0.5 * setting.period_s * (log.dq(k, j) + log.dq(k + 1, j));
   }
+  return out;
+}
+
+/// Standard deviation of what the samples are off, but for those that jump.
+double usual_size(std::vector<double> size) { return 1.4826 * upper_median(std::move(size)) + 1e-7; }
+
+std::vector<double> sizes_of(const VectorXd& off) {
+  std::vector<double> out(off.size());
+  for (int k = 0; k < off.size(); ++k) out[k] = std::abs(off[k]);
   return out;
 }
 
@@ -66,9 +81,8 @@ std::optional<double> step_size(const UniformLog& log, int j, int at) {
 std::vector<SensorJump> sensor_jumps(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   const VectorXd off = off_motion(fit, j);
-  std::vector<double> size(off.size());
-  for (int k = 0; k < off.size(); ++k) size[k] = std::abs(off[k]);
-  const double std = 1.4826 * upper_median(size) + 1e-7;
+  std::vector<double> size = sizes_of(off);
+  const double std = usual_size(size);
   std::vector<SensorJump> out;
   for (int n = 0; n < kMost; ++n) {
     const auto top = std::max_element(size.begin(), size.end());
@@ -83,6 +97,22 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int j) {
     if (std::abs(jump) > 3.0 * fit.model().q_noise[j]) out.push_back({log.time_s(at + 1), jump});
   }
   return out;
+}
+
+double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
+  const int j = claim.joint - 1;
+  const UniformLog& log = fit.log();
+  if (claim.kind != FaultKind::sensor_bias || !claim.velocity_is_true || is_from_positions(fit, j))
+    return 0.0;
+  int first = 0;  // sample that reads wrong
+  while (first < log.rows() && log.time_s(first) < claim.onset_s - 1e-9) ++first;
+  if (first < 1 || first >= log.rows() || log.lost[first] || log.lost[first - 1]) return 0.0;
+  const VectorXd off = off_motion(fit, j);
+  // A velocity that changes within a period may move a joint further than its mean does.
+  const double bend = 0.5 * log.period_s * (log.dq(first, j) - log.dq(first - 1, j)),
+               variance = Eigen::numext::abs2(usual_size(sizes_of(off))) + bend * bend, jump = off[first - 1],
+               left = jump - claim.size[0];
+  return std::clamp(0.5 * (jump * jump - left * left) / variance, 0.0, kMostOfJump);
 }
 
 bool repeats_say_something(const BalanceModel& model, int j) {

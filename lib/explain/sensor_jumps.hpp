@@ -16,6 +16,10 @@ struct SensorJump {
 
 std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 
+/// Nats by which the readings at the onset of a false position (FaultKind::sensor_bias) are explained better
+/// by its jump than by the motion that the velocity shows; 0 where the velocity is not measured apart.
+double jump_evidence(const LogFit& fit, const FaultClaim& claim);
+
 /// Whether repeated codes of a position say anything: in healthy logs it repeats for a few samples only.
 bool repeats_say_something(const BalanceModel& model, int joint);
 

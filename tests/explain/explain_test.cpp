@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "lib/explain/decide_log.hpp"
+#include "lib/explain/explain_faults.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
@@ -169,6 +170,45 @@ TEST(ExplainLog, ADriveThatClipsIsUnknown) {
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->claim.kind, FaultKind::unknown);
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.3);
+}
+
+/// Joint 2 locks at 4 s, which shakes joint 1 on a soft spring for a while.
+Log with_lock(std::uint64_t seed) {
+  ClosedFormRun run = run_of(seed);
+  run.locks_from_s = 4.0;
+  Log log = simulate_closed_form(of_day(0), run);
+  for (int k = 0; k < log.rows(); ++k)
+    if (const double since = log.time[k] - 4.0; since > 0.0)
+      log.tau[0][k] += 8.0 * std::exp(-since / 0.8) * std::sin(60.0 * since);
+  return log;
+}
+
+TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
+  MemorySource source(with_lock(23));
+  const ExplainedLog log =
+      explain_faults(uniform_log(source, kExplainedPeriod_s), scara_model(), limits(), {});
+  ASSERT_EQ(log.faults.size(), 1u);
+  EXPECT_EQ(log.faults[0].label(), (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
+}
+
+TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
+  Log log = with_lock(24);
+  for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
+  const auto fault = decided(fit_of(std::move(log)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
+}
+
+TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {
+  Log log = simulate_closed_form(of_day(0), run_of(25));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 3.0) log.q[2][k] += 0.0006;  // the torque hardly shows it: nothing depends on it
+  const auto fault = decided(fit_of(std::move(log)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 3}));
+  EXPECT_NEAR(fault->claim.size[0], 0.0006, 1e-4);
+  EXPECT_GT(fault->alarm_s, 3.0 - kExplainedPeriod_s);
 }
 
 /// A torque that repeats with the position of joint 2, as that of a gear, from the first sample on.
