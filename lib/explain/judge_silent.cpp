@@ -22,6 +22,7 @@ constexpr double kRepeated = 0.98;     // share of the samples from which a code
 constexpr double kRests = 0.02;        // of a joint's greatest healthy speed: it stands
 constexpr double kSettles_s = 0.02;    // after which a joint that was locked stands
 constexpr double kShakes = 0.05;       // share of its evidence that the shaking of a halt explains at most
+constexpr double kCoupled = 0.1;       // of a joint's usual torque: what another joint's motion gives
 constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
 
 /// Nats by which a joint that is said to be locked moves, but for its spring.
@@ -98,6 +99,20 @@ double slack_of_halt(const LogFit& fit, const FaultClaim& claim, const Explanati
   return std::min(slack, std::max(0.0, kShakes * gain));
 }
 
+/// Nats of the rows of other joints that a joint moves whose encoder is stuck: its unknown motion makes their
+/// torque as uncertain as a share of their usual one, not as their noise.
+double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropped) {
+  double out = 0.0;
+  for (int i = 0; i < fit.joints(); ++i) {
+    if (i == j) continue;
+    const double torque = kCoupled * fit.model().torque_rms[i];
+    for (int k = 0; k < fit.count(); ++k)
+      if (dropped[static_cast<std::size_t>(i) * fit.count() + k])
+        out += std::max(kDroppedCost, elementary::log(torque / fit.std()(k, i)));
+  }
+  return out;
+}
+
 /// Rows at which the joint must stand still: those that lie within onset and end.
 std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
@@ -128,7 +143,6 @@ FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
 std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim& claim) {
   const BalanceModel& m = fit.model();
   const int j = claim.joint - 1;
-  const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
   const StackedMask dropped = silent_rows(fit.rows(), m, claim);
   const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
   const auto [samples, same, same_before] = repeats_in(fit, claim);
@@ -140,7 +154,7 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
     price = price_of_motion(fit, j, within) + kStandingCost;
     if (same > kRepeated && telling) price += 2.0 * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
-    price = kStandingCost + (slide ? 0.0 : 0.5 * kDroppedCost * lost);
+    price = kStandingCost + price_of_unseen_motion(fit, j, dropped);
     if (same < kRepeated || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
     if (velocity_shows_rest(fit, claim)) return std::nullopt;
     if (telling) price -= std::min(samples, 500) * elementary::log(1.0 / m.repeat_share[j]);
