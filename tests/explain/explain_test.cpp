@@ -85,6 +85,28 @@ TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
   EXPECT_LT(fault->alarm_s, 5.0);
 }
 
+TEST(ExplainLog, ATorqueThatIsLostBendsNoGear) {
+  BalanceModel soft = scara_model();
+  const int spring = soft.layout().spring(1);
+  soft.theta[spring] = 2e-4;  // s^2 kg m^2 / (N m)
+  const UniformLog log = testing::on_grid(simulate_closed_form(of_day(0), run_of(12)));
+  const BalanceRows rows = balance_rows(log, soft.setting, soft.rigid, soft.theta);
+  const auto faults = linear_faults(rows, soft);
+  const LinearFault* loss = linear_of(faults, {FaultKind::torque_loss, 2});
+  ASSERT_TRUE(loss);
+  // The balance of the robot with the whole torque less that of one with no torque at joint 2.
+  UniformLog without = log;
+  without.tau.col(1).setZero();
+  const BalanceRows lost = balance_rows(without, soft.setting, soft.rigid, soft.theta);
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::VectorXd with_torque = rows.torque.col(j) - rows.column[j] * soft.theta,
+                          without_it = lost.torque.col(j) - lost.column[j] * soft.theta;
+    const Eigen::VectorXd column = loss->columns.column.col(0).segment(j * rows.rows(), rows.rows());
+    EXPECT_LT((with_torque - without_it - column).norm(), 1e-4 * column.norm() + 1e-9)
+        << j;  // but for a delay
+  }
+}
+
 TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
   Log log = simulate_closed_form(of_day(0), run_of(13));
   for (int k = 0; k < log.rows(); ++k)
