@@ -174,6 +174,10 @@ RowSteps row_steps(const std::vector<std::vector<double>>& positions) {
   return out;
 }
 
+bool stamps_wobble(std::span<const double> time, double period_s) {
+  return time.size() > 1 && stamp_error(time, period_s) > kLeastError;
+}
+
 SampleGrid sample_grid(std::span<const double> time, double period_s, const RowSteps& steps) {
   SampleGrid grid{0.0, period_s, std::vector<int>(time.size(), -1)};
   if (time.size() < 2) return grid;

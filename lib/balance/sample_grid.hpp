@@ -26,10 +26,13 @@ struct RowSteps {
 /// Of positions by joint, of which each has a value for each row.
 RowSteps row_steps(const std::vector<std::vector<double>>& positions);
 
+/// Whether stamps lie so far from whole periods that they alone may not say where a row stands.
+bool stamps_wobble(std::span<const double> time_s, double period_s);
+
 /// The most likely grid points of rows that were taken every `period_s` and stamped with some error: of all
 /// sequences that rise, the one with the least cost of errors, lost points and rows too many (Viterbi 1967).
 /// A stamp that wobbles so does not make two rows share a point. The phase of the clock is tracked, so that
-/// `period_s` need not be exact. `time_s` rises or repeats. Where stamps wobble, `steps` count, too: a stamp
+/// `period_s` need not be exact. `time_s` rises or repeats. `steps` count, too, where they are given: a stamp
 /// that is late by a period beside a lost row looks right, and the joints say where it belongs.
 SampleGrid sample_grid(std::span<const double> time_s, double period_s, const RowSteps& steps = {});
 

@@ -95,6 +95,11 @@ TEST(SampleGrid, JointsThatSpeedUpFastLoseNoRow) {
   EXPECT_EQ(sample_grid(time, 0.01, row_steps(positions)).point, counted(500));
 }
 
+TEST(SampleGrid, StampsWobbleWhereTheyAreRounded) {
+  EXPECT_FALSE(stamps_wobble(stamps(counted(300), {0.0}), kPeriod_s));
+  EXPECT_TRUE(stamps_wobble(stamps(counted(300), {0.0, 0.8, -0.7}), kPeriod_s));
+}
+
 TEST(SampleGrid, APositionThatJumpsMovesNoRow) {
   const std::vector<int> points = counted(300);
   std::vector<std::vector<double>> positions = positions_at(points);
