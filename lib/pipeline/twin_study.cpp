@@ -43,10 +43,19 @@ double size_of(const TwinRun& run) {
 
 }  // namespace
 
+Model with_rigid_gears(Model model) {
+  if (auto* rows = std::get_if<BalanceModel>(&model.explain.robot)) {
+    rows->theta.segment(rows->layout().spring(0), rows->joints()).setZero();
+    rows->setting.compliance.setZero();
+  }
+  return model;
+}
+
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
                                               const std::vector<FaultLabel>& labels, TwinJudging judging,
                                               std::uint64_t first_seed, int threads,
                                               const Progress& progress) {
+  const Model rigid = with_rigid_gears(model);
   std::vector<MonitoredRun> runs(labels.size());
   std::mutex reporting;
   int done = 0;
@@ -54,8 +63,8 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
     const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    MonitoredLog judged = judging == TwinJudging::known ? monitor_at(source, model, run.onset_s, run.end_s)
-                                                        : monitor(source, model);
+    MonitoredLog judged = judging == TwinJudging::known ? monitor_at(source, rigid, run.onset_s, run.end_s)
+                                                        : monitor(source, rigid);
     runs[i] = {run.label, run.onset_s, length_s, kSimulatedOrigin, std::move(judged), size_of(run)};
     const std::lock_guard lock(reporting);
     if (progress)

@@ -30,7 +30,12 @@ enum class TwinJudging {
   known,     ///< at the times of its fault (monitor_at()): a tenth of the time
 };
 
-/// One run of the twin for each label, judged with the model; run i has the seed stream `first_seed + i`.
+/// The model without gear springs: the twin has rigid gears, and springs that its runs do not show would be
+/// evidence of faults.
+Model with_rigid_gears(Model model);
+
+/// One run of the twin for each label, judged with the model, but with rigid gears; run i has the seed stream
+/// `first_seed + i`.
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
                                               const std::vector<FaultLabel>& labels, TwinJudging judging,
                                               std::uint64_t first_seed, int threads,

@@ -15,10 +15,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchDoubt = 1.0;  // of the usual torque and of the logged one: any of it may be missing
-constexpr int kSmoothings = 4;      // of the whole log: a force as large as the torque settles
-constexpr double kStillChanges =
-    30.0;  // standard deviations of a reading that its last round may still change
+constexpr double kMuchDoubt = 1.0;      // of the usual torque and of the logged one: any of it may be missing
+constexpr int kSmoothings = 4;          // of the whole log: a force as large as the torque settles
+constexpr double kStillChanges = 30.0;  // standard deviations of a reading that the last round may change
 constexpr int kHealthyRounds = 2;
 constexpr double kFirstOnset_s = 0.5;
 constexpr int kFirstOnset = 6;          // samples
