@@ -7,17 +7,19 @@
 namespace faultline {
 namespace {
 
-constexpr double kBeyond = 0.05;   // of the healthy range by which a joint must be outside
-constexpr double kFast = 0.15;     // of its greatest healthy speed, before it halts
-constexpr double kHalt_s = 0.06;   // within which it halts
-constexpr double kStays_s = 0.30;  // for which it stays
-constexpr double kForce = 1e4;     // N m or N
+constexpr double kBeyond = 0.05;     // of the healthy range by which a joint must be outside
+constexpr double kFast = 0.15;       // of its greatest healthy speed, before it halts
+constexpr double kHalt_s = 0.06;     // within which it halts
+constexpr double kStays_s = 0.30;    // for which it stays
+constexpr double kBounces_s = 0.30;  // for which it bounces at most
+constexpr double kForce = 1e4;       // N m or N
 
 struct Stay {
   int begin = 0, end = 0;
 };
 
-/// The first row at which joint `j` halted in `begin` .. `end`, on side `side`; `end` when it did not.
+/// The first row at which joint `j` halted in `begin` .. `end`, on side `side`; `end` when it did not. It may
+/// bounce before it stays.
 int halted_at(const BalanceRows& rows, const BalanceModel& model, int j, double side, const Stay& stay) {
   const double row_s = model.setting.row_s();
   const int before = std::max(1, static_cast<int>(std::lround(kHalt_s / row_s)));
@@ -26,12 +28,15 @@ int halted_at(const BalanceRows& rows, const BalanceModel& model, int j, double 
   const double slow = std::max(
       3.0 * (model.dq_noise[j] > 0.0 && !model.setting.velocity_is_difference ? model.dq_noise[j] : 0.0),
       0.5 * model.setting.friction_width[j]);
+  const int bounces = static_cast<int>(std::lround(kBounces_s / row_s));
   const auto speed = rows.dq.col(j);
+  int first = -1;
   for (int k = stay.begin; k + after < stay.end; ++k) {
     if (speed[k] * side >= slow) continue;
     const int from = std::max(0, k - before);
     if ((side * speed.segment(from, k - from + 1)).maxCoeff() <= kFast * model.top_speed[j]) continue;
-    if (speed.segment(k + before, after - before).cwiseAbs().mean() < 2.0 * slow) return k;
+    if (first < 0 || k - first > bounces) first = k;
+    if (speed.segment(k + before, after - before).cwiseAbs().mean() < 2.0 * slow) return first;
   }
   return stay.end;
 }
