@@ -29,10 +29,9 @@ constexpr double kPhaseGain = 0.005;  // of the phase for each row: some 200 row
 struct Ending {
   int point = 0;
   double cost = 0.0;
-  double phase_s = 0.0;   ///< time of point 0, as the last rows show it
-  int before = -1;        ///< ending of the row before
-  int row = 0;            ///< the one that stands at this point
-  bool is_point = false;  ///< whether the last row stands at this point, else at none
+  double phase_s = 0.0;  ///< time of point 0, as the last rows show it
+  int before = -1;       ///< ending of the row before
+  int row = 0;           ///< the last one that stands at a point
 };
 
 /// Standard deviation of a stamp in periods, from the steps between stamps, these cut where rows are lost: a
@@ -83,9 +82,9 @@ std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, do
                           cost_of_step(steps, e.row, row, point - e.point);
       if (cost > least + kUnlikely) continue;
       least = std::min(least, cost);
-      keep_better({point, cost, e.phase_s + gain * off_s, i, row, true}, out);
+      keep_better({point, cost, e.phase_s + gain * off_s, i, row}, out);
     }
-    keep_better({e.point, e.cost + kRowTooMany, e.phase_s, i, e.row, false}, out);
+    keep_better({e.point, e.cost + kRowTooMany, e.phase_s, i, e.row}, out);
   }
   least = std::min_element(out.begin(), out.end(), [](const Ending& a, const Ending& b) {
             return a.cost < b.cost;
@@ -182,7 +181,7 @@ SampleGrid sample_grid(std::span<const double> time, double period_s, const RowS
   SampleGrid grid{0.0, period_s, std::vector<int>(time.size(), -1)};
   if (time.size() < 2) return grid;
   const double error = stamp_error(time, period_s);
-  std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, 0, true}}};
+  std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, 0}}};
   for (int row = 1; row < static_cast<int>(time.size()); ++row)
     all.push_back(next_endings(all.back(), row, time[row], period_s, error, steps));
   std::vector<double> off(time.size(), 0.0);
@@ -191,7 +190,7 @@ SampleGrid sample_grid(std::span<const double> time, double period_s, const RowS
     if (all.back()[i].cost < all.back()[at].cost) at = i;
   for (std::size_t k = time.size(); k-- > 0;) {
     const Ending& e = all[k][at];
-    if (e.is_point) grid.point[k] = e.point;
+    if (e.row == static_cast<int>(k)) grid.point[k] = e.point;
     off[k] = (time[k] - e.phase_s) / period_s - e.point;
     at = e.before;
   }

@@ -130,6 +130,8 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
     slope = (at - next) / moved;
     at = next;
   }
+  best.at_onset = jump_evidence(fit, best);
+  best.gain += best.at_onset;
   return best;
 }
 
@@ -137,13 +139,9 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
 FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
   const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
   FaultHypothesis best = judge_reading(fit, claim);
-  if (claim.velocity_is_true) best.at_onset = jump_evidence(fit, best);
-  best.gain += best.at_onset;
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
   FaultHypothesis other = judge_reading(fit, claim);
-  other.at_onset = jump_evidence(fit, other);
-  other.gain += other.at_onset;
   return other.gain > best.gain ? other : best;
 }
 

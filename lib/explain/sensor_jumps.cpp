@@ -50,9 +50,8 @@ VectorXd off_motion(const LogFit& fit, int j) {
 double usual_size(std::vector<double> size) { return 1.4826 * upper_median(std::move(size)) + 1e-7; }
 
 std::vector<double> sizes_of(const VectorXd& off) {
-  std::vector<double> out(off.size());
-  for (int k = 0; k < off.size(); ++k) out[k] = std::abs(off[k]);
-  return out;
+  const VectorXd size = off.cwiseAbs();
+  return {size.begin(), size.end()};
 }
 
 /// Step between samples `at` and `at` + 1, beside a cubic of the time.

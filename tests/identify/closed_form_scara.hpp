@@ -27,7 +27,7 @@ struct ClosedFormScara {
   Triple load = {0, 0, 0};    ///< share of the torque carried that friction takes
   Triple ripple = {0, 0, 0};  ///< amplitude of a torque that repeats with the position
   Triple ripple_rate = {40, 25, 314.16};    ///< 1/rad, 1/m
-  int locked = 0;                           ///< joint 1 or 2 that does not move; 0: none
+  bool is_locked = false;                   ///< joint 2 does not move
   double shared_fv = 0.0, shared_fc = 0.0;  ///< friction of a drive that turns with joints 1 and 2 together
 
   double carried() const { return m3 + payload; }
@@ -50,8 +50,7 @@ struct ClosedFormScara {
     force[1] -= bend * x.dq[0] * x.dq[0];
     const double m11 = a() + b() + 2 * c() * cos2, m12 = b() + c() * cos2, m22 = b();
     const double slide = force[2] / carried() - 9.81;
-    if (locked == 1) return {0.0, force[1] / m22, slide};
-    if (locked == 2) return {force[0] / m11, 0.0, slide};
+    if (is_locked) return {force[0] / m11, 0.0, slide};
     const double determinant = m11 * m22 - m12 * m12;
     return {(m22 * force[0] - m12 * force[1]) / determinant, (m11 * force[1] - m12 * force[0]) / determinant,
             slide};
@@ -109,7 +108,7 @@ inline Log simulate_closed_form(ClosedFormScara robot, const ClosedFormRun& run)
   const int pieces = static_cast<int>(std::ceil(run.period_s / 0.0005));
   for (int k = 0; k < rows; ++k) {
     ClosedFormScara::Triple tau;
-    if (k * run.period_s >= run.locks_from_s) robot.locked = 2, x.dq[1] = 0.0;
+    if (k * run.period_s >= run.locks_from_s) robot.is_locked = true, x.dq[1] = 0.0;
     log.time.push_back(k * run.period_s);
     for (int j = 0; j < 3; ++j) {
       double q = 0.0, dq = 0.0;
