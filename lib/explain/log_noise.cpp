@@ -6,6 +6,7 @@
 
 #include "lib/balance/end_stop.hpp"
 #include "lib/balance/work_piece.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/explain/free_form.hpp"
 
 namespace faultline {
@@ -32,6 +33,7 @@ constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
 constexpr double kJustBefore_s = 0.2;  // the first motion: the kernel reaches so far
 constexpr double kMoves = 0.05;        // of a joint's greatest healthy speed
 constexpr double kLost = 1e3;          // times the least standard deviation: a row that does not count
+constexpr double kMostRows = 0.8, kFarLouder = 3.0;  // share of the rows, and times the loudest of them
 
 /// Sums of products of rows that lie 0, 1, .. `order` apart.
 VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
@@ -39,6 +41,20 @@ VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
   for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
     out[lag] = rows.head(rows.size() - lag).dot(rows.tail(rows.size() - lag));
   return out;
+}
+
+/// Size beyond which a row behind a change is part of a fault and no noise: far above most rows of the log's
+/// motion.
+double loudest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
+  const VectorXd size = rows.cwiseAbs();
+  const double most = upper_quantile({size.begin(), size.end()}, kMostRows);
+  return kFarLouder * std::max(usual, std::isnan(most) ? 0.0 : most);
+}
+
+/// Row from which on times are at least `time_s`.
+int first_row(const LogFit& fit, double time_s) {
+  const VectorXd& t = fit.time_s();
+  return static_cast<int>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
 }
 
 /// When any joint first moves; the first row where none does.
@@ -78,19 +94,21 @@ RowNoise own_noise(const LogFit& fit) {
   const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
                                   first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
   RowNoise out = fit.model().noise;
-  int rows = 0;
-  while (rows < fit.count() && fit.time_s()[rows] < until_s) ++rows;
+  const int rows = first_row(fit, until_s), moving = std::min(rows, first_row(fit, first_s)),
+            changed = first_row(fit, change.onset_s);
   for (int j = 0; j < fit.joints(); ++j) {
     JointNoise& noise = out.joint[j];
     const VectorXd std = fit.std().col(j);
     VectorXd scaled = torque.segment(j * fit.count(), rows).cwiseQuotient(std.head(rows));
+    const VectorXd usual = autocovariance(noise);
+    const double loudest = loudest_noise(scaled.tail(rows - moving), std::sqrt(usual[0]));
     double count = kRowsOfHealthyLogs;
     for (int k = 0; k < rows; ++k) {
-      const bool counts = std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
+      const bool is_fault = k >= changed && std::abs(scaled[k]) > loudest;
+      const bool counts = !is_fault && std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
       scaled[k] *= counts ? 1.0 : 0.0;
       count += counts ? 1.0 : 0.0;
     }
-    const VectorXd usual = autocovariance(noise);
     const VectorXd own = (kRowsOfHealthyLogs * usual + lag_products(scaled, usual.size() - 1)) / count;
     if (own[0] > usual[0]) noise = with_autocovariance(std::move(noise), own);
   }

@@ -260,6 +260,14 @@ TEST(ExplainLog, WhatALogLeavesFromItsFirstRowOnIsItsNoise) {
   EXPECT_FALSE(decided(fit));
 }
 
+TEST(ExplainLog, AFaultThatBeginsSoonAfterTheFirstMotionIsNoNoise) {
+  Log log = simulate_closed_form(of_day(0), run_of(27));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] > 1.8) log.tau[2][k] *= 40.0;
+  const LogFit fit = fit_of(std::move(log));
+  EXPECT_LT(fit.noise().joint[2].innovation, 2.0 * scara_model().noise.joint[2].innovation);
+}
+
 TEST(ExplainLog, AFaultOfALoudLogIsFound) {
   Log log = with_cogging(simulate_closed_form(of_day(0), run_of(20)));
   for (int k = 0; k < log.rows(); ++k)
