@@ -15,11 +15,15 @@ struct JointNoise {
   double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0, timing = 0.0;
   Eigen::VectorXd filter;   ///< autoregression of the rows over their standard deviation: 1, -a1, -a2, ..
   double innovation = 1.0;  ///< standard deviation behind the filter
+
+  bool operator==(const JointNoise&) const = default;
 };
 
 /// What makes rows of unit variance without correlation out of torque-balance rows.
 struct RowNoise {
   std::vector<JointNoise> joint;
+
+  bool operator==(const RowNoise&) const = default;
 };
 
 /// Standard deviation of each row (rows x joints) of a log whose white noise is `loudness` times that of the

@@ -25,12 +25,13 @@ MatrixXd middle(const MatrixXd& values) {
 /// The torque that acts in each interval, and its step over the interval.
 void read_torque(const MatrixXd& tau, const RowSetting& setting, Intervals& out) {
   const Index n = tau.rows() - 1;
+  const bool is_held = setting.torque_is_held && setting.averaged == 1;  // means run from one to the next
   out.torque.resize(n, tau.cols());
   out.torque_step.resize(n, tau.cols());
   for (Index k = 0; k < n; ++k) {
     const Index a = std::clamp<Index>(k + setting.torque_lag, 0, n);
     const Index b = std::clamp<Index>(k + 1 + setting.torque_lag, 0, n);
-    out.torque.row(k) = setting.torque_is_held ? tau.row(a).eval() : (0.5 * (tau.row(a) + tau.row(b))).eval();
+    out.torque.row(k) = is_held ? tau.row(a).eval() : (0.5 * (tau.row(a) + tau.row(b))).eval();
     out.torque_step.row(k) = tau.row(b) - tau.row(a);
   }
 }

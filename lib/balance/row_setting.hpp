@@ -17,10 +17,11 @@ struct RippleRate {
 /// How the torque-balance rows of a robot are made; the same for all its logs.
 struct RowSetting {
   double period_s = 0.0;        ///< of the samples
+  int averaged = 1;             ///< recorded samples that each of them is the mean of (averaged())
   double kernel_s = 0.010;      ///< standard deviation of the kernel that smooths torque and columns
   double friction_s = 0.006;    ///< the same for the velocity that friction depends on
   int decimation = 1;           ///< samples between two rows; never finer than the kernel
-  bool torque_is_held = false;  ///< between samples; else it runs straight
+  bool torque_is_held = false;  ///< between recorded samples; else it runs straight
   int torque_lag = 0;  ///< samples by which the torque acts later (positive: a later sample acts now)
   bool velocity_is_difference = false;  ///< the logged velocity holds nothing that the positions do not hold
   Eigen::VectorXd fusion;  ///< by joint: decay of the average that mixes difference and logged velocity

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
@@ -24,6 +25,7 @@ constexpr int kStepsAround = 4;       // rows on each side that show how far a j
 constexpr double kMostOfStep = 10.0;  // nats that the positions add to a number of periods at most
 constexpr double kSpreads = 2.0;      // of the steps around: standard deviation of one of them
 constexpr double kPhaseGain = 0.005;  // of the phase for each row: some 200 rows
+constexpr double kRegular = 0.01, kRegularRate = 1e-3;  // of a period: steps and rate of regular stamps
 
 /// The best sequence that ends at one point.
 struct Ending {
@@ -92,6 +94,14 @@ std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, do
   std::erase_if(out, [&](const Ending& e) { return e.cost > least + kUnlikely; });
   for (Ending& e : out) e.cost -= least;
   return out;
+}
+
+/// Whether every stamp stands at the point after that of the stamp before, without any doubt.
+bool are_regular(std::span<const double> time, double period_s) {
+  for (std::size_t k = 1; k < time.size(); ++k)
+    if (!(std::abs(time[k] - time[k - 1] - period_s) < kRegular * period_s)) return false;
+  const double steps = static_cast<double>(time.size() - 1);
+  return std::abs(time.back() - time.front() - steps * period_s) < kRegularRate * steps * period_s;
 }
 
 /// The points without those of rows beside a lost one whose stamps lie as near to it as to their own: `off`
@@ -180,6 +190,10 @@ bool stamps_wobble(std::span<const double> time, double period_s) {
 SampleGrid sample_grid(std::span<const double> time, double period_s, const RowSteps& steps) {
   SampleGrid grid{0.0, period_s, std::vector<int>(time.size(), -1)};
   if (time.size() < 2) return grid;
+  if (are_regular(time, period_s)) {
+    std::iota(grid.point.begin(), grid.point.end(), 0);
+    return with_line(std::move(grid), time, period_s);
+  }
   const double error = stamp_error(time, period_s);
   std::vector<std::vector<Ending>> all{{{0, 0.0, time[0], -1, 0}}};
   for (int row = 1; row < static_cast<int>(time.size()); ++row)

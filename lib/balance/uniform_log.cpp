@@ -116,6 +116,8 @@ UniformLog on_grid(const Log& all, const PlacedRows& placed) {
     if (out.dq.rows() > 0) interpolate(out.lost, true, out.dq.col(j));
   }
   out.lost = without_short_gaps(std::move(out.lost), static_cast<int>(kBridged_s / out.period_s));
+  out.q_noise = sample_noise(out.q);
+  out.dq_noise = sample_noise(out.dq);
   return out;
 }
 
@@ -131,7 +133,29 @@ UniformLog rows_from(const UniformLog& log, int first) {
     return values.rows() == 0 ? values : Eigen::MatrixXd(values.bottomRows(log.rows() - first));
   };
   return {log.time_s(first), log.period_s,  rest(log.q),
-          rest(log.dq),      rest(log.tau), {log.lost.begin() + first, log.lost.end()}};
+          rest(log.dq),      rest(log.tau), {log.lost.begin() + first, log.lost.end()},
+          log.q_noise,       log.dq_noise};
+}
+
+UniformLog averaged(UniformLog log, int samples, bool torque_is_held) {
+  if (samples < 2) return log;
+  const int rows = log.rows() / samples;
+  const auto means = [&](const Eigen::MatrixXd& values, bool is_held) {
+    Eigen::MatrixXd out(values.rows() == 0 ? 0 : rows, values.cols());
+    for (int j = 0; j < out.cols(); ++j)
+      for (int k = 0; k < out.rows(); ++k) {
+        const int first = k * samples, last = first + samples - 1;
+        out(k, j) = values.col(j).segment(first, samples).mean();
+        if (is_held) out(k, j) += 0.5 * (values(std::max(first - 1, 0), j) - values(last, j)) / samples;
+      }
+    return out;
+  };
+  std::vector<bool> lost(rows, false);
+  for (int k = 0; k < rows * samples; ++k)
+    if (log.lost[k]) lost[k / samples] = true;
+  const double less = 1.0 / std::sqrt(static_cast<double>(samples));
+  return {log.time_s(0.5 * (samples - 1)), log.period_s * samples, means(log.q, false), means(log.dq, false),
+          means(log.tau, torque_is_held),  std::move(lost),        less * log.q_noise,  less * log.dq_noise};
 }
 
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {

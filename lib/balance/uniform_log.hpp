@@ -17,6 +17,8 @@ struct UniformLog {
   Eigen::MatrixXd q, dq,
       tau;  ///< rows x joints; rad or m, rad/s or m/s, N m or N; `dq` is empty without a velocity
   std::vector<bool> lost;  ///< by row: interpolated
+  Eigen::VectorXd q_noise,
+      dq_noise;  ///< by joint: standard deviation of the white noise of a row (sample_noise())
 
   int rows() const { return static_cast<int>(q.rows()); }
   int joints() const { return static_cast<int>(q.cols()); }
@@ -26,6 +28,11 @@ struct UniformLog {
 /// The whole log on a grid of about `period_s` that begins with its first row; each row goes to its most
 /// likely point (see sample_grid). Throws Error(input) when the log has fewer than two rows.
 UniformLog uniform_log(LogSource& log, double period_s);
+
+/// Means of `samples` rows each, where the rows are so fine that the kernels see no difference. A mean is
+/// lost where any of its samples is. A torque that is held from its sample on acts half a sample later than a
+/// position; its mean is that of what acts in the meantime.
+UniformLog averaged(UniformLog log, int samples, bool torque_is_held);
 
 /// Its rows from `first` on.
 UniformLog rows_from(const UniformLog& log, int first);

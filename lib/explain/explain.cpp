@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 constexpr double kSameOnset_s = 0.08;
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
 constexpr double kMuchLess = 0.5;       // of what a lost torque leaves, that a clipping drive leaves
-constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found
+constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found,
+constexpr double kMayPass = 0.33;       // or share of the evidence that counts: the search is not exact
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
 constexpr double kMayWin = 0.3;         // of the best evidence so far, that a better onset may make the best
@@ -113,25 +114,29 @@ double best_gain(const JudgedHypotheses& bench) {
   return best;
 }
 
-/// Whether anything is worth judging: an onset that the search found, or a change of any form.
-bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Candidate>& found) {
+/// Whether anything is worth judging: an onset that the search found, or a change of any form. A reading that
+/// jumps has no score in the search.
+bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Candidate>& found,
+                double least_evidence) {
+  const double least = std::max(kStandsOut, kMayPass * least_evidence);
   double left = 0.0;
   for (const double z : fit.healthy().left)
     if (!std::isnan(z)) left += 0.5 * z * z;
-  return left - change.row_cost.sum() > kStandsOut ||
-         std::any_of(found.begin(), found.end(), [](const Candidate& c) { return c.score > kStandsOut; });
+  return left - change.row_cost.sum() > least ||
+         std::any_of(found.begin(), found.end(),
+                     [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; });
 }
 
 }  // namespace
 
-LogExplanation explain_log(const LogFit& fit) {
+LogExplanation explain_log(const LogFit& fit, double least_evidence) {
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(1024);
   LogExplanation out;
   out.free_form = free_form(fit);
   out.healthy_square = fit.healthy().mean_square();
   const std::vector<Candidate> found = search(fit);
-  if (!stands_out(fit, out.free_form, found)) return out;
+  if (!stands_out(fit, out.free_form, found, least_evidence)) return out;
   judge_candidates(found, out.free_form, bench);
   std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);

@@ -16,7 +16,8 @@ struct LogExplanation {
   FreeForm free_form;
 };
 
-LogExplanation explain_log(const LogFit& fit);
+/// Where the search finds nothing that may give `least_evidence` (nats), no hypothesis is judged.
+LogExplanation explain_log(const LogFit& fit, double least_evidence = 0.0);
 
 /// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the
 /// form of its columns, so a share of its torque is noise.

@@ -94,10 +94,10 @@ std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepMod
 
 std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
                                          double end_s) {
-  const FaultTimes at = times_of(log, onset_s, end_s);
   if (const auto* steps = std::get_if<OneStepModel>(&model.robot))
-    return coarse(log, *steps, model.limits, at);
-  return fine(log, std::get<BalanceModel>(model.robot), model.limits, at);
+    return coarse(log, *steps, model.limits, times_of(log, onset_s, end_s));
+  const UniformLog means = averaged_as(log, model.robot);
+  return fine(means, std::get<BalanceModel>(model.robot), model.limits, times_of(means, onset_s, end_s));
 }
 
 }  // namespace faultline

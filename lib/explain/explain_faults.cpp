@@ -64,7 +64,10 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
   const LogFit fit(log, model, known);
-  const LogExplanation e = explain_log(fit);
+  // The halt of a known lock makes the other joints' rows loud, and the search less exact.
+  const bool is_exact =
+      std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
+  const LogExplanation e = explain_log(fit, is_exact ? least_limit(limits) : 0.0);
   const LogEvidence evidence = log_evidence(fit, e);
   // What known faults leave is louder than the noise that evidence is counted by.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));

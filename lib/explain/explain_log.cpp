@@ -89,8 +89,9 @@ ExplainedLog explain_at_coarse_rate(UniformLog log, const OneStepModel& model, c
 
 }  // namespace
 
-double sample_period_s(const RobotRows& robot) {
-  return std::visit([](const auto& model) { return model.setting.period_s; }, robot);
+UniformLog averaged_as(const UniformLog& log, const RobotRows& robot) {
+  const auto* model = std::get_if<BalanceModel>(&robot);
+  return model == nullptr ? log : averaged(log, model->setting.averaged, model->setting.torque_is_held);
 }
 
 bool can_explain(const UniformLog& log, const RobotRows& robot) {
@@ -102,12 +103,13 @@ ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
                                const std::vector<FaultClaim>& lasting) {
   if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
     return explain_at_coarse_rate(log, *coarse, model.limits, lasting);
-  return explain_faults(log, std::get<BalanceModel>(model.robot), model.limits, lasting);
+  return explain_faults(averaged_as(log, model.robot), std::get<BalanceModel>(model.robot), model.limits,
+                        lasting);
 }
 
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {
   if (const auto* coarse = std::get_if<OneStepModel>(&robot)) return explain_coarse(coarse_log(log, *coarse));
-  return explain_log({log, std::get<BalanceModel>(robot)});
+  return explain_log({averaged_as(log, robot), std::get<BalanceModel>(robot)});
 }
 
 }  // namespace faultline

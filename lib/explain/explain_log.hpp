@@ -26,7 +26,8 @@ struct ExplainModel {
   static constexpr double kShortestWindow_s = 20.0, kLongestWindow_s = 60.0;
 };
 
-double sample_period_s(const RobotRows& robot);
+/// The log as the rows of the robot take it: means of so many samples as the healthy logs were averaged over.
+UniformLog averaged_as(const UniformLog& log, const RobotRows& robot);
 
 /// What the whole of a log says.
 struct ExplainedLog {

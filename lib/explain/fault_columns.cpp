@@ -42,12 +42,14 @@ LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
       j + 1,
       {StackedColumns::Zero(rows.rows() * rows.joints(), 1), VectorXd::Constant(1, kLossVariance)},
       {}};
-  out.columns.column.col(0).segment(j * rows.rows(), rows.rows()) = rows.torque.col(j);
+  const ColumnLayout at = m.layout();
+  auto lost = out.columns.column.col(0);
+  lost.segment(j * rows.rows(), rows.rows()) =
+      rows.torque.col(j) - m.theta[at.delay(j)] * rows.column[j].col(at.delay(j));
   // A torque that does not arrive bends no gear either.
-  const int spring = m.layout().spring(j);
+  const int spring = at.spring(j);
   for (int i = 0; i < rows.joints() && m.theta[spring] != 0.0; ++i)
-    out.columns.column.col(0).segment(i * rows.rows(), rows.rows()) -=
-        m.theta[spring] * rows.column[i].col(spring);
+    lost.segment(i * rows.rows(), rows.rows()) -= m.theta[spring] * rows.column[i].col(spring);
   if (m.piece_kg > 0.0 && carries_weight(m.rigid, j))
     for (const double size : {.4, .7, 1.}) out.starts.push_back(VectorXd::Constant(1, size));
   return out;

@@ -109,7 +109,9 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   settle_healthy();
   loosen_halts();
   for (int round = 0; round < kNoiseRounds; ++round) {  // a louder log dates its change later
-    noise_ = own_noise(*this);
+    RowNoise own = own_noise(*this);
+    if (own == noise_) break;
+    noise_ = std::move(own);
     whiten_effects();
     settle_healthy();
   }

@@ -70,7 +70,7 @@ double first_motion_s(const LogFit& fit) {
 
 VectorXd row_loudness(const UniformLog& log, const BalanceModel& model) {
   const bool by_position = model.setting.velocity_is_difference || log.dq.rows() == 0;
-  const VectorXd now = sample_noise(by_position ? log.q : log.dq);
+  const VectorXd& now = by_position ? log.q_noise : log.dq_noise;
   const VectorXd& usual = by_position ? model.q_noise : model.dq_noise;
   VectorXd out(now.size());
   for (int j = 0; j < out.size(); ++j)

@@ -47,6 +47,7 @@ struct Reader {
 template <typename Setting, typename Visit>
 void visit_rows(Setting& s, Visit& visit) {
   visit("period_s", s.period_s);
+  visit("averaged", s.averaged);
   visit("kernel_s", s.kernel_s);
   visit("friction_s", s.friction_s);
   visit("decimation", s.decimation);

@@ -44,7 +44,7 @@ ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& ro
   std::vector<UniformLog> uniform;
   for (LogSource* day : healthy.days) {
     day->rewind();
-    uniform.push_back(uniform_log(*day, sample_period_s(model.explain.robot)));
+    uniform.push_back(uniform_log(*day, model.sample_period_s));
   }
   out.left_out.resize(uniform.size());
   parallel_for(static_cast<int>(uniform.size()), options.threads, [&](int k) {

@@ -99,7 +99,7 @@ class LogTrial {
     const ExplainModel model{rows_of(robot, others), scaled(evidence_limits({}), kContradictory)};
     LogSource& suspicious = *robot.days[*found];
     suspicious.rewind();
-    const UniformLog rows = uniform_log(suspicious, sample_period_s(model.robot));
+    const UniformLog rows = uniform_log(suspicious, robot.model.sample_period_s);
     if (!can_explain(rows, model.robot)) return std::nullopt;
     const ExplainedLog seen = explain_whole_log(rows, model);
     if (seen.faults.empty()) return std::nullopt;

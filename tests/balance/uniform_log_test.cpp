@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "lib/log/memory_source.hpp"
 
@@ -38,6 +40,45 @@ TEST(UniformLog, AMissingRowOfASmoothMotionIsBridgedByACubic) {
 TEST(UniformLog, AMissingRowOfARepeatedCodeRepeatsIt) {
   const UniformLog log = without_row(150, [](double) { return -1.07282781; });
   for (int k = 1; k < log.rows(); ++k) ASSERT_EQ(log.q(k, 0), log.q(k - 1, 0)) << k;
+}
+
+/// A position that runs at 1 rad/s and the torque that it equals, read together.
+UniformLog rising(int rows) {
+  UniformLog log;
+  log.period_s = kPeriod_s;
+  log.q.resize(rows, 1);
+  for (int k = 0; k < rows; ++k) log.q(k, 0) = k * kPeriod_s;
+  log.dq = Eigen::MatrixXd::Ones(rows, 1);
+  log.tau = log.q;
+  log.lost.assign(rows, false);
+  log.q_noise = log.dq_noise = Eigen::VectorXd::Constant(1, 0.3);
+  return log;
+}
+
+TEST(UniformLog, AMeanStandsAtTheMiddleOfItsSamples) {
+  const UniformLog means = averaged(rising(11), 4, false);
+  ASSERT_EQ(means.rows(), 2);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(means.q(k, 0), means.time_s(k), 1e-15);
+    EXPECT_NEAR(means.tau(k, 0), means.time_s(k), 1e-15);
+  }
+  EXPECT_NEAR(means.period_s, 4 * kPeriod_s, 1e-15);
+  EXPECT_NEAR(means.q_noise[0], 0.15, 1e-15);
+}
+
+TEST(UniformLog, AHeldTorqueIsAveragedOverTheTimeThatItActs) {
+  const UniformLog means = averaged(rising(12), 4, true);
+  const double half = 2.0 * kPeriod_s, middle = means.time_s(1);  // it acts from 3.5 to 7.5 periods
+  double acts = 0.0;
+  for (int i = 0; i < 1000; ++i)
+    acts += std::floor((middle - half + 2.0 * half * (i + 0.5) / 1000.0) / kPeriod_s) * kPeriod_s / 1000.0;
+  EXPECT_NEAR(means.tau(1, 0), acts, 1e-12);
+}
+
+TEST(UniformLog, AMeanIsLostWithAnyOfItsSamples) {
+  UniformLog log = rising(12);
+  log.lost[6] = true;
+  EXPECT_EQ(averaged(std::move(log), 4, false).lost, (std::vector<bool>{false, true, false}));
 }
 
 }  // namespace

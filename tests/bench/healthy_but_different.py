@@ -15,7 +15,6 @@ import sys
 import time
 
 FAULTLINE = os.environ["FAULTLINE"]
-EXPLAIN = os.environ.get("FAULTLINE_EXPLAIN")  # measure this program (faultline_explain_logs) in place of FAULTLINE
 OUT = os.path.join(os.environ["FAULTLINE_OUT"], "healthy-but-different")
 HEALTHY_SEEDS = 4
 FAULT_SEEDS = 1
@@ -199,10 +198,8 @@ def learn_from(logs, folder, l1=0.4, held=False):
 
 
 def learned(logs, folder):
-    """The model of the robot in folder/robot.toml; for EXPLAIN, which learns anew, what it learns from."""
+    """The model of the robot in folder/robot.toml, and the seconds that learning took."""
     robot, model = os.path.join(folder, "robot.toml"), os.path.join(folder, "model.json")
-    if EXPLAIN:
-        return (folder, robot, logs), 0.0
     start = time.monotonic()
     said = run("learn", *logs, "--robot", robot, "-o", model)
     learn_s = time.monotonic() - start
@@ -223,30 +220,8 @@ def diagnose(path, model):
 
 def diagnose_all(paths, model):
     """The report of each log."""
-    if EXPLAIN:
-        return explain_all(paths, *model)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(lambda path: diagnose(path, model), paths))
-
-
-def explain_all(paths, folder, robot, healthy):
-    """The reports of EXPLAIN; each log under a name of its own, since reports are named after logs."""
-    out = os.path.abspath(os.path.join(folder, "explain"))
-    os.makedirs(out, exist_ok=True)
-    names = [f"{i:03d}_{os.path.basename(path)}" for i, path in enumerate(paths)]
-    for name, path in zip(names, paths):
-        link = os.path.join(out, name)
-        if os.path.lexists(link):
-            os.remove(link)
-        os.symlink(os.path.abspath(path), link)
-    with open(os.path.join(out, "logs.txt"), "w") as said_file:
-        logs = [os.path.join(out, name) for name in names]
-        subprocess.run([EXPLAIN, robot, out, *healthy, "--", *logs], stdout=said_file, check=True)
-    reports = []
-    for name in names:
-        with open(os.path.join(out, "reports", name + ".json")) as file:
-            reports.append(json.load(file))
-    return reports
 
 
 def said(faults):

@@ -4,8 +4,6 @@
 # learned from three exact healthy logs with the default [normal]; then each difference is simulated with several seeds,
 # healthy and with faults inside, and diagnosed. Goal: no alarm in the healthy logs, 95 % found and 88 % right in the
 # others. Takes some minutes on two cores.
-# FAULTLINE_EXPLAIN=build/release/tests/faultline_explain_logs measures the regression over whole logs instead; so do the
-# other benches on this simulator.
 # Usage: bash tests/bench/healthy_but_different.sh [ROW...]    ROW as the table names it, all by default
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

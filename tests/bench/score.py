@@ -31,7 +31,7 @@ def label_of(entry):
 class Tally:
     def __init__(self):
         self.runs = self.found = self.exact = self.named = self.stopped_right = 0
-        self.delays = []
+        self.delays, self.onset_errors = [], []
 
 
 def score_run(row, report, tally):
@@ -52,6 +52,7 @@ def score_run(row, report, tally):
     tally.named += named
     tally.stopped_right += exact or (named and label_of(first) == ALIKE.get(want))
     tally.delays.append(first["alarm_s"] - onset)
+    tally.onset_errors.append(abs(first["onset_s"] - onset))
     if exact:
         return early, None
     said = f"{first['kind']} {first['joint'] or '-'}"
@@ -113,7 +114,7 @@ def table_line(name, healthy, alarms, early, stopped, other):
     return (f"{name:<14}{f'{alarms} in {healthy}':>12}{early:>7}"
             f"{f'{stopped.stopped_right} of {stopped.runs}':>12}{median(stopped.delays):>10}"
             f"{f'{other.found} of {other.runs}':>11}{f'{other.named} of {other.runs}':>11}{other.exact:>7}"
-            f"{median(other.delays):>10}")
+            f"{median(other.delays):>10}{median(stopped.onset_errors + other.onset_errors):>10}")
 
 
 def added(tallies):
@@ -127,9 +128,9 @@ def added(tallies):
 def main(groups):
     results = {os.path.basename(os.path.normpath(group)): score_group(group) for group in groups}
     print(f"{'':<14}{'false':>12}{'early':>7}{'free/locked':>12}{'median':>10}"
-          f"{'others':>11}{'right or':>11}{'':>7}{'median':>10}")
+          f"{'others':>11}{'right or':>11}{'':>7}{'median':>10}{'onset':>10}")
     print(f"{'group':<14}{'alarms':>12}{'alarms':>7}{'right':>12}{'delay/s':>10}"
-          f"{'found':>11}{'named':>11}{'right':>7}{'delay/s':>10}")
+          f"{'found':>11}{'named':>11}{'right':>7}{'delay/s':>10}{'off by/s':>10}")
     keys = ("healthy", "alarms", "early", "stopped", "other")
     for name, result in results.items():
         print(table_line(name, *(result[key] for key in keys)))

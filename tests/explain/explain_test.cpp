@@ -42,6 +42,32 @@ TEST(FitDays, GivesTheRobotOfTheClosedForm) {
   }
 }
 
+/// A day at 1 kHz.
+Log fine_day(int day, std::uint64_t seed) {
+  ClosedFormRun run = run_of(seed);
+  run.period_s = 0.001;
+  run.duration_s = 5.0;
+  return simulate_closed_form(of_day(day), run);
+}
+
+TEST(FitDays, TorquesOfSamplesThatAreAveragedActInTime) {
+  const BalanceModel model = learned_from({fine_day(0, 1), fine_day(1, 2), fine_day(2, 3)}).model;
+  const ClosedFormScara truth;
+  const std::vector<double> base = {truth.a(), truth.b(), truth.c(), truth.m3};
+  EXPECT_EQ(model.setting.averaged, 2);
+  for (int p = 0; p < 4; ++p) EXPECT_NEAR(model.theta[p] / base[p], 1.0, 0.01) << p;
+  for (int j = 0; j < 3; ++j)
+    EXPECT_NEAR(model.theta[model.layout().delay(j)] + model.setting.torque_lag, 0.0, 0.1) << j;
+  Log log = fine_day(1, 4);
+  for (int k = 3000; k < log.rows(); ++k) log.tau[0][k] /= 0.6;
+  MemorySource source(std::move(log));
+  const auto faults = explain_whole_log(uniform_log(source, 0.001), {model, limits()}).faults;
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.01);
+  EXPECT_NEAR(faults[0].claim.size[0], 0.4, 0.04);
+}
+
 TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
   const DayLayout day = day_layout(scara_model().rigid);
   const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(9)));

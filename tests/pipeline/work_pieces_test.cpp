@@ -77,9 +77,9 @@ std::vector<ExplainedFault> faults_with_piece(double stated_kg) {
   for (MemorySource& source : sources) logs.push_back(&source);
   Robot robot = unknown_small_robot();
   robot.normal.work_piece_kg = stated_kg;
-  const ExplainModel model = explained_robot(logs, robot, {}).robot.model.explain;
+  const Model model = explained_robot(logs, robot, {}).robot.model;
   MemorySource carried(simulate(small_robot(), carrying(small_run(20.0), {{5.0, 12.0}}), 95).log);
-  return explain_whole_log(uniform_log(carried, sample_period_s(model.robot)), model).faults;
+  return explain_whole_log(uniform_log(carried, model.sample_period_s), model.explain).faults;
 }
 
 TEST(WorkPieces, OneThatTheRobotFileStatesIsNoFault) {

@@ -25,6 +25,7 @@ constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};
 
 /// Whether the logged velocity is the difference of the positions: then it is no second measurement.
 bool holds_no_velocity(const UniformLog& log) {
+  if (log.dq.rows() == 0) return true;
   std::vector<double> time(log.rows());
   for (int k = 0; k < log.rows(); ++k) time[k] = log.time_s(k);
   const auto column = [&](const MatrixXd& values, int j) {
@@ -63,6 +64,10 @@ VectorXd left_rms(const std::vector<BalanceRows>& rows, const VectorXd& theta, i
 
 }  // namespace
 
+bool hold_no_velocity(const std::vector<UniformLog>& logs) {
+  return std::all_of(logs.begin(), logs.end(), holds_no_velocity);
+}
+
 RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, double row_s) {
   RowSetting out;
   const UniformLog& first = logs.front();
@@ -74,12 +79,10 @@ RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, d
   out.compliance = VectorXd::Zero(n);
   out.fusion = VectorXd::Zero(n);
   std::vector<VectorXd> q, dq;
-  out.velocity_is_difference = true;
   for (const UniformLog& log : logs) {
-    q.push_back(sample_noise(log.q));
+    q.push_back(log.q_noise);
     if (log.dq.rows() == 0) return out;
-    dq.push_back(sample_noise(log.dq));
-    out.velocity_is_difference = out.velocity_is_difference && holds_no_velocity(log);
+    dq.push_back(log.dq_noise);
   }
   const VectorXd q_noise = joint_medians(q), dq_noise = joint_medians(dq);
   for (int j = 0; j < n; ++j)

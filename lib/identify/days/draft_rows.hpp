@@ -8,6 +8,10 @@
 
 namespace faultline {
 
+/// Whether no log has a velocity that is a second measurement: none, or the difference of the positions.
+/// `logs` have the samples that were recorded, not means.
+bool hold_no_velocity(const std::vector<UniformLog>& logs);
+
 /// Setting of the rows of these logs as far as the logs alone show it: rate, noise, which velocity is
 /// precise.
 RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, double row_s);

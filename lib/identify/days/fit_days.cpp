@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_days.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "lib/identify/days/day_variance.hpp"
 #include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/days/healthy_looks.hpp"
@@ -13,15 +16,25 @@ namespace faultline {
 namespace {
 
 constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
-constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
+constexpr double kFinest_s = 0.002;   // between samples: the kernels see no difference to finer ones
+constexpr double kSlackOfRate = 0.1;  // samples: a period is known to some per cent
+constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
 // Rounds of the fit from which something more is looked for: what comes later needs what came before.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};
+
+/// Recorded samples that are averaged into one of the rows' samples.
+int samples_averaged(double period_s) {
+  return std::max(1, static_cast<int>(kFinest_s / period_s + kSlackOfRate));
+}
 
 /// Rows, setting and a first fit of the rigid robot.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
                      const DayFitOptions& options) {
   std::vector<UniformLog> uniform = uniform_logs(logs);
+  const bool without_velocity = hold_no_velocity(uniform);
+  const int samples = samples_averaged(uniform.front().period_s);
+  for (UniformLog& log : uniform) log = averaged(std::move(log), samples, options.torque_is_held);
   DayDraft draft;
   BalanceModel& m = draft.model;
   m.rigid = {space.chain, space.lift};
@@ -29,7 +42,9 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   const double usual = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
   const double kernel = options.kernel_s > 0.0 ? options.kernel_s : usual;
   m.setting = draft_setting(uniform, kernel, options.row_s > 0.0 ? options.row_s : kRowKernels * kernel);
+  m.setting.velocity_is_difference = without_velocity;
   m.setting.torque_is_held = options.torque_is_held;
+  m.setting.averaged = samples;
   m.setting = with_chosen_lag_and_widths(uniform, m.rigid, m.setting);
   for (UniformLog& log : uniform) draft.days.push_back({.log = std::move(log)});
   m = with_looks(draft.days, std::move(m));

@@ -25,8 +25,8 @@ BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
   m.longest_repeat = Eigen::VectorXi::Zero(n);
   double rows = 0.0;
   for (const HealthyDay& day : days) {
-    q.push_back(sample_noise(day.log.q));
-    dq.push_back(sample_noise(day.log.dq.rows() > 0 ? day.log.dq : day.log.q));
+    q.push_back(day.log.q_noise);
+    dq.push_back(day.log.dq.rows() > 0 ? day.log.dq_noise : day.log.q_noise);
     m.q_low = m.q_low.cwiseMin(day.log.q.colwise().minCoeff().transpose());
     m.q_high = m.q_high.cwiseMax(day.log.q.colwise().maxCoeff().transpose());
     m.torque_rms += day.log.tau.cwiseAbs2().colwise().sum().transpose();

@@ -24,10 +24,16 @@ const JointSignals& group_of(const Log& rows, int group) {
   return group == static_cast<int>(ColumnGroup::velocities) ? rows.dq : rows.tau;
 }
 
-std::vector<double> row_of(const JointSignals& signals, int at) {
-  std::vector<double> values;
-  for (const std::vector<double>& joint : signals) values.push_back(joint[at]);
-  return values;
+void take_row(const JointSignals& signals, int at, std::vector<double>& values) {
+  values.resize(signals.size());
+  for (std::size_t j = 0; j < signals.size(); ++j) values[j] = signals[j][at];
+}
+
+bool is_row(const JointSignals& signals, int at, const std::vector<double>& values) {
+  if (values.size() != signals.size()) return false;
+  for (std::size_t j = 0; j < signals.size(); ++j)
+    if (values[j] != signals[j][at]) return false;
+  return true;
 }
 
 double shortest_hold_s(int group) {
@@ -40,7 +46,7 @@ void StoppedColumns::begin(int group, const Log& rows, int at, std::int64_t numb
   Follow& of = follow_[group];
   ColumnHold& hold = holds_[group];
   if (t_ - of.since_s < shortest_hold_s(group)) of.usual_s = std::max(of.usual_s, t_ - of.since_s);
-  of.last = row_of(group_of(rows, group), at);
+  take_row(group_of(rows, group), at, of.last);
   of.since_s = rows.time[at];
   ++of.changes;
   of.apart.assign(rows.q.size(), 0.0);
@@ -84,7 +90,7 @@ const std::array<ColumnHold, kColumnGroups>& StoppedColumns::take(const Log& row
     ColumnHold& hold = holds_[group];
     const JointSignals& signals = group_of(rows, group);
     const bool is_told = !signals.empty() && !rows.dq.empty();
-    if (!is_told || row_of(signals, at) != follow_[group].last) {
+    if (!is_told || !is_row(signals, at, follow_[group].last)) {
       begin(group, rows, at, number);
       hold.decided = !is_told;
       continue;
@@ -97,8 +103,8 @@ const std::array<ColumnHold, kColumnGroups>& StoppedColumns::take(const Log& row
     else
       hold.decided = hold.repeats > kMostHeld;
   }
-  q_ = row_of(rows.q, at);
-  dq_ = row_of(rows.dq, at);
+  take_row(rows.q, at, q_);
+  take_row(rows.dq, at, dq_);
   t_ = rows.time[at];
   return holds_;
 }
