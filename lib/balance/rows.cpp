@@ -49,19 +49,22 @@ class BaseMotion {
 };
 
 /// Columns of the base parameters: change of momentum over the interval less the force of motion and gravity.
-void add_base_columns(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
-                      const MatrixXd& velocity, std::vector<MatrixXd>& column) {
+/// By joint: intervals x base.
+std::vector<MatrixXd> base_columns(const UniformLog& log, const RowSetting& setting,
+                                   const RigidColumns& rigid, const MatrixXd& velocity) {
+  std::vector<MatrixXd> column(rigid.joints(), MatrixXd(log.rows() - 1, rigid.base()));
   BaseMotion motion(rigid);
   MatrixXd p, f, before_p, before_f;
   for (int k = 0; k < log.rows(); ++k) {
     motion.at(row_of(log.q, k), row_of(velocity, k), p, f);
     if (k > 0)
       for (int j = 0; j < rigid.joints(); ++j)
-        column[j].row(k - 1).head(rigid.base()) =
+        column[j].row(k - 1) =
             (p.row(j) - before_p.row(j)) / setting.period_s - 0.5 * (f.row(j) + before_f.row(j));
     before_p.swap(p);
     before_f.swap(f);
   }
+  return column;
 }
 
 /// -M(q) d2(torque)/dt2 of each spring, at the rows.
@@ -83,16 +86,15 @@ void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, co
   }
 }
 
-void add_ripple_columns(const RowSetting& setting, const ColumnLayout& layout, const Intervals& at,
-                        std::vector<MatrixXd>& column) {
-  for (int r = 0; r < layout.ripples; ++r) {
-    const auto [j, rate] = setting.ripples[r];
-    for (Index k = 0; k < at.q.rows(); ++k) {
-      const auto [s, c] = elementary::sin_cos(rate * at.q(k, j));
-      const double tau = at.torque(k, j);
-      column[j].row(k).segment<4>(layout.ripple(r)) << s * tau, c * tau, s, c;
-    }
+/// The four columns of ripple `r` in each interval: sine and cosine times the torque, then alone.
+MatrixXd ripple_columns(const RippleRate& ripple, const Intervals& at) {
+  MatrixXd out(at.q.rows(), 4);
+  for (Index k = 0; k < out.rows(); ++k) {
+    const auto [s, c] = elementary::sin_cos(ripple.rate * at.q(k, ripple.joint));
+    const double tau = at.torque(k, ripple.joint);
+    out.row(k) << s * tau, c * tau, s, c;
   }
+  return out;
 }
 
 /// Rows whose kernel crosses a sample that the log lacks.
@@ -137,25 +139,28 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   const auto [kernel, grid, at] = row_frame(log, setting);
   const ColumnLayout layout = layout_of(rigid, setting);
   const int n = rigid.joints();
-  std::vector<MatrixXd> fine(n, MatrixXd::Zero(log.rows() - 1, layout.count()));
-  add_base_columns(log, setting, rigid, at.velocity, fine);
-  for (int j = 0; j < n; ++j) {
-    fine[j].col(layout.viscous(j)) = at.link_speed.col(j);
-    fine[j].col(layout.coulomb(j)) = saturated(at.link_speed.col(j), setting.friction_width[j]);
-    fine[j].col(layout.offset(j)).setOnes();
-    fine[j].col(layout.delay(j)) = -at.torque_step.col(j);
-  }
-  add_ripple_columns(setting, layout, at, fine);
-  BalanceRows rows;
   const auto at_rows = [&](const MatrixXd& values) {
     return smooth_at(values, kernel, grid.first, grid.step, grid.count);
   };
-  for (int j = 0; j < n; ++j) rows.column.push_back(at_rows(fine[j]));
+  BalanceRows rows;
   rows.torque = at_rows(at.torque);
   rows.step_square =
       smooth_at(at.torque_step.cwiseAbs2(), kernel.cwiseAbs2(), grid.first, grid.step, grid.count);
   rows.q = at_rows(at.q);
   rows.dq = at_rows(at.link_speed);
+  rows.column.assign(n, MatrixXd::Zero(grid.count, layout.count()));
+  const std::vector<MatrixXd> base = base_columns(log, setting, rigid, at.velocity);
+  for (int j = 0; j < n; ++j) {
+    MatrixXd& column = rows.column[j];
+    column.leftCols(layout.base) = at_rows(base[j]);
+    column.col(layout.viscous(j)) = rows.dq.col(j);
+    column.col(layout.coulomb(j)) = at_rows(saturated(at.link_speed.col(j), setting.friction_width[j]));
+    column.col(layout.offset(j)).setConstant(kernel.sum());
+    column.col(layout.delay(j)) = -at_rows(at.torque_step.col(j));
+  }
+  for (int r = 0; r < layout.ripples; ++r)
+    rows.column[setting.ripples[r].joint].middleCols<4>(layout.ripple(r)) =
+        at_rows(ripple_columns(setting.ripples[r], at));
   rows.time_s.resize(grid.count);
   rows.sample.resize(grid.count);
   for (int m = 0; m < grid.count; ++m) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPeriodGrid_s = 1e-9;      // to which a sample period is rounded
 constexpr double kBridged_s = 0.007;        // a gap shorter than the kernels is bridged and not lost
+constexpr double kSameTime_s = 1e-9;        // between two times that count as one
 constexpr double kNormalMad = 0.6745;       // median of |x| of a standard normal x
 constexpr double kFourthDifference = 70.0;  // sum of the squares of 1, -4, 6, -4, 1
 
@@ -122,6 +123,13 @@ UniformLog on_grid(const Log& all, const PlacedRows& placed) {
 }
 
 }  // namespace
+
+int UniformLog::first_row(double at_s) const {
+  const double least_s = at_s - kSameTime_s;
+  int row = static_cast<int>(std::clamp((least_s - start_s) / period_s, 0.0, static_cast<double>(rows())));
+  while (row < rows() && time_s(row) < least_s) ++row;
+  return row;
+}
 
 UniformLog uniform_log(LogSource& log, double period_s) {
   const Log all = read_all(log);

@@ -23,6 +23,8 @@ struct UniformLog {
   int rows() const { return static_cast<int>(q.rows()); }
   int joints() const { return static_cast<int>(q.cols()); }
   double time_s(double row) const { return start_s + period_s * row; }
+  /// First row at a time (within 1 ns) or behind it; rows() where there is none.
+  int first_row(double time_s) const;
 };
 
 /// The whole log on a grid of about `period_s` that begins with its first row; each row goes to its most

@@ -24,8 +24,7 @@ constexpr double kTakenBack = 0.3;      // of a false reading by which the jump 
 std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
   const auto [place, tolerance] = standstill(fit, joint);
   const VectorXd q = fit.rows().q.col(joint);
-  int first = 0;
-  while (first < fit.count() && fit.time_s()[first] < from_s) ++first;
+  const int first = fit.first_row(from_s);
   const int rest_rows = std::min(kRestRows, fit.count() - first);
   if (rest_rows < kMovesRows) return std::nullopt;
   const auto rest_of = [&](const VectorXd& values) {

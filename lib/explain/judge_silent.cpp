@@ -53,10 +53,7 @@ struct Repeats {
 Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   const int j = claim.joint - 1;
-  int first = 0;
-  while (first < log.rows() && log.time_s(first) < claim.onset_s - 1e-9) ++first;
-  int end = first;
-  while (end < log.rows() && log.time_s(end) < claim.end_s - 1e-9) ++end;
+  const int first = log.first_row(claim.onset_s), end = log.first_row(claim.end_s);
   int same = 0, all = 0;
   for (int k = first + 3; k < end; ++k, ++all) same += log.q(k, j) == log.q(k - 1, j);
   int before = 0;

@@ -181,6 +181,10 @@ void LogFit::settle_healthy() {
   }
 }
 
+int LogFit::first_row(double at_s) const {
+  return static_cast<int>(std::lower_bound(time_s().begin(), time_s().end(), at_s) - time_s().begin());
+}
+
 bool LogFit::is_silent(int joint, double time_s) const {
   return std::any_of(known_.begin(), known_.end(), [&](const FaultClaim& claim) {
     return silences(claim.kind) && (claim.joint == joint || claim.kind == FaultKind::unknown) &&
@@ -194,8 +198,7 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
 
 Stacked LogFit::residual_of(const UniformLog& moved, int joint, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
-  int first = 0;
-  while (first < count() - 1 && time_s()[first] < unmoved_s) ++first;
+  const int first = std::min(first_row(unmoved_s), count() - 1);
   const MatrixXd after = reading_.of(moved, joint, first);
   Stacked out = residual_;
   for (int j = 0; j < joints(); ++j) {

@@ -60,6 +60,8 @@ class LogFit {
   int count() const { return rows_.rows(); }
   int joints() const { return model_.joints(); }
   const Eigen::VectorXd& time_s() const { return rows_.time_s; }
+  /// First row at or behind a time; count() where there is none.
+  int first_row(double time_s) const;
   const Eigen::VectorXd& loudness() const { return loudness_; }
   /// Standard deviation of each row, rows x joints.
   const Eigen::MatrixXd& std() const { return std_; }

@@ -231,9 +231,7 @@ PiecePath LogFit::path_of(const Stacked& left, const StackedMask& dropped, bool 
 }
 
 VectorXd LogFit::day_before(double time) const {
-  const double until = time - 2.0 * model_.setting.kernel_s;
-  int row = 0;
-  while (row < count() && time_s()[row] < until) ++row;
+  const int row = first_row(time - 2.0 * model_.setting.kernel_s);
   const int key = row / kBeforeRows;
   for (const auto& [known, day] : before_)
     if (known == key) return day;

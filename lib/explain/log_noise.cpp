@@ -51,12 +51,6 @@ double loudest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
   return kFarLouder * std::max(usual, std::isnan(most) ? 0.0 : most);
 }
 
-/// Row from which on times are at least `time_s`.
-int first_row(const LogFit& fit, double time_s) {
-  const VectorXd& t = fit.time_s();
-  return static_cast<int>(std::lower_bound(t.begin(), t.end(), time_s) - t.begin());
-}
-
 /// When any joint first moves; the first row where none does.
 double first_motion_s(const LogFit& fit) {
   const VectorXd& top = fit.model().top_speed;
@@ -94,8 +88,8 @@ RowNoise own_noise(const LogFit& fit) {
   const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
                                   first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
   RowNoise out = fit.model().noise;
-  const int rows = first_row(fit, until_s), moving = std::min(rows, first_row(fit, first_s)),
-            changed = first_row(fit, change.onset_s);
+  const int rows = fit.first_row(until_s), moving = std::min(rows, fit.first_row(first_s)),
+            changed = fit.first_row(change.onset_s);
   for (int j = 0; j < fit.joints(); ++j) {
     JointNoise& noise = out.joint[j];
     const VectorXd std = fit.std().col(j);

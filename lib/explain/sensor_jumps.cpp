@@ -103,8 +103,7 @@ double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   if (claim.kind != FaultKind::sensor_bias || !claim.velocity_is_true || is_from_positions(fit, j))
     return 0.0;
-  int first = 0;  // sample that reads wrong
-  while (first < log.rows() && log.time_s(first) < claim.onset_s - 1e-9) ++first;
+  const int first = log.first_row(claim.onset_s);  // sample that reads wrong
   if (first < 1 || first >= log.rows() || log.lost[first] || log.lost[first - 1]) return 0.0;
   const VectorXd off = off_motion(fit, j);
   // A velocity that changes within a period may move a joint further than its mean does.

@@ -75,6 +75,14 @@ TEST(UniformLog, AHeldTorqueIsAveragedOverTheTimeThatItActs) {
   EXPECT_NEAR(means.tau(1, 0), acts, 1e-12);
 }
 
+TEST(UniformLog, TheFirstRowStandsAtATimeOrBehindIt) {
+  const UniformLog log = rising(5);
+  EXPECT_EQ(log.first_row(-1.0), 0);
+  EXPECT_EQ(log.first_row(3 * kPeriod_s), 3);
+  EXPECT_EQ(log.first_row(2.2 * kPeriod_s), 3);
+  EXPECT_EQ(log.first_row(4.5 * kPeriod_s), 5);
+}
+
 TEST(UniformLog, AMeanIsLostWithAnyOfItsSamples) {
   UniformLog log = rising(12);
   log.lost[6] = true;

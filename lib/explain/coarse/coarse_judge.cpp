@@ -113,7 +113,7 @@ void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const Coarse
 Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
                      const CoarseJudging& how) {
   const OneStepModel& m = *log.model;
-  const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
+  const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
   const bool reading = reads_wrong(guess.kind);
   const int sizes = static_cast<int>(fault.std.size()), effects = static_cast<int>(log.day.cols());
@@ -242,11 +242,11 @@ VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
 double forgiven_torque(double forgiven) { return kTorqueForState * forgiven; }
 
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
-  const int n = log.joints(), j = guess.joint - 1, from = first_sample(log, guess.onset_s);
+  const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const int late = log.samples() - from;
   const bool reading = reads_wrong(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
-  const bool same_rest = how.known && first_sample(log, how.known->begin_s) == from;
+  const bool same_rest = how.known && log.log.first_row(how.known->begin_s) == from;
   if (how.known && (!locked || same_rest))
     at = {how.known->day, how.known->size, how.known->about, how.known, false};
   if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);

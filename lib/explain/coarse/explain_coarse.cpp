@@ -203,8 +203,7 @@ std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
 }
 
 EvidenceCourse course_of(const CoarseLog& log, const FaultHypothesis& hypothesis) {
-  int onset = 0;
-  while (onset < log.samples() && log.time_s(onset) < hypothesis.onset_s) ++onset;
+  const int onset = log.log.first_row(hypothesis.onset_s);
   EvidenceCourse out;
   double sum = 0.0;
   for (int k = std::max(0, onset - 1) + 1; k < log.samples(); ++k) {

@@ -3,12 +3,6 @@
 
 namespace faultline {
 
-int first_sample(const CoarseLog& log, double onset_s) {
-  int k = 0;
-  while (k < log.samples() && log.time_s(k) < onset_s - 1e-9) ++k;
-  return k;
-}
-
 Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(log.read.rows(), log.samples());
   const int j = guess.joint - 1, n = log.joints();

@@ -5,9 +5,6 @@
 
 namespace faultline {
 
-/// The first sample at or after a time, s.
-int first_sample(const CoarseLog& log, double onset_s);
-
 /// What a unit of the false reading of `guess` adds to the readings (2 joints x samples) from sample `from`
 /// on.
 Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from);
