@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "formats/bytes/work_budget.hpp"
 #include "formats/messages/alternating_rows.hpp"
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/message_issues.hpp"

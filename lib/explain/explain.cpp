@@ -18,7 +18,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameOnset_s = 0.08;
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
 constexpr double kMuchLess = 0.5;       // of what a lost torque leaves, that a clipping drive leaves
 constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found,

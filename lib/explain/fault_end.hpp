@@ -10,6 +10,7 @@ namespace faultline {
 
 /// Nats of a fault's absence that show its end, by the mean square that is left.
 inline constexpr double kEndEvidence = 50.0;
+inline constexpr double kLeastFault_s = 0.1;  ///< behind an onset, before which no end is looked for
 
 /// Whitened rows of a log, explained with a fault and without it.
 struct WithAndWithout {

@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-inline constexpr double kLeastFault_s = 0.1;  // before which no end is looked for
+inline constexpr double kSameOnset_s = 0.08;  ///< between two onsets that count as one
 
 /// Judges hypotheses of one log and keeps them all.
 struct JudgedHypotheses {

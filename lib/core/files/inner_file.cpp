@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
