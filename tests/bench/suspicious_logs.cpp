@@ -26,9 +26,9 @@ void judge(const std::string& robot_file, const std::vector<std::string>& paths)
     sources.push_back(owners.emplace_back(open_robot_log(path, robot)).get());
   RememberedLogs logs(sources);
   const TrustedRobot trusted = trusted_robot(logs.sources(), robot, {});
-  ModelDoubts doubts = doubts_about(trusted.watched.robot.identification);
-  doubts.add({{}, trusted.doubts});
-  for (const IdentifiedLog& log : trusted.watched.robot.given)
+  ModelDoubts doubts = doubts_about(trusted.explained.robot.identification);
+  doubts.add({{}, trusted.doubts, {}});
+  for (const IdentifiedLog& log : trusted.explained.robot.given)
     fmt::print("{},{}\n", name_of(log.path), log.left_out ? "left out" : "used");
   if (doubts.is_grave()) fmt::print("refused\n");
   for (const std::string& doubt : listed(doubts)) fmt::print("doubt: {}\n", doubt);
