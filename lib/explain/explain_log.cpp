@@ -108,7 +108,10 @@ ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
 }
 
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {
-  if (const auto* coarse = std::get_if<OneStepModel>(&robot)) return explain_coarse(coarse_log(log, *coarse));
+  if (const auto* coarse = std::get_if<OneStepModel>(&robot)) {
+    const std::optional<CoarseLog> followed = followed_log(log, *coarse);
+    return followed ? explain_coarse(*followed) : LogExplanation{};
+  }
   return explain_log({averaged_as(log, robot), std::get<BalanceModel>(robot)});
 }
 

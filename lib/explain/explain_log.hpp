@@ -46,7 +46,7 @@ bool can_explain(const UniformLog& log, const RobotRows& robot);
 ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
                                const std::vector<FaultClaim>& lasting = {});
 
-/// What a healthy log says, for evidence_limits().
+/// What a healthy log says, for evidence_limits(); nothing where the robot cannot be followed through it.
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot);
 
 }  // namespace faultline

@@ -61,7 +61,8 @@ bool PhysicalEquations::belongs_to_general_link(int p) const {
 void PhysicalEquations::add_group(const BaseEstimate& from) {
   Group group;
   for (int p = 0; p < space_.rigid(); ++p)
-    if (from.usable[p] && !space_.base[p].is_rotor && !belongs_to_general_link(p))
+    if (from.usable[p] && std::isfinite(from.estimate[p]) && std::isfinite(from.covariance(p, p)) &&
+        !space_.base[p].is_rotor && !belongs_to_general_link(p))
       group.parameters.push_back(p);
   const auto m = static_cast<Eigen::Index>(group.parameters.size());
   group.target.resize(m);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 
 namespace faultline {
 namespace {
@@ -21,6 +22,16 @@ PhysicalFit solve(const Robot& nominal, KnownValue payload = {0.0, 0.0}, double 
     estimates[1].estimate.head(4) += carried * Eigen::Vector4d(0.35 * 0.35, 0.3 * 0.3, 0.35 * 0.3, 1.0);
   }
   return physical_parameters(nominal, space, estimates);
+}
+
+TEST(PhysicalParameters, NoMassComesOfBaseParametersThatAreNoNumbers) {
+  const Robot robot = preset_robot("RRP");
+  const ParameterSpace space = parameter_space(robot);
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(space.count(), std::nan(""));
+  const BaseEstimate estimate{
+      none, Eigen::MatrixXd::Identity(none.size(), none.size()), std::vector<bool>(space.rigid(), true), {}};
+  for (const auto& e : physical_parameters(robot, space, std::span(&estimate, 1)).parameters)
+    EXPECT_FALSE(e.identifiable && std::isfinite(e.value)) << e.name;
 }
 
 TEST(PhysicalParameters, WithoutAFactTheMissingOneIsNamed) {

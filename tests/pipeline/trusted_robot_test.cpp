@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/pipeline/diagnose.hpp"
 #include "lib/pipeline/model_doubts.hpp"
 #include "lib/pipeline/training_episodes.hpp"
+#include "lib/robot/robot_file.hpp"
 #include "tests/pipeline/small_robot.hpp"
 
 namespace faultline {
@@ -47,6 +52,20 @@ TEST(TrustedRobot, ALogWithAFaultAmongHealthyOnesIsNamedAndLeftOut) {
   EXPECT_NE(issue->message.find("weak.csv"), std::string::npos);
   EXPECT_NE(issue->message.find("torque_loss"), std::string::npos) << issue->message;
   EXPECT_TRUE(trusted.doubts.empty());
+}
+
+TEST(TrustedRobot, AtACoarseRateALogThatNoOtherLeadsThroughIsLeftOut) {
+  const std::string folder = FAULTLINE_SOURCE_DIR "/sample_logs/bench/";
+  std::deque<std::unique_ptr<LogSource>> logs;
+  std::vector<LogSource*> sources;
+  for (const char* name : {"healthy_1.csv", "healthy_2.csv", "free_swinging_2.csv"})
+    sources.push_back(logs.emplace_back(open_log(folder + name)).get());
+  const TrustedRobot trusted = trusted_robot(sources, load_robot_file(folder + "robot.toml"), {});
+  const std::vector<IdentifiedLog>& given = trusted.explained.robot.given;
+  ASSERT_EQ(given.size(), 3u);
+  EXPECT_FALSE(given[0].left_out);
+  EXPECT_FALSE(given[1].left_out);
+  EXPECT_TRUE(given[2].left_out);
 }
 
 TEST(TrustedRobot, HealthyLogsAreAllKept) {
