@@ -86,7 +86,7 @@ void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, co
   }
 }
 
-/// The four columns of ripple `r` in each interval: sine and cosine times the torque, then alone.
+/// The four columns of a ripple in each interval: sine and cosine times the torque, then alone.
 MatrixXd ripple_columns(const RippleRate& ripple, const Intervals& at) {
   MatrixXd out(at.q.rows(), 4);
   for (Index k = 0; k < out.rows(); ++k) {

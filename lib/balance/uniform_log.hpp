@@ -17,8 +17,8 @@ struct UniformLog {
   Eigen::MatrixXd q, dq,
       tau;  ///< rows x joints; rad or m, rad/s or m/s, N m or N; `dq` is empty without a velocity
   std::vector<bool> lost;  ///< by row: interpolated
-  Eigen::VectorXd q_noise,
-      dq_noise;  ///< by joint: standard deviation of the white noise of a row (sample_noise())
+  /// By joint: standard deviation of the white noise of a row, see sample_noise().
+  Eigen::VectorXd q_noise, dq_noise;
 
   int rows() const { return static_cast<int>(q.rows()); }
   int joints() const { return static_cast<int>(q.cols()); }

@@ -67,7 +67,7 @@ Eigen::VectorXd solve(const PhysicalEquations& equations) {
                            : (u.kind == 'm' ? scale : -0.7) + (s > 0 ? random.uniform(-1.5, 1.5) : 0.0);
     }
     const double cost = descend(equations, x);
-    if (best.size() == 0) best = x;  // the cost is not finite where the base parameters are not
+    if (best.size() == 0) best = x;  // no cost is finite where the covariance is no covariance
     if (cost < 0.5 * best_cost) best = x, best_cost = cost;
     if (best_cost < 1.0) break;
   }

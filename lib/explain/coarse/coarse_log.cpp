@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/core/error.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
 
 namespace faultline {
@@ -151,12 +150,6 @@ void find_stops(CoarseLog& log) {
 
 int CoarseLog::first_onset() const {
   return static_cast<int>(std::ceil(std::max(kFirstOnset_s, kFirstOnset * period_s()) / period_s()));
-}
-
-CoarseLog coarse_log(UniformLog log, const OneStepModel& model) {
-  std::optional<CoarseLog> out = followed_log(std::move(log), model);
-  if (!out) throw Error(ErrorCode::input, "", "has too few rows that the robot can be followed through");
-  return std::move(*out);
 }
 
 std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model) {

@@ -63,10 +63,8 @@ struct CoarseLog {
   int first_onset() const;  ///< sample before which no onset is looked for
 };
 
-/// A robot that runs away so fast that it cannot be integrated is followed up to there. The model must
-/// outlive it. Throws Error(input) when too few rows are left to be explained.
-CoarseLog coarse_log(UniformLog log, const OneStepModel& model);
-/// The same; nothing where it would throw.
+/// A robot that runs away so fast that it cannot be integrated is followed up to there; nothing where too few
+/// rows are left to be explained. The model must outlive it.
 std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model);
 
 /// The part of the log up to which smoothing converges; nothing where too few rows are left.
