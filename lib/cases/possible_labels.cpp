@@ -57,9 +57,6 @@ void check_place(int joints, const FaultLabel& label, const std::string& where) 
     refuse_label(where, "\"" + kind + "\" belongs to no joint; leave the joint out");
   if (place == FaultPlace::joint && label.joint == 0)
     refuse_label(where, "\"" + kind + "\" is a fault of a joint; tell which one, they count from 1");
-  if (place == FaultPlace::tip && joints > 0 && label.joint != joints)
-    refuse_label(where,
-                 "\"" + kind + "\" belongs to the joint nearest the tip, joint " + std::to_string(joints));
 }
 
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where) {
@@ -73,7 +70,7 @@ void check_label(const CaseBase& base, const FaultLabel& label, const std::strin
 }
 
 FaultLabel with_tip(FaultLabel label, int joints) {
-  if (describe(label.kind).place == FaultPlace::tip && label.joint == 0) label.joint = joints;
+  if (describe(label.kind).place == FaultPlace::link && label.joint == 0) label.joint = joints;
   return label;
 }
 

@@ -21,7 +21,7 @@ void check_place(int joints, const FaultLabel& label, const std::string& where);
 /// model, or by a case.
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where);
 
-/// The label with the joint nearest the tip where it is a fault of the tip and the joint was left out.
+/// The label with the last joint where it is a changed payload whose link was left out.
 FaultLabel with_tip(FaultLabel label, int joints);
 
 }  // namespace faultline

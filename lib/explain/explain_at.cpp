@@ -5,9 +5,9 @@
 
 #include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/explain_coarse.hpp"
+#include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/sensor_jumps.hpp"
-#include "lib/fault/fault_labels.hpp"
 
 namespace faultline {
 namespace {
@@ -71,7 +71,7 @@ std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepMod
   const CoarseLog& log = *followed;
   CoarseBench bench(log);
   const double lasts_s = at.end_s < kNeverEnds ? at.end_s - at.onset_s : 0.0;
-  for (const FaultLabel& label : fault_labels(log.joints(), model.torque_is_measured)) {
+  for (const FaultLabel& label : fault_labels_of(model)) {
     if (label.kind == FaultKind::free_swinging) continue;
     const bool begins_with_sample =
         label.kind == FaultKind::stuck_encoder || label.kind == FaultKind::sensor_bias;

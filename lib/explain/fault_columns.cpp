@@ -6,6 +6,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/robot/payload.hpp"
 
 namespace faultline {
 namespace {
@@ -24,16 +25,18 @@ constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end tha
 constexpr double kLossVariance = 0.25;
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second
-constexpr double kPayloadVariance = 0.36;  // of the mass that the tip carries, squared
+constexpr double kPayloadVariance = 0.36;  // of the mass that the link carries, squared
 constexpr double kOffsetVariance = 0.36;   // of the joint's usual torque, squared
 constexpr double kLeastVariance = 1e-6;
 
-/// Mass that the last joint carries, kg, as its torque shows it.
-double carried_mass(const BalanceRows& rows, const BalanceModel& model, const MatrixXd& tip) {
-  const int j = rows.joints() - 1;
-  const VectorXd torque = rows.column[j] * model.theta;
-  const double square = tip.col(j).squaredNorm();
-  return square > 0.0 ? std::abs(torque.dot(tip.col(j)) / square) : 1.0;
+/// Mass at the end of a link, kg, that the torque of its joint is like; of the joint before where that feels
+/// none of it. `unit`: torque of 1 kg there, rows x joints.
+double carried_mass(const BalanceRows& rows, const BalanceModel& model, const MatrixXd& unit, int link) {
+  for (int j = link; j >= 0; --j) {
+    const double square = unit.col(j).squaredNorm();
+    if (square > 0.0) return std::abs((rows.column[j] * model.theta).dot(unit.col(j)) / square);
+  }
+  return 1.0;
 }
 
 LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
@@ -87,6 +90,19 @@ LinearFault torque_offset(const BalanceRows& rows, const BalanceModel& m, int j)
   return out;
 }
 
+LinearFault payload_change(const BalanceRows& rows, const BalanceModel& m, int link) {
+  const MatrixXd unit = payload_torque(rows, m.payload, link);
+  const double mass = carried_mass(rows, m, unit, link);
+  LinearFault out{FaultKind::payload_change,
+                  link + 1,
+                  {Eigen::Map<const VectorXd>(unit.data(), unit.size()),
+                   VectorXd::Constant(1, kPayloadVariance * mass * mass)},
+                  {}};
+  if (m.piece_kg > 0.0 && link + 1 == rows.joints())
+    for (const double share : {.25, .6, 1.}) out.starts.push_back(VectorXd::Constant(1, share * mass));
+  return out;
+}
+
 }  // namespace
 
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& m) {
@@ -96,16 +112,7 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
   for (int j = 0; j < n; ++j) out.push_back(torque_offset(rows, m, j));
   for (const bool creeps : {false, true})
     for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j, creeps));
-  const MatrixXd tip = payload_torque(rows, m.payload, n - 1);
-  const double mass = carried_mass(rows, m, tip);
-  LinearFault payload{FaultKind::payload_change,
-                      n,
-                      {Eigen::Map<const VectorXd>(tip.data(), tip.size()),
-                       VectorXd::Constant(1, kPayloadVariance * mass * mass)},
-                      {}};
-  if (m.piece_kg > 0.0)
-    for (const double share : {.25, .6, 1.}) payload.starts.push_back(VectorXd::Constant(1, share * mass));
-  out.push_back(std::move(payload));
+  for (const int link : payload_links(m.rigid.chain)) out.push_back(payload_change(rows, m, link));
   return out;
 }
 

@@ -34,7 +34,7 @@ struct LinearFault {
 };
 
 /// Torque loss where it shows, offset of the torque, friction and friction that creeps of each joint, payload
-/// at the tip.
+/// of each link whose payload shows.
 std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceModel& model);
 
 /// The linear fault that a claim is of; null where its kind has none.

@@ -33,7 +33,8 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   if (kind == FaultKind::torque_loss)
     return kImpossible * std::max(0.0, -size[0]) + 2e4 * std::max(0.0, size[0] - 1.2);
   if (kind == FaultKind::torque_sensor_error) return 0.0;
-  if (kind == FaultKind::payload_change) return size[0] < 0.0 && fit.has_piece() ? kImpossible : 0.0;
+  if (kind == FaultKind::payload_change)
+    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.joints() ? kImpossible : 0.0;
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };

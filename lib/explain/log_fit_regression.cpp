@@ -225,8 +225,9 @@ PiecePath LogFit::path_of(const Stacked& left, const StackedMask& dropped, bool 
       std.col(j) = 4.0 * std_.col(j) + 0.02 * rows_.torque.col(j).cwiseAbs();
   }
   Eigen::Map<VectorXd> flat(std.data(), std.size());
-  for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (dropped[i]) flat[static_cast<Eigen::Index>(i)] = kSaysNothing;
+  for (const StackedMask* mask : {&dropped, &silent_})
+    for (std::size_t i = 0; i < mask->size(); ++i)
+      if ((*mask)[i]) flat[static_cast<Eigen::Index>(i)] = kSaysNothing;
   return piece_path(unstacked(left, joints()), model_.piece_kg * tip_, std);
 }
 

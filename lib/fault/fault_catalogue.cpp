@@ -136,11 +136,11 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .heading = "changed payload",
         .of_a_joint = "carries another load",
         .next_check =
-            "Check what the gripper holds or lost, and the payload set in the controller; weigh the tool if "
-            "in doubt.",
-        .size_words = "the load at the tip changed by {first:+.3g} kg",
+            "Check what the link behind {} carries or has lost (gripper and part, covers, cables, weights) "
+            "and the payload set in the controller; weigh the tool if in doubt.",
+        .size_words = "the load at the end of link {joint} changed by {first:+.3g} kg",
         .acts_on = FaultActsOn::motion,
-        .place = FaultPlace::tip,
+        .place = FaultPlace::link,
         .creeps = true,
         .size = {{{
             .measure = SizeMeasure::mass,

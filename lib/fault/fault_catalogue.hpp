@@ -19,7 +19,7 @@ enum class FaultActsOn {
 enum class FaultPlace {
   nowhere,
   joint,  ///< any
-  tip,    ///< the joint nearest the tip stands for it
+  link,   ///< the end of any link; the joint that moves the link stands for it
 };
 
 /// How the sizes go on after the onset.
@@ -40,8 +40,8 @@ struct FaultDescription {
   const char* heading = "";     ///< in words
   const char* of_a_joint = "";  ///< in words, after "joint N "
   const char* next_check = "";  ///< sentences to a technician; "{}" stands for the joint
-  /// How its size is said: {first} and {second} size; of the first its {percent}, its {magnitude} and whether
-  /// that is {much} or little; units {length} and {torque}.
+  /// How its size is said: {first} and {second} size; the {joint}; of the first its {percent}, its
+  /// {magnitude} and whether that is {much} or little; units {length} and {torque}.
   const char* size_words = "";
 
   FaultActsOn acts_on = FaultActsOn::nothing;

@@ -15,7 +15,7 @@ enum class FaultKind {
   stuck_encoder,        ///< position and velocity repeat the last code
   sensor_drift,         ///< the position error grows with time
   friction_increase,    ///< more viscous and Coulomb friction
-  payload_change,       ///< mass added at, or taken from, the tip
+  payload_change,       ///< mass added at, or taken from, the end of a link
   collision,            ///< a short external force
   torque_sensor_error,  ///< torque or motor current are measured with an offset
   unknown,              ///< a fault like none of these; the last one

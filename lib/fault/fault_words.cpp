@@ -15,7 +15,7 @@ struct Alike {
   const char* why;
 };
 
-constexpr std::array<Alike, 11> kAlike = {{
+constexpr std::array<Alike, 12> kAlike = {{
     {FaultKind::free_swinging, FaultKind::torque_loss, true,
      "losing all of the torque and swinging freely are the same motion; only the share lost tells them "
      "apart"},
@@ -38,6 +38,9 @@ constexpr std::array<Alike, 11> kAlike = {{
      "a torque that reads too much and something that pushes look alike while it pushes"},
     {FaultKind::torque_sensor_error, FaultKind::payload_change, false,
      "a lifting joint whose torque reads too much moves as one with more load does at rest"},
+    {FaultKind::payload_change, FaultKind::payload_change, false,
+     "a mass on one link and another mass on the next link are the same load while the joint between them "
+     "rests"},
     {FaultKind::free_swinging, FaultKind::locked, true,
      "a joint that swings freely onto an end stop, or rests there, does not move either"},
 }};
@@ -62,8 +65,8 @@ std::string next_check_for(const FaultLabel& label) {
 
 std::string size_text(const FaultLabel& label, const std::array<double, kMostSizes>& sizes, bool turns) {
   return fmt::format(fmt::runtime(describe(label.kind).size_words), fmt::arg("first", sizes[0]),
-                     fmt::arg("second", sizes[1]), fmt::arg("percent", 100.0 * sizes[0]),
-                     fmt::arg("magnitude", std::abs(sizes[0])),
+                     fmt::arg("joint", label.joint), fmt::arg("second", sizes[1]),
+                     fmt::arg("percent", 100.0 * sizes[0]), fmt::arg("magnitude", std::abs(sizes[0])),
                      fmt::arg("much", sizes[0] < 0.0 ? "little" : "much"),
                      fmt::arg("length", unit_of(SizeMeasure::length, turns)),
                      fmt::arg("torque", unit_of(SizeMeasure::torque, turns)));

@@ -103,7 +103,7 @@ template <typename Model, typename Visit>
 void visit_one_step(Model& m, Visit& visit) {
   visit_looks(m, visit);
   visit("payload", m.payload);
-  visit("tip_mass", m.tip_mass);
+  visit("carried_kg", m.carried_kg);
   visit("reading_variance", m.reading_variance);
 }
 
@@ -232,7 +232,8 @@ OneStepModel one_step_from_json(const nlohmann::json& json, const std::string& w
   check_sizes(where, 2 * n, {m.reading_variance.size()});
   check_sizes(where, m.layout().learned(), {m.theta.size()});
   check_sizes(where, m.day_layout().count(), {m.day_variance.size()});
-  check_sizes(where, m.layout().base, {m.payload.size()});
+  check_sizes(where, n, {m.payload.cols(), m.carried_kg.size()});
+  check_sizes(where, m.layout().base, {m.payload.rows()});
   return m;
 }
 

@@ -15,6 +15,7 @@
 #include "lib/model/model_text.hpp"
 #include "lib/model/validation_json.hpp"
 #include "lib/residual/relation/relation_json.hpp"
+#include "lib/robot/payload.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/twin/twin_json.hpp"
 
@@ -163,7 +164,8 @@ Model model_from_json(const std::string& text, const std::string& where) {
 }
 
 std::vector<FaultLabel> labels_of(const Robot& robot) {
-  return fault_labels(robot.joints(), robot.log.torque == TorqueMeaning::measured);
+  return fault_labels(robot.joints(), payload_links(robot.chain),
+                      robot.log.torque == TorqueMeaning::measured);
 }
 
 Model load_model(const std::string& path) { return model_from_json(read_file(path, kLargestModel), path); }

@@ -46,19 +46,4 @@ LinkInertia<double> seen_from(const LinkInertia<double>& body, const Eigen::Matr
   return seen;
 }
 
-Chain<double> with_tip_mass(const Chain<double>& chain, double kg) {
-  Chain<double> loaded = chain;
-  const int last = chain.joints() - 1;
-  LinkInertia<double>& link = loaded.links[last];
-  const JointGeometry& joint = chain.geometry[last];
-  const bool has_reach = joint.kind == AxisKind::revolute && joint.direction.squaredNorm() > 0.0;
-  const Eigen::Vector3d at =
-      has_reach ? Eigen::Vector3d(chain.length[last] * joint.direction) : Eigen::Vector3d::Zero();
-  const LinkInertia<double> body = general_body(kg, at, Eigen::Matrix3d::Zero());
-  link.mass += body.mass;
-  link.first_moment += body.first_moment;
-  link.inertia += body.inertia;
-  return loaded;
-}
-
 }  // namespace faultline

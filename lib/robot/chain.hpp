@@ -125,10 +125,6 @@ LinkInertia<double> point_mass(double mass);
 LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
                                  const Eigen::Matrix3d& inertia_at_centre);
 
-/// The chain with so many kilograms more on its tip: at the last link's origin for a prismatic last axis, at
-/// its end otherwise.
-Chain<double> with_tip_mass(const Chain<double>& chain, double kg);
-
 /// A body given in a frame of its own, seen from the frame in which that one stands so.
 LinkInertia<double> seen_from(const LinkInertia<double>& body, const Eigen::Matrix3d& rotation,
                               const Eigen::Vector3d& position);

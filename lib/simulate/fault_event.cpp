@@ -26,9 +26,11 @@ void check_size(const Robot& robot, const SimulatedFault& fault) {
     bad_fault("size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
   if (describe(fault.kind).size_count == 1 && fault.size == 0.0)
     bad_fault("size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
-  if (fault.kind == FaultKind::payload_change && robot.chain.links.back().mass + fault.size <= 0.0)
-    bad_fault("size", fmt::format("takes {} kg from a last link of {} kg", -fault.size,
-                                  robot.chain.links.back().mass));
+  if (fault.kind != FaultKind::payload_change) return;
+  const int link = fault.joint > 0 ? fault.joint : robot.joints();
+  const double mass = robot.chain.links[static_cast<std::size_t>(link - 1)].mass;
+  if (mass + fault.size <= 0.0)
+    bad_fault("size", fmt::format("takes {} kg from link {} of {} kg", -fault.size, link, mass));
 }
 
 }  // namespace
@@ -36,7 +38,8 @@ void check_size(const Robot& robot, const SimulatedFault& fault) {
 void check_fault(const Robot& robot, const SimulatedFault& fault) {
   if (fault.kind == FaultKind::none) return;
   if (fault.kind == FaultKind::unknown) bad_fault("kind", "\"unknown\" cannot be simulated; name a kind");
-  if (describe(fault.kind).place != FaultPlace::tip && (fault.joint < 1 || fault.joint > robot.joints()))
+  const bool is_left_out = describe(fault.kind).place == FaultPlace::link && fault.joint == 0;
+  if (!is_left_out && (fault.joint < 1 || fault.joint > robot.joints()))
     bad_fault("joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
   if (!(fault.onset_s >= 0.0 && std::isfinite(fault.onset_s)))
     bad_fault("onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
@@ -69,7 +72,7 @@ MachineFault machine_fault(const SimulatedFault& fault) {
     case FaultKind::friction_increase:
       return {.coulomb = fault.size, .viscous = fault.viscous};
     case FaultKind::payload_change:
-      return {.tip_mass = fault.size};
+      return {.payload = fault.size};
     case FaultKind::collision:
       return {.external_torque = fault.size};
     case FaultKind::torque_sensor_error:
@@ -82,7 +85,7 @@ std::string size_unit(const Robot& robot, const SimulatedFault& fault) {
   const std::span<const FaultSize> sizes = describe(fault.kind).sizes();
   if (sizes.empty()) return "";
   const bool at_joint = fault.joint >= 1 && fault.joint <= robot.joints();
-  if (!at_joint && describe(fault.kind).place != FaultPlace::tip) return "";
+  if (!at_joint && describe(fault.kind).place != FaultPlace::link) return "";
   const bool turns = at_joint && robot.chain.geometry[fault.joint - 1].kind == AxisKind::revolute;
   return unit_of(sizes.back().measure, turns);
 }

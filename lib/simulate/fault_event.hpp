@@ -12,12 +12,12 @@ namespace faultline {
 /// A fault that happens during a simulated run.
 struct SimulatedFault {
   FaultKind kind = FaultKind::none;
-  int joint = 0;         ///< from 1; for payload_change the joint nearest the tip, whatever is given
+  int joint = 0;         ///< from 1; of a payload_change that of the link that carries it, 0: the last one
   double onset_s = 0.0;  ///< the first moment it acts, at any time between samples
   double end_s = std::numeric_limits<double>::infinity();  ///< the first moment it no longer acts
   /// torque_loss: share lost, 0 to 1. sensor_bias: rad or m. sensor_drift: rad/s or m/s. friction_increase:
-  /// added Coulomb friction, N m or N. payload_change: kg added at the tip, may be negative. collision:
-  /// external torque or force on the joint, N m or N. Others: not used.
+  /// added Coulomb friction, N m or N. payload_change: kg added at the end of the link, may be negative.
+  /// collision: external torque or force on the joint, N m or N. Others: not used.
   double size = 0.0;
   double viscous = 0.0;  ///< friction_increase: added viscous friction, N m s/rad or N s/m
 };
@@ -29,7 +29,7 @@ struct MachineFault {
   double drive_offset = 0.0;     ///< of the joint's drive, N m or N
   double coulomb = 0.0;          ///< added friction, N m or N
   double viscous = 0.0;          ///< added friction, N m s/rad or N s/m
-  double tip_mass = 0.0;         ///< added, kg
+  double payload = 0.0;          ///< added at the end of the link behind the joint, kg
   bool locks = false;
   double reading_offset = 0.0;       ///< rad or m
   double reading_drift_per_s = 0.0;  ///< rad/s or m/s, since the onset

@@ -8,6 +8,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/payload.hpp"
 #include "lib/simulate/plant.hpp"
 
 namespace faultline {
@@ -21,19 +22,6 @@ constexpr double kVibrationTimesStep = 0.25;
 /// Steps a stiff friction may ask for within max_step_s.
 constexpr double kMostSubSteps = 10.0;
 constexpr double kLively = 10.0;  // rad/s^2 or m/s^2
-
-/// Adds `mass` at the end of the last link.
-void add_payload(Chain<double>& chain, double mass) {
-  const int last = chain.joints() - 1;
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d& along = chain.geometry[last].direction;
-  if (chain.geometry[last].kind == AxisKind::revolute)
-    tip = chain.length[last] * (along.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : along);
-  const LinkInertia<double> body = general_body(mass, tip, Eigen::Matrix3d::Zero());
-  chain.links[last].mass += body.mass;
-  chain.links[last].first_moment += body.first_moment;
-  chain.links[last].inertia += body.inertia;
-}
 
 /// Largest diagonal of M^-1 for each joint over some postures.
 JointVector<double> mobility(const FastDynamics& dynamics) {
@@ -145,7 +133,7 @@ void Plant::enter(double now) {
     chain.friction[i].coulomb += change.coulomb;
     chain.friction[i].viscous += change.viscous;
     if (change.locks) locked_ |= 1u << i;
-    if (change.tip_mass != 0.0) add_payload(chain, change.tip_mass);
+    if (change.payload != 0.0) chain = with_payload(chain, i, change.payload);
   }
   choose_steps(chain);
   dynamics_ = FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain);

@@ -28,7 +28,7 @@ std::vector<SimulatedFault> real_faults(const Robot& robot, const SimulationSpec
   std::vector<SimulatedFault> faults;
   for (SimulatedFault fault : spec.faults) {
     if (fault.kind == FaultKind::none) continue;
-    if (describe(fault.kind).place == FaultPlace::tip) fault.joint = robot.joints();
+    if (describe(fault.kind).place == FaultPlace::link && fault.joint == 0) fault.joint = robot.joints();
     faults.push_back(fault);
   }
   std::stable_sort(faults.begin(), faults.end(),

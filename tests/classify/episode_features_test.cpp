@@ -18,7 +18,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The labels of an RRP robot and a fault that nothing explains yet, from 1 to 1.5 s.
 struct Example {
   MotionModel model = hand_made_model(known_rrp());
-  std::vector<FaultLabel> labels = fault_labels(3, false);
+  std::vector<FaultLabel> labels = fault_labels(3, {2}, false);
   ExplainedFault fault;
 
   /// Explains the fault by `label`.
@@ -83,7 +83,7 @@ TEST(EpisodeFeatures, HaveANameEach) {
   const auto names = episode_feature_names(example.labels, 3);
   EXPECT_EQ(features(example, rms).size(), names.size());
   for (const std::string& name : names) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-  EXPECT_EQ(names.size() - episode_feature_names(fault_labels(3, true), 3).size(), 12u)
+  EXPECT_EQ(names.size() - episode_feature_names(fault_labels(3, {2}, true), 3).size(), 12u)
       << "behind and size of two kinds at three joints";
 }
 

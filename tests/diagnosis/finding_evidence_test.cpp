@@ -59,7 +59,8 @@ TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
             "friction rose by 3.5 N m plus 2 N m s/rad of speed");
   EXPECT_EQ(size_text({FaultKind::friction_increase, 3}, 20.0, 8.0),
             "friction rose by 8 N plus 20 N s/m of speed");
-  EXPECT_EQ(size_text({FaultKind::payload_change, 3}, 0.75), "the load at the tip changed by +0.75 kg");
+  EXPECT_EQ(size_text({FaultKind::payload_change, 3}, 0.75),
+            "the load at the end of link 3 changed by +0.75 kg");
   EXPECT_EQ(size_text(kLocked2, 0.0), "") << "a lock has no size";
 }
 

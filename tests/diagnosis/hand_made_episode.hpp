@@ -42,7 +42,7 @@ inline Model hand_made_rrp() {
   Model model;
   model.robot = known_rrp();
   model.motion = hand_made_model(model.robot);
-  model.labels = fault_labels(3, false);
+  model.labels = fault_labels(3, {2}, false);
   return model;
 }
 

@@ -23,7 +23,7 @@ Model slide(const std::string& more = "") {
   model.motion.q_low = {0.0};
   model.motion.q_high = {0.5};
   model.motion.torque_scale = {10.0};
-  model.labels = fault_labels(1, false);
+  model.labels = fault_labels(1, {0}, false);
   return model;
 }
 

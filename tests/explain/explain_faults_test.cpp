@@ -11,6 +11,8 @@
 namespace faultline {
 namespace {
 
+using testing::ClosedFormRun;
+using testing::ClosedFormScara;
 using testing::fit_of;
 using testing::of_day;
 using testing::on_grid;
@@ -100,6 +102,25 @@ TEST(ExplainFaults, AnEncoderThatJumpsOnInOneDirectionIsOneFaultOfNoKind) {
   ASSERT_EQ(faults.size(), 1u) << said(faults);
   EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
   EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.02);
+}
+
+TEST(LogFit, BesideALockedSlideTheOtherJointsShowWhatIsCarried) {
+  ClosedFormRun run = run_of(28);
+  run.carries_from_s = 4.5;
+  run.carries_to_s = 6.0;
+  run.piece_kg = 0.4;
+  Log log = simulate_closed_form(of_day(1), run);
+  const FaultClaim lock{FaultKind::locked, 3, 3.0};
+  for (int k = 0; k < log.rows(); ++k)  // the drive of a locked slide may give what a loaded one asks for
+    if (log.time[k] >= lock.onset_s) log.tau[2][k] = 9.81 * (ClosedFormScara{}.m3 + run.piece_kg);
+  BalanceModel model = scara_model();
+  model.piece_kg = run.piece_kg;
+  const LogFit fit(on_grid(std::move(log)), model, {lock});
+  for (int k = 0; k < fit.count(); ++k) {
+    const double t = fit.time_s()[k];
+    if (std::abs(t - run.carries_from_s) < 0.1 || std::abs(t - run.carries_to_s) < 0.1) continue;
+    EXPECT_EQ(fit.healthy().path[k] != 0, t > run.carries_from_s && t < run.carries_to_s) << t << " s";
+  }
 }
 
 TEST(LogFit, AKnownFaultIsAnEffectOfTheLog) {

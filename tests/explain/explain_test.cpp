@@ -173,6 +173,17 @@ TEST(ExplainLog, AForceOfAMomentIsACollision) {
   EXPECT_NEAR(fault->claim.onset_s, 5.0, 0.03);
 }
 
+TEST(ExplainLog, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
+  ClosedFormRun run = run_of(11);
+  run.loaded_from_s = 4.0;
+  run.load_kg = 0.2;
+  const std::optional<ExplainedFault> fault = decided(fit_of(simulate_closed_form(of_day(1), run)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_NEAR(fault->claim.size[0], 0.2, 0.02);
+  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.02);
+}
+
 TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
   Log log = simulate_closed_form(of_day(0), run_of(15));
   for (int k = 0; k < log.rows(); ++k)

@@ -53,7 +53,8 @@ TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
             "friction rose by 2.25 N m plus 1.5 N m s/rad of speed");
   EXPECT_EQ(said(FaultKind::friction_increase, 1.5, 2.25, false),
             "friction rose by 2.25 N plus 1.5 N s/m of speed");
-  EXPECT_EQ(said(FaultKind::payload_change, 1.2, 0.0, false), "the load at the tip changed by +1.2 kg");
+  EXPECT_EQ(said(FaultKind::payload_change, 1.2, 0.0, false),
+            "the load at the end of link 2 changed by +1.2 kg");
 }
 
 TEST(SizeText, IsEmptyWhereNoSizeIsTold) {

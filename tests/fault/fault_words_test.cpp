@@ -28,6 +28,7 @@ TEST(FaultWords, LikenessGoesBothWaysAndKnowsJoints) {
   EXPECT_EQ(why_alike(locked, stuck), why_alike(stuck, locked));
   EXPECT_EQ(why_alike(locked, other), "");
   EXPECT_NE(why_alike({FaultKind::payload_change, 0}, {FaultKind::torque_loss, 3}), "");
+  EXPECT_NE(why_alike({FaultKind::payload_change, 2}, {FaultKind::payload_change, 3}), "");
 }
 
 }  // namespace

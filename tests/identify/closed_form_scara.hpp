@@ -18,7 +18,8 @@ struct ClosedFormScara {
   };
 
   double m1 = 1.0, m2 = 0.8, m3 = 0.5, l1 = 1.0, l2 = 0.8;
-  double payload = 0.0;  ///< kg at the tip
+  double payload = 0.0;    ///< kg at the tip
+  double on_link_2 = 0.0;  ///< kg at the end of link 2, which the slide does not lift
   Triple fv = {0.5, 0.3, 2.0}, fc = {0.6, 0.4, 1.0};
   double width = 0.02;
   Triple stribeck = {0, 0, 0};  ///< Coulomb friction near rest beyond fc, gone at a few stribeck_speed
@@ -31,9 +32,9 @@ struct ClosedFormScara {
   double shared_fv = 0.0, shared_fc = 0.0;  ///< friction of a drive that turns with joints 1 and 2 together
 
   double carried() const { return m3 + payload; }
-  double a() const { return l1 * l1 * (m1 / 3 + m2 + carried()); }
-  double b() const { return l2 * l2 * (m2 / 3 + carried()); }
-  double c() const { return l1 * l2 * (m2 / 2 + carried()); }
+  double a() const { return l1 * l1 * (m1 / 3 + m2 + carried() + on_link_2); }
+  double b() const { return l2 * l2 * (m2 / 3 + carried() + on_link_2); }
+  double c() const { return l1 * l2 * (m2 / 2 + carried() + on_link_2); }
 
   Triple acceleration(const State& x, const Triple& tau) const {
     const double cos2 = std::cos(x.q[1]), bend = c() * std::sin(x.q[1]);
@@ -80,6 +81,8 @@ struct ClosedFormRun {
   double clips_from_s = 1e9;                        ///< from then on the drives give no more than `clip`
   std::array<double, 3> clip = {1e9, 1e9, 1e9};     ///< N m or N
   double locks_from_s = 1e9;                        ///< from then on joint 2 is locked
+  double loaded_from_s = 1e9, load_kg = 0.0;        ///< from then on link 2 carries so much more
+  double carries_from_s = 1e9, carries_to_s = 1e9, piece_kg = 0.0;  ///< when the tip carries a work piece
   std::uint64_t seed = 1;
   double bandwidth = 12.0;  ///< of the controller, rad/s
 };
@@ -99,6 +102,7 @@ inline Log simulate_closed_form(ClosedFormScara robot, const ClosedFormRun& run)
   };
   ClosedFormScara::State x{};
   for (int j = 0; j < 3; ++j) reference(0.0, j, x.q[j], x.dq[j]);
+  const double payload = robot.payload;
   const double inertia[] = {robot.a() + robot.b(), robot.b(), robot.carried()};
   Log log;
   log.q.resize(3);
@@ -109,6 +113,9 @@ inline Log simulate_closed_form(ClosedFormScara robot, const ClosedFormRun& run)
   for (int k = 0; k < rows; ++k) {
     ClosedFormScara::Triple tau;
     if (k * run.period_s >= run.locks_from_s) robot.is_locked = true, x.dq[1] = 0.0;
+    if (k * run.period_s >= run.loaded_from_s) robot.on_link_2 = run.load_kg;
+    const bool carries = k * run.period_s >= run.carries_from_s && k * run.period_s < run.carries_to_s;
+    robot.payload = payload + (carries ? run.piece_kg : 0.0);
     log.time.push_back(k * run.period_s);
     for (int j = 0; j < 3; ++j) {
       double q = 0.0, dq = 0.0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/core/error.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "tests/support/rrp_runs.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 bool changes_motion(const MachineFault& f) {
   return f.torque_gain != 1.0 || f.external_torque != 0.0 || f.drive_offset != 0.0 || f.coulomb != 0.0 ||
-         f.viscous != 0.0 || f.tip_mass != 0.0 || f.locks;
+         f.viscous != 0.0 || f.payload != 0.0 || f.locks;
 }
 
 bool changes_readings(const MachineFault& f) {
@@ -26,6 +27,18 @@ TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
     EXPECT_EQ(changes_motion(fault), kind.acts_on == FaultActsOn::motion) << kind.name;
     EXPECT_EQ(changes_readings(fault), kind.acts_on == FaultActsOn::sensor) << kind.name;
   }
+}
+
+TEST(CheckFault, APayloadNeedsALinkThatKeepsMass) {
+  const Robot robot = known_rrp();
+  const double mass = robot.chain.links[1].mass;
+  const auto payload = [](int link, double kg) {
+    return SimulatedFault{.kind = FaultKind::payload_change, .joint = link, .onset_s = 1.0, .size = kg};
+  };
+  EXPECT_NO_THROW(check_fault(robot, payload(2, -0.9 * mass)));
+  EXPECT_THROW(check_fault(robot, payload(2, -1.1 * mass)), Error);
+  EXPECT_NO_THROW(check_fault(robot, payload(0, 0.5))) << "the last link";
+  EXPECT_THROW(check_fault(robot, payload(4, 0.5)), Error);
 }
 
 TEST(SizeUnit, IsThatOfTheJoint) {

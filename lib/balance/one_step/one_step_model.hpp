@@ -28,8 +28,8 @@ struct OneStepModel {
   MotionBody body;
   StepSetting setting;
   Eigen::VectorXd theta;             ///< the robot's own numbers, see MotionLayout::learned()
-  Eigen::VectorXd payload;           ///< what 1 kg at the tip adds to the base parameters
-  double tip_mass = 0.0;             ///< kg that the last joint carries, as its torque shows it
+  Eigen::MatrixXd payload;           ///< base parameters x links: what 1 kg at the end of a link adds to them
+  Eigen::VectorXd carried_kg;        ///< by link: mass at its end that the torque of its joint is like
   Eigen::VectorXd reading_variance;  ///< of q, then dq, of each joint
   Eigen::VectorXd day_variance;      ///< prior variance of the effects of a day, see StepDayLayout
   bool torque_is_measured = false;   ///< behind the drive: then a loss of torque does not show

@@ -27,7 +27,7 @@ constexpr double kMostColumns = 4.0;      // prior standard deviations that a si
 constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
 constexpr double kMostLoss = 1.05;
 constexpr double kSettled_nats = 0.05;  // a round that changes less is the last
-constexpr double kMostPayload = 2.5;    // of the tip's mass
+constexpr double kMostPayload = 2.5;    // of the mass that the link carries
 
 /// Values about which one round linearises a hypothesis, and steps that are known.
 struct Setup {
@@ -213,7 +213,7 @@ VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const Vec
   VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLoss);
   if (guess.kind == FaultKind::payload_change)
-    out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->tip_mass);
+    out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->carried_kg[guess.joint - 1]);
   return out;
 }
 

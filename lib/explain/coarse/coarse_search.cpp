@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/robot/payload.hpp"
 
 namespace faultline {
 namespace {
@@ -50,7 +51,7 @@ Catalogue catalogue(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
   const int n = log.joints(), numbers = m.layout().count();
   Catalogue out;
-  out.direction = MatrixXd::Zero(numbers, (6 + static_cast<int>(std::size(kBlow_s))) * n + 1);
+  out.direction = MatrixXd::Zero(numbers, (7 + static_cast<int>(std::size(kBlow_s))) * n);
   int next = 0;
   const auto add = [&](FaultKind kind, int joint, double duration) {
     const FaultDirections fault = fault_directions(m, kind, joint);
@@ -65,7 +66,7 @@ Catalogue catalogue(const CoarseLog& log) {
   for (int j = 1; j <= n; ++j) add(FaultKind::torque_loss, j, 0.0);
   for (int j = 1; j <= n; ++j) add(FaultKind::friction_increase, j, 0.0);
   for (int j = 1; j <= n; ++j) add(FaultKind::torque_sensor_error, j, 0.0);
-  add(FaultKind::payload_change, n, 0.0);
+  for (const int link : payload_links(m.body.rigid().chain)) add(FaultKind::payload_change, link + 1, 0.0);
   for (const double length : kBlow_s)
     add(FaultKind::collision, n, std::max(1.0, std::round(length / log.period_s())) * log.period_s());
   for (const FaultKind kind : {FaultKind::sensor_bias, FaultKind::sensor_drift})

@@ -8,8 +8,8 @@
 #include "lib/core/statistics.hpp"
 #include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/coarse_search.hpp"
+#include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/fault_end.hpp"
-#include "lib/fault/fault_labels.hpp"
 
 namespace faultline {
 namespace {
@@ -45,7 +45,7 @@ std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& ben
     out.push_back(search.candidates[k].guess);
   for (std::size_t k = 0; k < std::min(kOnsetsForAllKinds, search.onsets.size()); ++k) {
     const double onset = log.time_s(search.onsets[k]);
-    for (const FaultLabel& label : fault_labels(n, log.model->torque_is_measured))
+    for (const FaultLabel& label : fault_labels_of(*log.model))
       if (is_linear_at_coarse(label.kind)) out.push_back({label.kind, label.joint, onset, 0.0, {}});
     for (int j = 1; j <= n; ++j) bench.go({FaultKind::unknown, j, onset, 0.0, {}}, 1);
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/fault_directions.hpp"
 
+#include "lib/fault/fault_labels.hpp"
+#include "lib/robot/payload.hpp"
+
 namespace faultline {
 namespace {
 
@@ -30,8 +33,8 @@ FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int join
         3.0 * m.theta[at.coulomb(j)] + 0.1 * m.torque_rms[j];
   } else if (kind == FaultKind::payload_change) {
     make(1);
-    out.direction.col(0).head(at.base) = m.payload;
-    out.std << 0.6 * m.tip_mass;
+    out.direction.col(0).head(at.base) = m.payload.col(j);
+    out.std << 0.6 * m.carried_kg[j];
   } else if (kind == FaultKind::torque_sensor_error) {
     make(1);
     out.direction(at.force(j), 0) = -1.0;
@@ -42,6 +45,10 @@ FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int join
     out.std = m.torque_rms;
   }
   return out;
+}
+
+std::vector<FaultLabel> fault_labels_of(const OneStepModel& model) {
+  return fault_labels(model.joints(), payload_links(model.body.rigid().chain), model.torque_is_measured);
 }
 
 double usual_reading_error(const OneStepModel& model, int joint) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "lib/balance/one_step/one_step_model.hpp"
 #include "lib/fault/fault_kind.hpp"
@@ -9,14 +10,16 @@
 namespace faultline {
 
 /// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
-/// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each
-/// joint; torque logged beside the true one; empty for kinds that move nothing.
+/// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the end of the link;
+/// force on each joint; torque logged beside the true one; empty for kinds that move nothing.
 struct FaultDirections {
   Eigen::MatrixXd direction;  ///< numbers x sizes
   Eigen::VectorXd std;
 };
 
 FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
+/// What may be wrong with the robot.
+std::vector<FaultLabel> fault_labels_of(const OneStepModel& model);
 /// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
 double usual_reading_error(const OneStepModel& model, int joint);
 

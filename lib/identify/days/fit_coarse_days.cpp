@@ -181,22 +181,28 @@ VectorXd least_day_variance(const OneStepModel& m) {
   return std.cwiseAbs2();
 }
 
-/// Kilograms that explain the last joint's torque best.
-double carried_by_last(const std::vector<UniformLog>& logs, const OneStepModel& m) {
+/// By link, kg at its end that explain the torque of its joint best; where that joint feels none of it, the
+/// mass of the link before.
+VectorXd carried_masses(const std::vector<UniformLog>& logs, const OneStepModel& m) {
   const int n = m.joints(), base = m.layout().base;
-  double num = 0.0, den = 0.0;
+  VectorXd num = VectorXd::Zero(n), den = VectorXd::Zero(n);
   MatrixXd torque(n, base);
   for (const UniformLog& log : logs) {
     const Trajectory x = readings(log);
     for (int k = 0; k + 1 < log.rows(); ++k) {
       const JointVector<double> ddq = (x.col(k + 1) - x.col(k)).tail(n) / log.period_s;
       m.body.torque_by_parameter(x.col(k).head(n), x.col(k).tail(n), ddq, torque);
-      const double tip = torque.row(n - 1).dot(m.payload);
-      num += tip * torque.row(n - 1).dot(m.theta.head(base));
-      den += tip * tip;
+      for (int link = 0; link < n; ++link) {
+        const double unit = torque.row(link).dot(m.payload.col(link));
+        num[link] += unit * torque.row(link).dot(m.theta.head(base));
+        den[link] += unit * unit;
+      }
     }
   }
-  return den > 0.0 ? std::abs(num / den) : 1.0;
+  VectorXd out(n);
+  for (int link = 0; link < n; ++link)
+    out[link] = den[link] > 0.0 ? std::abs(num[link] / den[link]) : link > 0 ? out[link - 1] : 1.0;
+  return out;
 }
 
 /// The space with the lengths that base parameters and known facts settle: of a payload's place.
@@ -265,8 +271,8 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
     between = effect_moments(blocks, fit.estimate).square.cwiseMax(least);
     m.reading_variance = (square / samples).cwiseMax(kLeastReading * kLeastReading);
   }
-  m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, at.joints - 1);
-  m.tip_mass = carried_by_last(logs, m);
+  m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, Eigen::all);
+  m.carried_kg = carried_masses(logs, m);
   m.day_variance = least + kCoarseUnseen * (between - least);
   for (int p = 0; p < at.base; ++p)
     m.day_variance[p] += 9.0 * covariance(p, p) / std::max(Eigen::numext::abs2(m.theta[p]), 1e-12);

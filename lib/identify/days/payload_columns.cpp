@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/payload_columns.hpp"
 
+#include "lib/robot/payload.hpp"
+
 namespace faultline {
 
 using Eigen::MatrixXd;
@@ -13,15 +15,7 @@ MatrixXd payload_columns(const ParameterSpace& space) {
   for (int link = 0; link < n; ++link) {
     Chain<double> chain = space.chain;
     for (LinkInertia<double>& l : chain.links) l = {};
-    const bool last = link + 1 == n;
-    const Eigen::Vector3d along = chain.geometry[last ? link : link + 1].direction;
-    const bool at_origin = last && chain.geometry[link].kind == AxisKind::prismatic;
-    const Eigen::Vector3d end =
-        at_origin ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(chain.length[link] * along);
-    if (last)
-      chain = with_tip_mass(chain, 1.0);
-    else
-      chain.links[link] = general_body(1.0, end, Eigen::Matrix3d::Zero());
+    chain = with_payload(chain, link, 1.0);
     VectorXd numbers = VectorXd::Zero(n * (kLinkParameters + 1));
     for (int i = 0; i < n; ++i)
       numbers.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);

@@ -8,6 +8,7 @@
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/reproduce/filter/small_inverse.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/payload.hpp"
 
 namespace faultline {
 namespace {
@@ -58,7 +59,7 @@ double least_payload_of(const RobotLoad& load) {
 RobotLoad::RobotLoad(const MotionModel& motion_model)
     : model(motion_model),
       healthy(motion_model.chain),
-      unit_payload(with_tip_mass(motion_model.chain, 1.0)),
+      unit_payload(with_payload(motion_model.chain, motion_model.chain.joints() - 1, 1.0)),
       payload_bodies(healthy.planar() ? healthy.bodies_more_in(unit_payload) : FastDynamics::Bodies{}),
       least_payload(least_payload_of(*this)) {}
 

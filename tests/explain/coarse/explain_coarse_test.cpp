@@ -20,7 +20,7 @@ constexpr double kPeriod_s = 0.05;
 constexpr std::size_t kFaulty = 120;  // first sample of a fault
 constexpr double kOnset_s = kFaulty * kPeriod_s;
 
-Log day_log(double friction, std::uint64_t seed) {
+Log day_log(double friction, std::uint64_t seed, double kg_on_link_2 = 0.0) {
   testing::ClosedFormScara robot;
   for (int j = 0; j < 3; ++j) robot.fc[j] *= friction, robot.fv[j] *= friction;
   return testing::simulate_closed_form(robot, {.duration_s = 12.0,
@@ -28,6 +28,8 @@ Log day_log(double friction, std::uint64_t seed) {
                                                .reach = {0.6, 0.7, 0.08},
                                                .q_noise = 1e-4,
                                                .dq_noise = 2e-3,
+                                               .loaded_from_s = kOnset_s,
+                                               .load_kg = kg_on_link_2,
                                                .seed = seed,
                                                .bandwidth = 2.5});
 }
@@ -46,12 +48,16 @@ const ExplainModel& learned() {
   return model;
 }
 
+std::vector<ExplainedFault> faults_in(Log log) {
+  MemorySource source(std::move(log), "log");
+  return explain_whole_log(uniform_log(source, kPeriod_s), learned()).faults;
+}
+
 /// What is said of a day that was not learned from, after `change`.
 std::vector<ExplainedFault> faults_of(const std::function<void(Log&)>& change) {
   Log log = day_log(1.03, 9);
   change(log);
-  MemorySource source(std::move(log), "log");
-  return explain_whole_log(uniform_log(source, kPeriod_s), learned()).faults;
+  return faults_in(std::move(log));
 }
 
 TEST(ExplainCoarse, AHealthyDayHasNoFault) {
@@ -87,6 +93,14 @@ TEST(ExplainCoarse, APushIsFoundWithItsOnsetItsEndAndItsForce) {
   EXPECT_NEAR(push.end_s, kOnset_s + 5 * kPeriod_s, 0.01);
   EXPECT_NEAR(push.size[1], 6.0, 0.5);
   EXPECT_GE(faults[0].alarm_s, kOnset_s);
+}
+
+TEST(ExplainCoarse, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
+  const auto faults = faults_in(day_log(1.03, 9, 0.2));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_NEAR(faults[0].claim.size[0], 0.2, 0.03);
+  EXPECT_NEAR(faults[0].claim.onset_s, kOnset_s, kPeriod_s);
 }
 
 TEST(ExplainCoarse, ATorqueThatIsLostDoesNotAlarmBeforeItIsLost) {
