@@ -24,6 +24,8 @@ constexpr double kStandsOut = 8.0;      // nats, of an onset that the search fou
 constexpr double kMayPass = 0.33;       // or share of the evidence that counts: the search is not exact
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
+constexpr double kSameNoise = 0.1;      // of a variance
+constexpr int kRoundsOfNoise = 3;       // of the noise beside the best explanation
 constexpr double kMayWin = 0.3;         // of the best evidence so far, that a better onset may make the best
 
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
@@ -126,6 +128,17 @@ bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Can
                      [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; });
 }
 
+/// Whether the rows of some joint have much less noise, and those of none more.
+bool is_quieter(const RowNoise& noise, const RowNoise& than) {
+  bool out = false;
+  for (std::size_t j = 0; j < noise.joint.size(); ++j) {
+    const double ratio = autocovariance(noise.joint[j])[0] / autocovariance(than.joint[j])[0];
+    if (ratio > 1.0 + kSameNoise) return false;
+    out = out || ratio < 1.0 - kSameNoise;
+  }
+  return out;
+}
+
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit, double least_evidence) {
@@ -168,6 +181,24 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
     out.best = best_of_each(bench.judged);
   }
   return out;
+}
+
+ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& model,
+                                    const std::vector<FaultClaim>& known,
+                                    const std::function<LogExplanation(const LogFit&)>& explain) {
+  std::optional<RowNoise> noise;
+  for (int round = 0;; ++round) {
+    LogFit fit(log, model, known, noise);
+    LogExplanation e = explain(fit);
+    const bool is_settled = round == kRoundsOfNoise || e.best.empty() || e.best.front().gain < kStandsOut ||
+                            fit.noise() == model.noise;
+    if (is_settled) return {std::move(fit), std::move(e)};
+    std::vector<FaultClaim> all = known;
+    all.push_back(e.best.front());
+    RowNoise beside = LogFit(log, model, std::move(all)).noise();
+    if (!is_quieter(beside, fit.noise())) return {std::move(fit), std::move(e)};
+    noise = std::move(beside);
+  }
 }
 
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& h) {

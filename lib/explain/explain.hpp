@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lib/explain/evidence_course.hpp"
@@ -18,6 +19,18 @@ struct LogExplanation {
 
 /// Where the search finds nothing that may give `least_evidence` (nats), no hypothesis is judged.
 LogExplanation explain_log(const LogFit& fit, double least_evidence = 0.0);
+
+/// A log beside known faults, and what it says.
+struct ExplainedFit {
+  LogFit fit;
+  LogExplanation explanation;
+};
+/// The same with the noise that the log has beside its best explanation. Before anything is known of a fault
+/// that begins early, it makes the log loud: what the effects of the day leave of it counts as noise.
+/// `explain` gives the explanation of a fit, such as explain_log().
+ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& model,
+                                    const std::vector<FaultClaim>& known,
+                                    const std::function<LogExplanation(const LogFit&)>& explain);
 
 /// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the
 /// form of its columns, so a share of its torque is noise.

@@ -41,9 +41,8 @@ std::optional<ExplainedFault> first_of(const LogExplanation& e, const EvidenceLi
   return std::move(named.front());
 }
 
-std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& model,
-                                   const EvidenceLimits& limits, const FaultTimes& at) {
-  const LogFit fit(log, model);
+/// Every kind and joint at the times of a fault.
+LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(256);
   for (const LinearFault& fault : fit.linear())
@@ -61,6 +60,13 @@ std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& mo
   e.best = best_of_each(bench.judged);
   e.healthy_square = fit.healthy().mean_square();
   e.free_form = free_form(fit);
+  return e;
+}
+
+std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& model,
+                                   const EvidenceLimits& limits, const FaultTimes& at) {
+  const auto [fit, e] =
+      explain_with_own_noise(log, model, {}, [&at](const LogFit& beside) { return judged_at(beside, at); });
   return first_of(e, limits, log_evidence(fit, e));
 }
 

@@ -7,6 +7,7 @@
 
 #include "lib/explain/fault_end.hpp"
 #include "lib/explain/judge.hpp"
+#include "lib/explain/refine.hpp"
 
 namespace faultline {
 namespace {
@@ -63,11 +64,12 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
 
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
-  const LogFit fit(log, model, known);
   // The halt of a known lock makes the other joints' rows loud, and the search less exact.
   const bool is_exact =
       std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
-  const LogExplanation e = explain_log(fit, is_exact ? least_limit(limits) : 0.0);
+  const double least = is_exact ? least_limit(limits) : 0.0;
+  const auto [fit, e] = explain_with_own_noise(
+      log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogEvidence evidence = log_evidence(fit, e);
   // What known faults leave is louder than the noise that evidence is counted by.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
@@ -124,17 +126,22 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
                                     std::vector<ExplainedFault> faults) {
   std::stable_sort(faults.begin(), faults.end(),
                    [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
+  const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
   for (std::size_t k = 0; k < faults.size();) {
-    const LogFit fit(log, model, claims_but(faults, k, before));
-    const LogExplanation e = explain_log(fit);
-    const LogEvidence evidence = log_evidence(fit, e);
-    const std::vector<ExplainedFault> again = named_faults(e, limits, evidence, 1);
+    const LogFit fit(log, model, claims_but(faults, k, before), noise);
+    LogExplanation e = explain_log(fit);
     const std::optional<FaultHypothesis> first = judge(fit, faults[k].claim);
     const double gain = first ? first->gain : 0.0;
-    if (!again.empty() && again[0].evidence > gain && !leaves_much(again[0])) {
+    if (first) {
+      e.best.push_back(*first);
+      e.best = best_of_each(e.best);
+    }
+    const std::vector<ExplainedFault> again = named_faults(e, limits, log_evidence(fit, e), 1);
+    if (!again.empty() && !leaves_much(again[0])) {
       faults[k] = again[0];
     } else if (gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
+      k = 0;  // what was judged beside it is judged without it
       continue;
     }
     ++k;

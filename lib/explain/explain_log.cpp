@@ -112,7 +112,9 @@ LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {
     const std::optional<CoarseLog> followed = followed_log(log, *coarse);
     return followed ? explain_coarse(*followed) : LogExplanation{};
   }
-  return explain_log({averaged_as(log, robot), std::get<BalanceModel>(robot)});
+  return explain_with_own_noise(averaged_as(log, robot), std::get<BalanceModel>(robot), {},
+                                [](const LogFit& fit) { return explain_log(fit); })
+      .explanation;
 }
 
 }  // namespace faultline

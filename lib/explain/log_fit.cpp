@@ -63,14 +63,15 @@ LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explana
   return out;
 }
 
-LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known)
+LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known,
+               const std::optional<RowNoise>& noise)
     : known_(std::move(known)),
       log_(without_false_readings(std::move(log), known_)),
       model_(model),
       rows_(balance_rows(log_, model.setting, model.rigid, model.theta)),
       reading_(log_, model.setting, model.rigid, model.theta),
       loudness_(row_loudness(log_, model)),
-      noise_(model.noise) {
+      noise_(noise ? *noise : model.noise) {
   const ColumnLayout layout = model.layout();
   tip_ = payload_torque(rows_, model.payload, joints() - 1);
   if (has_piece() && count() > 0) {
@@ -108,7 +109,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   whiten_effects();
   settle_healthy();
   loosen_halts();
-  for (int round = 0; round < kNoiseRounds; ++round) {  // a louder log dates its change later
+  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // a louder log dates its change later
     RowNoise own = own_noise(*this);
     if (own == noise_) break;
     noise_ = std::move(own);

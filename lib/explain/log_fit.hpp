@@ -44,9 +44,11 @@ class LogFit {
   /// `known` are faults that the log is known to hold: their sizes are estimated beside the effects of the
   /// day (near the size of the claim where the fault began before the log: without healthy rows to compare
   /// with, a lost torque and the gain of the day look alike), false readings are mended, rows that say
-  /// nothing do not count. Throws Error(input) when the log is shorter than the kernels. The model must
-  /// outlive it.
-  LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {});
+  /// nothing do not count. `noise`: that of the rows where it is known; else that of the model, or the log's
+  /// own where it is louder (own_noise()). Throws Error(input) when the log is shorter than the kernels. The
+  /// model must outlive it.
+  LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {},
+         const std::optional<RowNoise>& noise = std::nullopt);
 
   /// Without the false readings that are known.
   const UniformLog& log() const { return log_; }
@@ -54,7 +56,6 @@ class LogFit {
   /// Whether a known fault leaves nothing to be said of joint `joint` (from 1) at a time.
   bool is_silent(int joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
-  /// That of the model, or the log's own where it is louder (own_noise()).
   const RowNoise& noise() const { return noise_; }
   const BalanceRows& rows() const { return rows_; }
   int count() const { return rows_.rows(); }

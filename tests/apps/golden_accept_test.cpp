@@ -26,7 +26,7 @@ class GoldenAccept : public testing::Test {
  protected:
   GoldenAccept() {
     golden_.edit("kind = \"locked\"", "kind = \"collision\"");
-    golden_.edit("kind = \"payload_change\"", "kind = \"unknown\"");
+    golden_.edit("  {kind = \"payload_change\"", "  {kind = \"unknown\"");  // the event, not an opinion
     golden_.edit("{name = \"b\", value = 0.49", "{name = \"b\", value = 0.48");
   }
 
@@ -62,7 +62,7 @@ TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(has(run.out, "+ event locked joint 1")) << run.out;
   EXPECT_TRUE(has(run.out, "Accepted: locked_1.csv\n"));
-  EXPECT_FALSE(has(run.out, "payload_change"));
+  EXPECT_FALSE(has(run.out, "payload_change.csv"));
   const ProgramRun check = golden_.run("check");
   EXPECT_EQ(check.status, 1);
   EXPECT_TRUE(has(check.out, "7 of 9 as expected, 2 different")) << check.out;

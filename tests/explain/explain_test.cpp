@@ -20,6 +20,7 @@ using testing::fit_of;
 using testing::kExplainedPeriod_s;
 using testing::learned_from;
 using testing::of_day;
+using testing::on_grid;
 using testing::run_of;
 using testing::scara_model;
 using testing::simulate_closed_form;
@@ -313,6 +314,21 @@ TEST(ExplainLog, AFaultOfALoudLogIsFound) {
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 1}));
+}
+
+TEST(ExplainLog, AFaultSoonAfterTheStartIsNoNoiseOfItsLog) {
+  ClosedFormRun run = run_of(31);
+  run.loaded_from_s = 1.5;
+  run.load_kg = 0.05;
+  const UniformLog log = on_grid(simulate_closed_form(of_day(1), run));
+  EXPECT_LT(explain_log(LogFit(log, scara_model())).best.front().gain, 200.0) << "it makes the log loud";
+  const ExplainedFit own =
+      explain_with_own_noise(log, scara_model(), {}, [](const LogFit& fit) { return explain_log(fit); });
+  const FaultHypothesis& best = own.explanation.best.front();
+  EXPECT_EQ(FaultLabel(best.kind, best.joint), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_GT(best.gain, 1e4);
+  EXPECT_NEAR(best.onset_s, run.loaded_from_s, 0.02);
+  EXPECT_EQ(own.fit.noise(), scara_model().noise);
 }
 
 TEST(ExplainLog, AQuietLogHasTheNoiseOfTheHealthyLogs) {
