@@ -25,6 +25,7 @@ constexpr double kMayPass = 0.33;       // or share of the evidence that counts:
 constexpr double kWorthRefining = 5.0;  // nats
 constexpr std::size_t kRefined = 5;     // hypotheses
 constexpr double kSameNoise = 0.1;      // of a variance
+constexpr std::size_t kBeside = 5;      // hypotheses beside which it is estimated
 constexpr int kRoundsOfNoise = 3;       // of the noise beside the best explanation
 constexpr double kMayWin = 0.3;         // of the best evidence so far, that a better onset may make the best
 
@@ -139,6 +140,28 @@ bool is_quieter(const RowNoise& noise, const RowNoise& than) {
   return out;
 }
 
+/// Logarithms of the variances of all joints.
+double loudness(const RowNoise& noise) {
+  double out = 0.0;
+  for (const JointNoise& joint : noise.joint) out += elementary::log(autocovariance(joint)[0]);
+  return out;
+}
+
+/// The least noise that the log has beside one of its best explanations: the one that explains what made it
+/// loud need not be the very best while it is loud. Those that make rows count for nothing say little of
+/// them.
+RowNoise quietest_beside(const LogFit& fit, const UniformLog& log, const std::vector<FaultHypothesis>& best) {
+  RowNoise out = fit.noise();
+  for (std::size_t k = 0; k < std::min(kBeside, best.size()); ++k) {
+    if (best[k].gain <= 0.0 || (k > 0 && silences(best[k].kind))) continue;
+    std::vector<FaultClaim> all = fit.known();
+    all.push_back(best[k]);
+    RowNoise beside = LogFit(log, fit.model(), std::move(all)).noise();
+    if (loudness(beside) < loudness(out)) out = std::move(beside);
+  }
+  return out;
+}
+
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit, double least_evidence) {
@@ -193,9 +216,7 @@ ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& m
     const bool is_settled = round == kRoundsOfNoise || e.best.empty() || e.best.front().gain < kStandsOut ||
                             fit.noise() == model.noise;
     if (is_settled) return {std::move(fit), std::move(e)};
-    std::vector<FaultClaim> all = known;
-    all.push_back(e.best.front());
-    RowNoise beside = LogFit(log, model, std::move(all)).noise();
+    RowNoise beside = quietest_beside(fit, log, e.best);
     if (!is_quieter(beside, fit.noise())) return {std::move(fit), std::move(e)};
     noise = std::move(beside);
   }

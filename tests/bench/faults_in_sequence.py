@@ -76,7 +76,7 @@ def cases():
 def listed(expected, faults):
     """Whether a finding has that kind and joint, begins near it and, where it ends, ends near it."""
     kind, joint, onset_s, end_s = expected
-    return any(f["kind"] == kind and (f["joint"] == joint or kind == "payload_change") and
+    return any(f["kind"] == kind and f["joint"] == joint and
                abs(f["onset_s"] - onset_s) < 0.5 and (end_s is None or abs(f["end_s"] - end_s) < 0.5)
                for f in faults)
 

@@ -14,7 +14,9 @@ import statistics
 import sys
 
 HEAD = ("cell", "healthy with alarm", "inconclusive", "found", "right", "or named", "early", "median/s",
-        "unknown found", "called unknown", "learn/s")
+        "unknown found", "called unknown", "calibration", "learn/s")
+TIP = 3  # joint of the link that carries the payload, whatever joint a log is labelled with
+BINS = 10
 
 
 def read_json(path):
@@ -23,15 +25,22 @@ def read_json(path):
 
 
 def same(want, kind, joint):
-    """A payload sits at the tip whatever joint a log is labelled with."""
-    return kind == want[0] and (joint == want[1] or kind == "payload_change")
+    return kind == want[0] and joint == (TIP if kind == "payload_change" else want[1])
+
+
+def calibration_error(judged):
+    """Mean distance between the confidence that was said and how often it was right, over bins."""
+    too_much = [0.0] * BINS
+    for said, right in judged:
+        too_much[min(int(said * BINS), BINS - 1)] += said - right
+    return sum(map(abs, too_much)) / len(judged) if judged else float("nan")
 
 
 class Score:
     def __init__(self):
         self.healthy = self.alarms = self.inconclusive = self.runs = self.found = self.right = self.named = 0
         self.early = self.unknown = self.unknown_found = self.called_unknown = 0
-        self.delays, self.notes, self.learn_s = [], [], 0.0
+        self.delays, self.notes, self.judged, self.learn_s = [], [], [], 0.0
 
     def take_healthy(self, row, report):
         self.healthy += 1
@@ -45,6 +54,7 @@ class Score:
         self.unknown += 1
         self.unknown_found += bool(after)
         self.called_unknown += bool(after) and after[0]["kind"] == "unknown"
+        self.judged += [(f["confidence"], f["kind"] == "unknown") for f in after[:1]]
         if not after or after[0]["kind"] != "unknown":
             said = f"{after[0]['kind']} {after[0]['joint']}" if after else "nothing"
             self.notes.append(f"{row['file']}: unknown {row['joint']} {row['what']}, reported {said}")
@@ -68,6 +78,7 @@ class Score:
         others = any(same(want, other["kind"], other["joint"]) for other in first["could_also_be"])
         self.found += 1
         self.right += exact
+        self.judged.append((first["confidence"], exact))
         self.named += exact or others
         self.delays.append(first["alarm_s"] - onset)
         if not exact:
@@ -80,7 +91,7 @@ class Score:
         delay = f"{statistics.median(self.delays):.4f}" if self.delays else "-"
         return (name, f"{self.alarms} of {self.healthy}", self.inconclusive, f"{self.found} of {self.runs}",
                 self.right, self.named, self.early, delay, f"{self.unknown_found} of {self.unknown}",
-                self.called_unknown, f"{self.learn_s:.0f}")
+                self.called_unknown, f"{calibration_error(self.judged):.3f}", f"{self.learn_s:.0f}")
 
 
 def score_cell(labels, cell_dir):

@@ -242,7 +242,8 @@ def score(runs, reports, count):
         else:
             group = "unknown" if kind in UNKNOWN else "known"
             want = "unknown" if kind in UNKNOWN else kind
-            same = lambda f: f["kind"] == want and (want in ("unknown", "payload_change") or f["joint"] == run["joint"])
+            joint = 3 if kind == "payload_change" else run["joint"]
+            same = lambda f: f["kind"] == want and (want == "unknown" or f["joint"] == joint)
             good = bool(after) and same(after[0])
             named = good or bool(after) and any(same(f) for f in after[0].get("could_also_be", []))
             for key, value in (("runs", 1), ("found", bool(after)), ("right", good), ("named", named)):

@@ -188,7 +188,7 @@ def verdict(kind, wanted, joint, onset_s, faults):
     first = faults[0]
     if first["alarm_s"] < onset_s - 1.0 / RATE_HZ:
         return "early"
-    right_joint = wanted in ("unknown", "payload_change") or first["joint"] == joint + 1
+    right_joint = wanted == "unknown" or first["joint"] == (3 if wanted == "payload_change" else joint + 1)
     return "right" if first["kind"] == wanted and right_joint else first["kind"]
 
 
