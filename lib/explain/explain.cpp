@@ -140,26 +140,28 @@ bool is_quieter(const RowNoise& noise, const RowNoise& than) {
   return out;
 }
 
-/// Logarithms of the variances of all joints.
-double loudness(const RowNoise& noise) {
-  double out = 0.0;
-  for (const JointNoise& joint : noise.joint) out += elementary::log(autocovariance(joint)[0]);
-  return out;
-}
+FaultLabel label_of(const FaultClaim& claim) { return {claim.kind, claim.joint}; }
 
-/// The least noise that the log has beside one of its best explanations: the one that explains what made it
-/// loud need not be the very best while it is loud. Those that make rows count for nothing say little of
-/// them.
-RowNoise quietest_beside(const LogFit& fit, const UniformLog& log, const std::vector<FaultHypothesis>& best) {
-  RowNoise out = fit.noise();
-  for (std::size_t k = 0; k < std::min(kBeside, best.size()); ++k) {
-    if (best[k].gain <= 0.0 || (k > 0 && silences(best[k].kind))) continue;
+/// The noise of a log beside a fault.
+struct NoiseBeside {
+  FaultLabel fault;
+  RowNoise noise;
+};
+
+/// The noise of the log beside the first of its best explanations that makes it quieter: the one that tells
+/// what made it loud need not be the very best while it is loud. Those that make rows count for nothing say
+/// little of them.
+std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& log,
+                                         const std::vector<FaultHypothesis>& best) {
+  if (!is_quieter(fit.model().noise, fit.noise())) return std::nullopt;
+  for (std::size_t k = 0; k < std::min(kBeside, best.size()) && best[k].gain >= kStandsOut; ++k) {
+    if (k > 0 && silences(best[k].kind)) continue;
     std::vector<FaultClaim> all = fit.known();
     all.push_back(best[k]);
     RowNoise beside = LogFit(log, fit.model(), std::move(all)).noise();
-    if (loudness(beside) < loudness(out)) out = std::move(beside);
+    if (is_quieter(beside, fit.noise())) return NoiseBeside{label_of(best[k]), std::move(beside)};
   }
-  return out;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -209,16 +211,16 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
 ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& model,
                                     const std::vector<FaultClaim>& known,
                                     const std::function<LogExplanation(const LogFit&)>& explain) {
-  std::optional<RowNoise> noise;
+  std::optional<NoiseBeside> beside;
   for (int round = 0;; ++round) {
-    LogFit fit(log, model, known, noise);
+    LogFit fit(log, model, known, beside ? std::optional(beside->noise) : std::nullopt);
     LogExplanation e = explain(fit);
-    const bool is_settled = round == kRoundsOfNoise || e.best.empty() || e.best.front().gain < kStandsOut ||
-                            fit.noise() == model.noise;
-    if (is_settled) return {std::move(fit), std::move(e)};
-    RowNoise beside = quietest_beside(fit, log, e.best);
-    if (!is_quieter(beside, fit.noise())) return {std::move(fit), std::move(e)};
-    noise = std::move(beside);
+    const bool is_settled =
+        round == kRoundsOfNoise || e.best.empty() || (beside && beside->fault == label_of(e.best.front()));
+    std::optional<NoiseBeside> quieter;
+    if (!is_settled) quieter = quieter_noise(fit, log, e.best);
+    if (!quieter) return {std::move(fit), std::move(e)};
+    beside = std::move(quieter);
   }
 }
 

@@ -64,14 +64,12 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
 
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
-  // The halt of a known lock makes the other joints' rows loud, and what is found in a loud log may be far
-  // more with the noise beside it.
-  const bool is_beside_lock =
-      std::any_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
-  const auto [fit, e] = explain_with_own_noise(log, model, known, [&](const LogFit& beside) {
-    const bool is_exact = !is_beside_lock && beside.noise() == model.noise;
-    return explain_log(beside, is_exact ? least_limit(limits) : 0.0);
-  });
+  // The halt of a known lock makes the other joints' rows loud, and the search less exact.
+  const bool is_exact =
+      std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
+  const double least = is_exact ? least_limit(limits) : 0.0;
+  const auto [fit, e] = explain_with_own_noise(
+      log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogEvidence evidence = log_evidence(fit, e);
   // What known faults leave is louder than the noise that evidence is counted by.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
