@@ -26,16 +26,17 @@ constexpr double kLossVariance = 0.25;
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second
 constexpr double kPayloadVariance = 0.36;  // of the mass that the link carries, squared
+constexpr double kUnfelt = 1e-9;           // of the squares of a torque: rounding
 constexpr double kOffsetVariance = 0.36;   // of the joint's usual torque, squared
 constexpr double kLeastVariance = 1e-6;
 
 /// Mass at the end of a link, kg, that the torque of its joint is like; of the joint before where that feels
 /// none of it. `unit`: torque of 1 kg there, rows x joints.
 double carried_mass(const BalanceRows& rows, const BalanceModel& model, const MatrixXd& unit, int link) {
-  for (int j = link; j >= 0; --j) {
-    const double square = unit.col(j).squaredNorm();
-    if (square > 0.0) return std::abs((rows.column[j] * model.theta).dot(unit.col(j)) / square);
-  }
+  const VectorXd square = unit.colwise().squaredNorm().transpose();
+  for (int j = link; j >= 0; --j)
+    if (square[j] > kUnfelt * square.maxCoeff())
+      return std::abs((rows.column[j] * model.theta).dot(unit.col(j)) / square[j]);
   return 1.0;
 }
 

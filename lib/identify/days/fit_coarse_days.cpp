@@ -22,6 +22,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kUnfelt = 1e-9;         // of the squares of a torque: rounding
 constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
 constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
 constexpr int kDoubtRounds = 7;
@@ -181,27 +182,26 @@ VectorXd least_day_variance(const OneStepModel& m) {
   return std.cwiseAbs2();
 }
 
-/// By link, kg at its end that explain the torque of its joint best; where that joint feels none of it, the
-/// mass of the link before.
+/// By link, kg at its end that explain best the torque of its joint, or of the last one before that feels it.
 VectorXd carried_masses(const std::vector<UniformLog>& logs, const OneStepModel& m) {
   const int n = m.joints(), base = m.layout().base;
-  VectorXd num = VectorXd::Zero(n), den = VectorXd::Zero(n);
+  MatrixXd num = MatrixXd::Zero(n, n), den = MatrixXd::Zero(n, n);  // links x joints
   MatrixXd torque(n, base);
   for (const UniformLog& log : logs) {
     const Trajectory x = readings(log);
     for (int k = 0; k + 1 < log.rows(); ++k) {
       const JointVector<double> ddq = (x.col(k + 1) - x.col(k)).tail(n) / log.period_s;
       m.body.torque_by_parameter(x.col(k).head(n), x.col(k).tail(n), ddq, torque);
-      for (int link = 0; link < n; ++link) {
-        const double unit = torque.row(link).dot(m.payload.col(link));
-        num[link] += unit * torque.row(link).dot(m.theta.head(base));
-        den[link] += unit * unit;
-      }
+      const MatrixXd unit = m.payload.transpose() * torque.transpose();
+      num += unit * (torque * m.theta.head(base)).asDiagonal();
+      den += unit.cwiseAbs2();
     }
   }
-  VectorXd out(n);
+  VectorXd out = VectorXd::Ones(n);
   for (int link = 0; link < n; ++link)
-    out[link] = den[link] > 0.0 ? std::abs(num[link] / den[link]) : link > 0 ? out[link - 1] : 1.0;
+    for (int j = 0; j <= link; ++j)
+      if (den(link, j) > kUnfelt * den.row(link).maxCoeff())
+        out[link] = std::abs(num(link, j) / den(link, j));
   return out;
 }
 
