@@ -12,6 +12,7 @@ namespace faultline {
 namespace {
 
 constexpr double kCalm_s = 1.0;          // between two faults that are not one
+constexpr double kAtItsEnd_s = 0.3;      // of a fault
 constexpr double kShaking_s = 1.4;       // of springs after an onset, and of the transients of a controller
 constexpr double kAfterShaking_s = 0.6;  // until what lasts is named
 
@@ -33,10 +34,14 @@ bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
          !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
 }
 
-/// Whether `later` is what `earlier` looks like a while on; pushes are part of an unknown disturbance.
+/// Whether `later` is `earlier` again after a short pause, or a push that is how it ends; all that is unknown
+/// is one disturbance, and pushes are part of it. What begins while a known fault lasts is another one.
 bool continues(const FaultFinding& earlier, const FaultFinding& later) {
-  const bool alike = !passes(earlier) && earlier.label.joint == later.label.joint;
-  return follow_closely(earlier, later) && (alike || (is_unknown(earlier) && passes(later)));
+  const bool is_again = !passes(earlier) && earlier.label == later.label &&
+                        (is_unknown(earlier) || !(later.onset_s < or_last(earlier.end_s)));
+  const bool is_end = !passes(earlier) && passes(later) && earlier.label.joint == later.label.joint &&
+                      std::abs(later.onset_s - or_last(earlier.end_s)) < kAtItsEnd_s;
+  return follow_closely(earlier, later) && (is_again || is_end || (is_unknown(earlier) && passes(later)));
 }
 
 /// Whether a push was the first that was seen of an unknown disturbance.

@@ -7,10 +7,11 @@
 
 namespace faultline {
 
-/// A fault that stays is one finding: later findings on the same joint that begin before it has been over for
-/// a second extend it. Likewise a push right before an unknown disturbance is its beginning, and pushes right
-/// after are part of it, and what shakes for a moment before a lasting fault is named is its onset. What the
-/// criterion over single samples or a second residual found stays as it was cut.
+/// A fault that pauses is one finding: the same kind at the same joint that begins again within a second
+/// extends it, and so does a push at its joint when it ends. Likewise a push right before an unknown
+/// disturbance is its beginning, and pushes right after are part of it, and what shakes for a moment before a
+/// lasting fault is named is its onset. What the criterion over single samples or a second residual found
+/// stays as it was cut.
 std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults);
 
 /// Findings by onset (then alarm, then joint), unknown times last, with ids from 1.

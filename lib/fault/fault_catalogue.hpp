@@ -38,7 +38,7 @@ struct FaultDescription {
   FaultKind kind = FaultKind::none;
   const char* name = "";        ///< in labels, JSON and reports; never changes
   const char* heading = "";     ///< in words
-  const char* of_a_joint = "";  ///< in words, after "joint N "
+  const char* of_a_joint = "";  ///< in words, after "joint N " or "link N "
   const char* next_check = "";  ///< sentences to a technician; "{}" stands for the joint
   /// How its size is said: {first} and {second} size; the {joint}; of the first its {percent}, its
   /// {magnitude} and whether that is {much} or little; units {length} and {torque}.

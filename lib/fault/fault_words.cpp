@@ -55,7 +55,9 @@ const char* plain_name(FaultKind kind) { return describe(kind).heading; }
 
 std::string plain_words(const FaultLabel& label) {
   if (label.joint <= 0) return describe(label.kind).heading;
-  return fmt::format("joint {} {}", label.joint, describe(label.kind).of_a_joint);
+  const FaultDescription& fault = describe(label.kind);
+  return fmt::format("{} {} {}", fault.place == FaultPlace::link ? "link" : "joint", label.joint,
+                     fault.of_a_joint);
 }
 
 std::string next_check_for(const FaultLabel& label) {

@@ -67,7 +67,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
   const TemporaryFolder folder;
   expect_readable(made_page(
       folder, {"diagnose", kSamples + "golden/logs/torque_loss_2.csv", "--model",
-               kSamples + "golden/model-df7f2541.json", "--cases", kSamples + "golden/cases-2662ecf0.db"}));
+               kSamples + "golden/model-200ff869.json", "--cases", kSamples + "golden/cases-0144254f.db"}));
 }
 
 TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {

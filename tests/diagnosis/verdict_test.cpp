@@ -176,14 +176,34 @@ TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {
   }
 }
 
-TEST(MergeFaults, AFaultThatStaysIsOneFinding) {
+TEST(MergeFaults, AFaultThatPausesIsOneFinding) {
   const auto merged =
-      merge_continued({fault(FaultKind::locked, 2, 1.0, 2.0), fault(FaultKind::sensor_bias, 2, 3.0, 4.0),
+      merge_continued({fault(FaultKind::locked, 2, 1.0, 2.0), fault(FaultKind::locked, 2, 2.5, 4.0),
                        fault(FaultKind::locked, 1, 3.5, 5.0)});
   ASSERT_EQ(merged.size(), 2u);
-  EXPECT_EQ(merged[0].label.kind, FaultKind::locked);
+  EXPECT_EQ(merged[0].label.joint, 2);
   EXPECT_EQ(merged[0].end_s, 4.0);
   EXPECT_EQ(merged[1].label.joint, 1);
+}
+
+TEST(MergeFaults, WhatBeginsAtTheSameJointWhileAFaultLastsIsAnotherFault) {
+  EXPECT_EQ(merge_continued(
+                {fault(FaultKind::payload_change, 3, 2.0, 9.0), fault(FaultKind::torque_loss, 3, 5.0, 9.0)})
+                .size(),
+            2u);
+  EXPECT_EQ(merge_continued({fault(FaultKind::payload_change, 3, 2.0, 9.0),
+                             fault(FaultKind::payload_change, 3, 5.0, 9.0)})
+                .size(),
+            2u)
+      << "the load changes twice";
+}
+
+TEST(MergeFaults, APushIsPartOfAFaultWhereItEndsAndNotWhileItLasts) {
+  const FaultFinding friction = fault(FaultKind::friction_increase, 2, 1.0, 4.0);
+  const auto ends = merge_continued({friction, fault(FaultKind::collision, 2, 3.9, 4.4)});
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].end_s, 4.4);
+  EXPECT_EQ(merge_continued({friction, fault(FaultKind::collision, 2, 2.5, 2.6)}).size(), 2u);
 }
 
 TEST(MergeFaults, CollisionsPassAndStayApart) {

@@ -14,11 +14,17 @@ TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
     const FaultLabel label{static_cast<FaultKind>(kind), 3};
     names.insert(plain_name(label.kind));
     checks.insert(next_check_for(label));
-    EXPECT_EQ(plain_words(label).rfind("joint 3 ", 0), 0u) << plain_words(label);
+    const char* place = label.kind == FaultKind::payload_change ? "link 3 " : "joint 3 ";
+    EXPECT_EQ(plain_words(label).rfind(place, 0), 0u) << plain_words(label);
     EXPECT_EQ(next_check_for(label).find('{'), std::string::npos);
   }
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kFaultKinds));
   EXPECT_EQ(checks.size(), static_cast<std::size_t>(kFaultKinds));
+}
+
+TEST(FaultWords, ALoadIsOfALinkAndEveryOtherFaultOfAJoint) {
+  EXPECT_EQ(plain_words({FaultKind::payload_change, 2}), "link 2 carries another load");
+  EXPECT_EQ(plain_words({FaultKind::locked, 2}), "joint 2 is locked");
 }
 
 TEST(FaultWords, LikenessGoesBothWaysAndKnowsJoints) {
