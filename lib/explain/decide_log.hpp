@@ -42,7 +42,7 @@ struct LabelScore {
   Eigen::VectorXd size_std{};  ///< of each size of the claim; empty where it is not known
   double left = 1.0;           ///< mean square of what it leaves, in variances of the noise
 
-  FaultLabel label() const { return {claim.kind, claim.joint}; }
+  FaultLabel label() const { return claim.label(); }
 };
 
 /// The fault of a log.
@@ -58,7 +58,7 @@ struct ExplainedFault {
   std::vector<LabelScore> scores;         ///< of each kind and joint that was judged, best first
   EvidenceTrace trace;                    ///< of the best of them
 
-  FaultLabel label() const { return {claim.kind, claim.joint}; }
+  FaultLabel label() const { return claim.label(); }
 };
 
 /// Limits that are at least kBeyondSimulated times the evidence that a fault of a healthy log gave, of each

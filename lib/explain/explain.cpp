@@ -140,17 +140,15 @@ bool is_quieter(const RowNoise& noise, const RowNoise& than) {
   return out;
 }
 
-FaultLabel label_of(const FaultClaim& claim) { return {claim.kind, claim.joint}; }
-
 /// The noise of a log beside a fault.
 struct NoiseBeside {
   FaultLabel fault;
   RowNoise noise;
 };
 
-/// The noise of the log beside the first of its best explanations that makes it quieter: the one that tells
-/// what made it loud need not be the very best while it is loud. Those that make rows count for nothing say
-/// little of them.
+/// Noise of the log when one of its best explanations is known to be true: the first explanation that lowers
+/// the noise counts, since the fault that made the log loud need not have the most evidence while it is loud.
+/// An explanation that excludes rows lowers the noise in any case and counts only when it is the best.
 std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& log,
                                          const std::vector<FaultHypothesis>& best) {
   if (!is_quieter(fit.model().noise, fit.noise())) return std::nullopt;
@@ -159,7 +157,7 @@ std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& lo
     std::vector<FaultClaim> all = fit.known();
     all.push_back(best[k]);
     RowNoise beside = LogFit(log, fit.model(), std::move(all)).noise();
-    if (is_quieter(beside, fit.noise())) return NoiseBeside{label_of(best[k]), std::move(beside)};
+    if (is_quieter(beside, fit.noise())) return NoiseBeside{best[k].label(), std::move(beside)};
   }
   return std::nullopt;
 }
@@ -216,7 +214,7 @@ ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& m
     LogFit fit(log, model, known, beside ? std::optional(beside->noise) : std::nullopt);
     LogExplanation e = explain(fit);
     const bool is_settled =
-        round == kRoundsOfNoise || e.best.empty() || (beside && beside->fault == label_of(e.best.front()));
+        round == kRoundsOfNoise || e.best.empty() || (beside && beside->fault == e.best.front().label());
     std::optional<NoiseBeside> quieter;
     if (!is_settled) quieter = quieter_noise(fit, log, e.best);
     if (!quieter) return {std::move(fit), std::move(e)};

@@ -17,15 +17,17 @@ struct FaultClaim {
   int joint = 0;  ///< from 1
   double onset_s = 0.0;
   double end_s = kNeverEnds;
-  /// Share of the torque lost; viscous and Coulomb friction added; kg at the tip; force on each joint; torque
-  /// that is logged beside the one that acts (N m or N); false position (rad or m) or drift (rad/s or m/s).
-  /// Empty for kinds without a size, and where it is not known.
+  /// Share of the torque lost; viscous and Coulomb friction added; kg at the end of the link; force on each
+  /// joint; torque that is logged beside the one that acts (N m or N); false position (rad or m) or drift
+  /// (rad/s or m/s). Empty for kinds without a size, and where it is not known.
   Eigen::VectorXd size{};
   /// From nothing at the onset; then `size` is that of each second, as friction that creeps.
   bool grows = false;
   /// Of a false position: the velocity is measured apart from it and shows nothing of it. A velocity that is
   /// computed from the position drifts with it, and is wrong for a moment where it jumps.
   bool velocity_is_true = false;
+
+  FaultLabel label() const { return {kind, joint}; }
 };
 
 /// Whether a fault makes a position read wrong and moves nothing.

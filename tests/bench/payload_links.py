@@ -19,36 +19,11 @@ MASS_BY_DAY, FRICTION_BY_DAY = 0.004, 0.05  # standard deviations, relative
 
 SIX_AXES = """gravity = [0, 0, -9.81]
 friction = {{viscous = {viscous}, coulomb = {coulomb}, width = 0.02}}
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 0, 1]
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 1, 0]
-offset = [0.15, 0, 0.3]
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 1, 0]
-offset = [0, 0, 0.4]
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 0, 1]
-offset = [0.03, 0, 0.2]
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 1, 0]
-offset = [0, 0, 0.2]
-
-[[robot.joint]]
-kind = "revolute"
-axis = [0, 0, 1]
-offset = [0.04, 0, 0.09]
 """
+AXES = ((0, 0, 1), (0, 1, 0), (0, 1, 0), (0, 0, 1), (0, 1, 0), (0, 0, 1))
+OFFSETS = ((0, 0, 0), (0.15, 0, 0.3), (0, 0, 0.4), (0.03, 0, 0.2), (0, 0, 0.2), (0.04, 0, 0.09))
+SIX_AXES += "".join(f'\n[[robot.joint]]\nkind = "revolute"\naxis = {list(axis)}\noffset = {list(offset)}\n'
+                    for axis, offset in zip(AXES, OFFSETS))
 SIX_AXES_LINK = """
 [[robot.link]]
 shape = "general"
