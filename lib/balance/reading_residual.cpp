@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "lib/balance/regressor.hpp"
 #include "lib/balance/rows.hpp"
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
@@ -14,17 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-void momentum_and_force_of(const FastDynamics& robot, const JointVector<double>& q,
-                           const JointVector<double>& dq, MomentumAndForce& out) {
-  if (robot.planar()) {
-    robot.momentum_and_force(q, dq, out.momentum, out.force);
-    return;
-  }
-  const Chain<double>& chain = robot.chain();
-  out = momentum_and_force(link_frames(chain, q), chain.links, dq);
-  for (Index j = 0; j < dq.size(); ++j) out.momentum[j] += chain.rotor_inertia[j] * dq[j];
-}
 
 }  // namespace
 
@@ -67,11 +55,13 @@ MatrixXd ReadingResidual::of(const UniformLog& moved, int joint, int first_row) 
   MatrixXd left = drive_.bottomRows(drive_.rows() - from);
   left.col(joint) = drive(joint, link_speed(velocity, frame_.at.torque.col(joint), setting_, joint), q_middle)
                         .tail(left.rows());
-  MomentumAndForce before, now;
+  struct {
+    JointVector<double> momentum, force;
+  } before, now;
   for (int k = from; k < moved.rows(); ++k) {
     JointVector<double> dq = row_of(frame_.at.velocity, k);
     dq[joint] = velocity[k];
-    momentum_and_force_of(dynamics_, row_of(moved.q, k), dq, now);
+    dynamics_.momentum_and_force(row_of(moved.q, k), dq, now.momentum, now.force);
     if (k > from)
       left.row(k - 1 - from) -=
           ((now.momentum - before.momentum) / setting_.period_s - 0.5 * (now.force + before.force))

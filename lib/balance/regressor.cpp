@@ -107,31 +107,6 @@ void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, Li
   }
 }
 
-MomentumAndForce momentum_and_force(const LinkFrames& frames, const std::vector<LinkInertia<double>>& links,
-                                    const JointVector<double>& dq) {
-  MomentumAndForce out;
-  out.momentum.setZero(frames.joints);
-  out.force.setZero(frames.joints);
-  for (int j = 0; j < frames.joints; ++j) {
-    const LinkInertia<double>& link = links[j];
-    const Twist v = link_twist(frames, j, dq);
-    const Vector3d linear = link.mass * v.linear + v.angular.cross(link.first_moment),
-                   angular = link.inertia * v.angular + link.first_moment.cross(v.linear),
-                   weight = link.mass * frames.gravity[j],
-                   weight_moment = link.first_moment.cross(frames.gravity[j]);
-    Twist inboard;
-    for (int i = 0; i <= j; ++i) {
-      const Twist& s = frames.twist[j][i];
-      add_scaled(inboard, s, dq[i]);
-      const Twist turned = cross(inboard, s);
-      out.momentum[i] += s.linear.dot(linear) + s.angular.dot(angular);
-      out.force[i] += turned.linear.dot(linear) + turned.angular.dot(angular) + s.linear.dot(weight) +
-                      s.angular.dot(weight_moment);
-    }
-  }
-  return out;
-}
-
 void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
                       const JointVector<double>& ddq, LinkRegressor& out) {
   const LinkFrames frames = link_frames(chain, q);

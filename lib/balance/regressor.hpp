@@ -42,12 +42,6 @@ using LinkRegressor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eige
 void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
 /// The part of dp/dt that is neither motor nor friction: dT/dq - G(q), where T is the kinetic energy.
 void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
-/// Both for links whose numbers are known, without rotors.
-struct MomentumAndForce {
-  JointVector<double> momentum, force;
-};
-MomentumAndForce momentum_and_force(const LinkFrames& frames, const std::vector<LinkInertia<double>>& links,
-                                    const JointVector<double>& dq);
 /// Inverse dynamics M ddq + h + G. The accelerations come from the recursion of Newton and Euler.
 void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
                       const JointVector<double>& ddq, LinkRegressor& out);

@@ -15,7 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Momentum and force (see MomentumAndForce) of each base parameter, that one 1 and the others 0.
+/// Momentum and force (FastDynamics::momentum_and_force()) of each base parameter, that one 1 and the others
+/// 0.
 class BaseMotion {
  public:
   explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid), units_(unit_dynamics(rigid)) {}

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/balance/recursive_regression.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/fault_end.hpp"
 #include "lib/explain/white_search.hpp"
@@ -48,35 +49,38 @@ Stacked rows_to_explain(const LogFit& fit) {
   return white;
 }
 
-/// Sums over rows of one joint, from which the cost of any effects of the day follows.
-NormalEquations no_rows(Eigen::Index effects) {
-  return {MatrixXd::Zero(effects, effects), VectorXd::Zero(effects)};
-}
+/// The rows of one joint, with the effects of the day that reach them: sums from which the cost of any
+/// effects follows.
+struct JointRows {
+  std::vector<int> reach{};  ///< effects
+  NormalEquations sums{};    ///< of those effects
+};
 
-/// A row of one joint, of which only the effects `some` are not 0.
-void add_row(NormalEquations& sums, const Eigen::Ref<const VectorXd>& effects, const std::vector<int>& some,
-             double white) {
-  for (const int a : some) {
-    for (const int b : some) sums.matrix(b, a) += effects[b] * effects[a];
-    sums.vector[a] += white * effects[a];
-  }
-  sums.square += white * white;
-  sums.rows += 1.0;
-}
-
-/// By joint, the effects of the day that reach its rows.
-std::vector<std::vector<int>> effects_of_joints(const MatrixXd& effects, int joints) {
+/// Joints without a row so far.
+std::vector<JointRows> no_rows(const MatrixXd& effects, int joints) {
   const Eigen::Index rows = effects.cols() / joints;
-  std::vector<std::vector<int>> out(joints);
-  for (int j = 0; j < joints; ++j)
+  std::vector<JointRows> out(joints);
+  for (int j = 0; j < joints; ++j) {
     for (int e = 0; e < effects.rows(); ++e)
-      if (!effects.row(e).segment(j * rows, rows).isZero(0.0)) out[j].push_back(e);
+      if (!effects.row(e).segment(j * rows, rows).isZero(0.0)) out[j].reach.push_back(e);
+    const auto count = static_cast<Eigen::Index>(out[j].reach.size());
+    out[j].sums = {MatrixXd::Zero(count, count), VectorXd::Zero(count)};
+  }
   return out;
 }
 
+void add_row(const Eigen::Ref<const VectorXd>& effects, double white, JointRows& joint) {
+  const VectorXd some = effects(joint.reach);
+  joint.sums.matrix.noalias() += some * some.transpose();
+  joint.sums.vector += white * some;
+  joint.sums.square += white * white;
+  joint.sums.rows += 1.0;
+}
+
 /// Sum of squares that the effects of the day leave of rows.
-double square_left(const NormalEquations& rows, const VectorXd& day) {
-  return rows.square - 2.0 * day.dot(rows.vector) + day.dot(rows.matrix * day);
+double square_left(const JointRows& joint, const VectorXd& day) {
+  const VectorXd some = day(joint.reach);
+  return joint.sums.square - 2.0 * some.dot(joint.sums.vector) + some.dot(joint.sums.matrix * some);
 }
 
 /// Nats of the rows of a joint if the change does not reach it, and if it does. Its rows have the variance
@@ -85,11 +89,10 @@ struct CostOfJoint {
   double explained = 0.0, free = 0.0;
 };
 
-CostOfJoint cost_of_joint(const NormalEquations& all, const NormalEquations& before, const VectorXd& day) {
-  const double square = square_left(before, day), rest = all.rows - before.rows,
-               variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + before.rows)),
-               row = 0.5 * elementary::log(variance),
-               costs_before = before.rows * row + 0.5 * square / variance;
+CostOfJoint cost_of_joint(const JointRows& all, const JointRows& before, const VectorXd& day) {
+  const double seen = before.sums.rows, rest = all.sums.rows - seen, square = square_left(before, day),
+               variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + seen)),
+               row = 0.5 * elementary::log(variance), costs_before = seen * row + 0.5 * square / variance;
   return {costs_before + rest * row + 0.5 * (square_left(all, day) - square) / variance,
           costs_before + rest * (row + kFreeRowCost)};
 }
@@ -102,41 +105,36 @@ enum class ChangeOf { all_joints, some_joints };
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   const int rows = fit.count(), n = fit.joints();
   const MatrixXd effects = fit.white_effects().transpose();  // effects x rows
-  const std::vector<std::vector<int>> of_joint = effects_of_joints(effects, n);
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
   const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
-  std::vector<NormalEquations> all(n, no_rows(effects.rows())), before = all;
-  const auto add = [&](std::vector<NormalEquations>& sums, int k) {
-    for (int j = 0; j < n && counts(k); ++j)
-      add_row(sums[j], effects.col(j * rows + k), of_joint[j], white[j * rows + k]);
-  };
-  for (int k = 0; k < rows; ++k) add(all, k);
   const VectorXd precision = fit.effect_variance().cwiseInverse();
+  std::vector<JointRows> all = no_rows(effects, n), before = all;
+  RecursiveRegression day(precision);
+  if (of == ChangeOf::some_joints)
+    for (int k = 0; k < rows; ++k)
+      for (int j = 0; j < n && counts(k); ++j)
+        add_row(effects.col(j * rows + k), white[j * rows + k], all[j]);
   const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
   double least = std::numeric_limits<double>::infinity();
   Change best{first, 0.0, VectorXd::Zero(effects.rows())};
   for (int k = 0; k + kTail < rows; ++k) {
-    add(before, k);
-    if (k < first) continue;
-    NormalEquations sums = no_rows(effects.rows());
-    for (const NormalEquations& joint : before) {
-      sums.matrix += joint.matrix;
-      sums.vector += joint.vector;
-      sums.square += joint.square;
+    for (int j = 0; j < n && counts(k); ++j) {
+      const int row = j * rows + k;
+      day.add(effects.col(row), before[j].reach, white[row]);
+      if (of == ChangeOf::some_joints) add_row(effects.col(row), white[row], before[j]);
     }
-    Regression day = regress(sums, precision);
-    double cost = 0.5 * precision.dot(day.estimate.cwiseAbs2());
-    for (int j = 0; j < n; ++j) {
-      if (of == ChangeOf::all_joints) {
-        cost += 0.5 * square_left(before[j], day.estimate) + kFreeRowCost * (rows - 1 - k);
-      } else {
-        const CostOfJoint joint = cost_of_joint(all[j], before[j], day.estimate);
+    if (k < first) continue;
+    double cost = 0.5 * day.square() + kFreeRowCost * n * (rows - 1 - k);
+    if (of == ChangeOf::some_joints) {
+      cost = 0.5 * precision.dot(day.estimate().cwiseAbs2());
+      for (int j = 0; j < n; ++j) {
+        const CostOfJoint joint = cost_of_joint(all[j], before[j], day.estimate());
         cost += std::min(joint.free, joint.explained);
       }
     }
     if (cost >= least) continue;
     least = cost;
-    best = {k, 0.0, std::move(day.estimate)};
+    best = {k, 0.0, day.estimate()};
   }
   best.onset_s = fit.time_s()[std::min(best.last_row + 1, rows - 1)];
   return best;

@@ -29,16 +29,13 @@ namespace faultline {
 namespace {
 
 constexpr double kFewestAlarms = 1e-6, kMostAlarms = 100.0;  // an hour
-constexpr int kSampleRunsPerLabel = 6;  // of the paper's classifiers, two thirds for training
-constexpr int kHealthySampleRuns = 24;
-constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 
 // Shares of the work that are done after its stages, roughly.
 constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8, kTrained = 0.85;
 
 // Streams of seeds that never meet.
 constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthyValidationSeeds = 3'000'000,
-                        kLimitSeeds = 2'000'000, kSampleSeeds = 4'000'000, kSeedBlock = 10'000'000;
+                        kLimitSeeds = 2'000'000, kSeedBlock = 10'000'000;
 
 /// The logs with an empty row for each that was lost, as diagnose() reads them.
 class FilledLogs {
@@ -81,18 +78,12 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
   for (const LabelledLog& entry : labelled) {
     DelayedTorqueSource log = reading.of(*entry.log);
     log.rewind();
-    runs.push_back({entry.label, entry.onset_s, 0.0, kLabelledOrigin, monitor(log, model), kNoSize});
+    runs.push_back({.label = entry.label,
+                    .onset_s = entry.onset_s,
+                    .origin = kLabelledOrigin,
+                    .log = monitor(log, model)});
   }
   return runs;
-}
-
-/// What the paper's classifiers train on: faults that show in every sample while they last, and healthy runs.
-std::vector<FaultLabel> sample_labels(const std::vector<FaultLabel>& all,
-                                      const std::vector<FaultKind>& kinds) {
-  std::vector<FaultLabel> labels = labels_to_simulate(all, kSampleRunsPerLabel, kinds);
-  std::erase_if(labels, [](const FaultLabel& label) { return !describe(label.kind).shows_in_each_sample; });
-  labels.insert(labels.end(), kHealthySampleRuns, FaultLabel{});
-  return labels;
 }
 
 /// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
@@ -103,19 +94,27 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   const Identification explained = with_explained_friction(out.identification, model.explain.robot);
   const Twin twin{&explained, &model.motion, model.sample_period_s, model.has_velocity, options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
-  auto runs_of = [&](const std::vector<FaultLabel>& labels, TwinJudging judging, std::uint64_t stream,
-                     const Progress& part) {
-    return monitored_twin_runs(twin, model, labels, judging, seed + stream, options.threads, part);
+  auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part,
+                     TwinStudyOptions judged) {
+    judged.first_seed = seed + stream;
+    judged.threads = options.threads;
+    return monitored_twin_runs(twin, model, labels, judged, part);
   };
   auto faults = [&](int each) { return labels_to_simulate(model.labels, each, options.kinds); };
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
-  for (const MonitoredRun& run : runs_of(calm, TwinJudging::searched, kLimitSeeds, {}))
+  std::vector<MonitoredRun> healthy = runs_of(calm, kLimitSeeds, {}, {.keep_residuals = true});
+  for (const MonitoredRun& run : healthy)
     for (const MonitoredEpisode& alarm : run.log.episodes)
       model.explain.limits = above_false_alarm(model.explain.limits, alarm.fault);
 
-  std::vector<MonitoredRun> runs = runs_of(faults(options.runs_per_label), TwinJudging::known, kTrainingSeeds,
-                                           part_of(progress, kResidualsLearned, kSimulated));
+  std::vector<MonitoredRun> runs = runs_of(faults(options.runs_per_label), kTrainingSeeds,
+                                           part_of(progress, kResidualsLearned, kSimulated),
+                                           {.judging = TwinJudging::known, .keep_residuals = true});
   const std::size_t simulated = runs.size();
+  tell(progress, "training networks on samples", kSimulated);
+  std::vector<LabelledResiduals> residuals = residuals_of_samples(runs);
+  std::ranges::move(residuals_of_samples(healthy), std::back_inserter(residuals));
+  model.samples = learn_sample_mode(model, std::move(residuals));
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
   tell(progress, "training networks on episodes", kSimulated);
@@ -124,13 +123,9 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   classifying.seed = options.seed;
   model.episode_classifier = train_episode_classifier(training.episodes, classifying);
   out.cases = fill_case_base(training, model, classifying);
-  tell(progress, "training networks on samples", kSimulated);
-  model.samples = learn_sample_mode(twin, model, sample_labels(model.labels, options.kinds),
-                                    seed + kSampleSeeds, options.threads);
-  std::vector<MonitoredRun> checks = runs_of(faults(options.validation_per_label), TwinJudging::searched,
-                                             kValidationSeeds, part_of(progress, kTrained, 1.0));
-  Validated validated =
-      validate(checks, runs_of(calm, TwinJudging::searched, kHealthyValidationSeeds, {}), model, out.cases);
+  std::vector<MonitoredRun> checks =
+      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0), {});
+  Validated validated = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}, {}), model, out.cases);
   model.validation = std::move(validated.validation);
   model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lib/pipeline/learn_samples.hpp"
 
-#include "lib/core/parallel.hpp"
-#include "lib/residual/residuals.hpp"
+#include <algorithm>
+#include <utility>
+
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {
 
-std::vector<LabelledResiduals> twin_residuals(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels, std::uint64_t first_seed,
-                                              int threads) {
-  std::vector<LabelledResiduals> runs(labels.size());
-  parallel_for(static_cast<int>(labels.size()), threads, [&](int i) {
-    const TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
-    ResidualState state;
-    runs[i].residuals = compute_residuals(model.residual, run.log, state);
-    if (run.label.kind == FaultKind::none) return;
-    runs[i].fault = run.label;
-    runs[i].onset_s = run.onset_s;
-    runs[i].end_s = run.end_s;
-  });
-  return runs;
-}
+constexpr int kSampleRuns = 6;  // of a label, two thirds for training
 
 CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& classifier,
                        const std::vector<LabelledResiduals>& runs) {
@@ -36,10 +24,23 @@ CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& cl
 
 }  // namespace
 
-SampleMode learn_sample_mode(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
-                             std::uint64_t first_seed, int threads) {
+std::vector<LabelledResiduals> residuals_of_samples(std::vector<MonitoredRun>& runs) {
+  std::vector<LabelledResiduals> out;
+  std::vector<FaultLabel> taken;
+  for (MonitoredRun& run : runs) {
+    LabelledResiduals residuals = std::exchange(run.residuals, {});
+    const bool is_healthy = run.label.kind == FaultKind::none;
+    if (!is_healthy && (!describe(run.label.kind).shows_in_each_sample ||
+                        std::ranges::count(taken, run.label) == kSampleRuns))
+      continue;
+    if (!is_healthy) taken.push_back(run.label);
+    out.push_back(std::move(residuals));
+  }
+  return out;
+}
+
+SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs) {
   std::vector<LabelledResiduals> training, tuning;
-  std::vector<LabelledResiduals> runs = twin_residuals(twin, model, labels, first_seed, threads);
   for (std::size_t i = 0; i < runs.size(); ++i)
     (i % 3 == 2 ? tuning : training).push_back(std::move(runs[i]));
   SampleMode mode;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "lib/model/model.hpp"
-#include "lib/twin/twin.hpp"
+#include "lib/pipeline/twin_study.hpp"
 
 namespace faultline {
 
-/// Trains the paper's classifiers on runs of the twin, one for each label and a few healthy ones, and tunes
-/// both criteria on every third of them, which it does not train on. Needs model.residual.
-SampleMode learn_sample_mode(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
-                             std::uint64_t first_seed, int threads);
+/// Of simulated runs, the residuals that single samples are judged by: of healthy runs, and of kinds that
+/// show in every sample while they last, a few runs of each label. The runs keep none.
+std::vector<LabelledResiduals> residuals_of_samples(std::vector<MonitoredRun>& runs);
+
+/// Trains the paper's classifiers on the residuals of simulated runs and tunes both criteria on every third
+/// of them, which it does not train on.
+SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs);
 
 }  // namespace faultline

@@ -10,6 +10,7 @@
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
+#include "lib/residual/residuals.hpp"
 
 namespace faultline {
 namespace {
@@ -41,6 +42,17 @@ double size_of(const TwinRun& run) {
   return fault.passes ? run.size * (run.end_s - run.onset_s) : run.size;
 }
 
+LabelledResiduals labelled_residuals(const TwinRun& run, const ResidualGenerator& generator) {
+  ResidualState state;
+  LabelledResiduals out;
+  out.residuals = compute_residuals(generator, run.log, state);
+  if (run.label.kind == FaultKind::none) return out;
+  out.fault = run.label;
+  out.onset_s = run.onset_s;
+  out.end_s = run.end_s;
+  return out;
+}
+
 }  // namespace
 
 Model with_rigid_gears(Model model) {
@@ -52,20 +64,24 @@ Model with_rigid_gears(Model model) {
 }
 
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels, TwinJudging judging,
-                                              std::uint64_t first_seed, int threads,
-                                              const Progress& progress) {
+                                              const std::vector<FaultLabel>& labels,
+                                              const TwinStudyOptions& options, const Progress& progress) {
   const Model rigid = with_rigid_gears(model);
   std::vector<MonitoredRun> runs(labels.size());
   std::mutex reporting;
   int done = 0;
-  parallel_for(static_cast<int>(labels.size()), threads, [&](int i) {
-    TwinRun run = twin_run(twin, labels[i], first_seed + static_cast<std::uint64_t>(i));
-    const double length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
+  parallel_for(static_cast<int>(labels.size()), options.threads, [&](int i) {
+    TwinRun run = twin_run(twin, labels[i], options.first_seed + static_cast<std::uint64_t>(i));
+    MonitoredRun& out = runs[i];
+    out.label = run.label;
+    out.onset_s = run.onset_s;
+    out.length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
+    out.origin = kSimulatedOrigin;
+    out.size = size_of(run);
+    if (options.keep_residuals) out.residuals = labelled_residuals(run, model.residual);
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    MonitoredLog judged = judging == TwinJudging::known ? monitor_at(source, rigid, run.onset_s, run.end_s)
-                                                        : monitor(source, rigid);
-    runs[i] = {run.label, run.onset_s, length_s, kSimulatedOrigin, std::move(judged), size_of(run)};
+    out.log = options.judging == TwinJudging::known ? monitor_at(source, rigid, run.onset_s, run.end_s)
+                                                    : monitor(source, rigid);
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));

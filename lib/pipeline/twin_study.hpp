@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
+#include "lib/classify/sample_classifier.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/model/model.hpp"
 #include "lib/monitor/monitored_log.hpp"
@@ -22,6 +23,7 @@ struct MonitoredRun {
   std::string origin;     ///< where it comes from, as a case tells it
   MonitoredLog log;
   double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
+  LabelledResiduals residuals{};                           ///< of all its rows, where they were asked for
 };
 
 /// How a run of the twin is judged.
@@ -34,12 +36,17 @@ enum class TwinJudging {
 /// evidence of faults.
 Model with_rigid_gears(Model model);
 
-/// One run of the twin for each label, judged with the model, but with rigid gears; run i has the seed stream
-/// `first_seed + i`.
+struct TwinStudyOptions {
+  TwinJudging judging = TwinJudging::searched;
+  bool keep_residuals = false;   ///< of each run, for learn_sample_mode()
+  std::uint64_t first_seed = 0;  ///< run i has the seed stream `first_seed + i`
+  int threads = 0;               ///< 0 = one a core; changes no byte of the result
+};
+
+/// One run of the twin for each label, judged with the model, but with rigid gears.
 std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels, TwinJudging judging,
-                                              std::uint64_t first_seed, int threads,
-                                              const Progress& progress = {});
+                                              const std::vector<FaultLabel>& labels,
+                                              const TwinStudyOptions& options, const Progress& progress = {});
 
 /// Each of the labels `count` times: of the kinds asked for, all if none is.
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,

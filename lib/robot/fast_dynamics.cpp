@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/robot/dynamics.hpp"
+#include "lib/robot/extra_torque.hpp"
 
 namespace faultline {
 namespace {
@@ -83,6 +83,7 @@ void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* 
 
 void FastDynamics::momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
                                       JointVector<double>& momentum, JointVector<double>& force) const {
+  if (!planar_) return spatial_.momentum_and_force(q, dq, momentum, force);
   momentum.resize(joints_);
   force.resize(joints_);
   PerJoint<double> rate, of_body, push, cosine, sine;  // by revolute body, in absolute angles
@@ -140,8 +141,8 @@ void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVec
   if (planar_) {
     inertia_and_bias(q, dq, bodies_, inertia, bias);
   } else {
-    inertia = inertia_matrix(chain_, q);
-    bias = bias_torque(chain_, q, dq);
+    spatial_.inertia_and_bias(q, dq, inertia, bias);
+    if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
   }
 }
 
@@ -156,7 +157,6 @@ void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVec
 
 JointVector<double> FastDynamics::body_torque(const JointVector<double>& q, const JointVector<double>& dq,
                                               const JointVector<double>& ddq) const {
-  if (!planar_) return rigid_body_torque(chain_, q, dq, ddq, chain_.gravity);
   JointMatrix<double> inertia;
   JointVector<double> bias;
   inertia_and_bias(q, dq, inertia, bias);

@@ -4,12 +4,13 @@
 #include <array>
 
 #include "lib/robot/chain.hpp"
+#include "lib/robot/spatial_dynamics.hpp"
 
 namespace faultline {
 
 /// The functions of dynamics.hpp for one chain with fixed parameters, some ten times faster when all its axes
 /// are parallel (every SCARA, a planar arm, a single axis) and the same numbers to 1e-12; any other chain
-/// falls back to the general recursion. Parallel axes split the problem: prismatic joints see only masses,
+/// goes by SpatialDynamics. Parallel axes split the problem: prismatic joints see only masses,
 /// revolute joints a planar arm, whose kinetic energy in absolute link rates w is 1/2 sum A_ij w_i w_j with
 /// A_ij = alpha_ij cos(theta_j - theta_i) + beta_ij sin(theta_j - theta_i). No heap allocation after
 /// construction; safe to share between threads.
@@ -51,8 +52,8 @@ class FastDynamics {
   /// M ddq + h + G.
   JointVector<double> body_torque(const JointVector<double>& q, const JointVector<double>& dq,
                                   const JointVector<double>& ddq) const;
-  /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G; for planar() only,
-  /// without what joints share.
+  /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G, without what
+  /// joints share.
   void momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
                           JointVector<double>& momentum, JointVector<double>& force) const;
   /// M and h + G of the chain with other bodies; for planar() only.
@@ -90,6 +91,7 @@ class FastDynamics {
   int prismatic_ = 0;
   PerJoint<int> revolute_joint_{};
   PerJoint<int> prismatic_joint_{};
+  SpatialDynamics spatial_;  ///< where not planar_
   PerJoint<double> sign_{};  ///< of each joint's axis along the common normal
   Bodies bodies_{};
 };

@@ -35,7 +35,10 @@ FastDynamics::FastDynamics(const Chain<double>& chain) : chain_(chain), joints_(
   for (const auto& f : chain_.friction) has_extra_ = has_extra_ || f.load != 0.0;
   if (chain_.rotor_inertia.empty()) chain_.rotor_inertia.assign(joints_, 0.0);
   planar_ = joints_ > 0 && has_parallel_axes(chain_);
-  if (planar_) set_up_planar(chain_.geometry[0].axis);
+  if (planar_)
+    set_up_planar(chain_.geometry[0].axis);
+  else
+    spatial_ = SpatialDynamics(chain_);
 }
 
 void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/log_meaning_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/robot/log_preset.hpp"
+#include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"
 
 namespace faultline {

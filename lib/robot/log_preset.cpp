@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "lib/core/atomic_file.hpp"
-#include "lib/robot/known_presets.hpp"
 
 namespace faultline {
 namespace {

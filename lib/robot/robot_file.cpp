@@ -9,7 +9,6 @@
 #include "lib/robot/chain_file.hpp"
 #include "lib/robot/dh/dh_file.hpp"
 #include "lib/robot/extra_torque_file.hpp"
-#include "lib/robot/log_meaning_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/robot_words.hpp"

@@ -21,4 +21,7 @@ std::string facts_text(const Robot& robot);
 /// [log].
 std::string log_text(const LogMeaning& log);
 
+/// The [log] section of a robot file for a robot with `joints` joints. Throws Error(usage) naming the key.
+LogMeaning log_meaning_from_table(const TomlTable& log, int joints);
+
 }  // namespace faultline

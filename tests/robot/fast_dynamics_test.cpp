@@ -45,6 +45,8 @@ void expect_equals_general(const Chain<double>& chain, Random& random) {
     fast.inertia_and_bias(q, dq, m, bias);
     fast.friction(dq, friction);
     fast.acceleration(q, dq, tau, ddq);
+    const JointVector<double> needed = rigid_body_torque(chain, q, dq, tau, chain.gravity);
+    EXPECT_LT((fast.body_torque(q, dq, tau) - needed).norm(), 1e-12 * needed.norm());
     EXPECT_LT((m - inertia_matrix(chain, q)).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((bias - bias_torque(chain, q, dq)).cwiseAbs().maxCoeff(), 1e-11);
     EXPECT_LT((friction - friction_torque(chain, dq)).cwiseAbs().maxCoeff(), 1e-12);
@@ -79,12 +81,21 @@ TEST(FastDynamics, EqualsTheGeneralPathAlongAnyCommonNormal) {
   }
 }
 
-TEST(FastDynamics, FallsBackForCrossedAxes) {
+TEST(FastDynamics, EqualsTheGeneralPathForAxesThatCross) {
   Random random(13);
-  Chain<double> chain = scrambled(preset_robot("RRP").chain, random);
-  chain.geometry[1].axis = Eigen::Vector3d::UnitY();
-  EXPECT_FALSE(FastDynamics(chain).planar());
-  expect_equals_general(chain, random);
+  for (const char* axes : {"RRP", "PRRR", "RPRR", "RRRRRR"}) {
+    SCOPED_TRACE(axes);
+    for (int k = 0; k < 5; ++k) {
+      Chain<double> chain = scrambled(preset_robot(axes).chain, random);
+      for (JointGeometry& joint : chain.geometry) joint.axis = draw3(random).normalized();
+      chain.gravity = 9.81 * draw3(random).normalized();
+      EXPECT_FALSE(FastDynamics(chain).planar());
+      expect_equals_general(chain, random);
+      chain.shared_drives.push_back(
+          {Eigen::VectorXd::LinSpaced(chain.joints(), 0.5, 2.0), 0.3, 0.4, 0.1, 0.2});
+      expect_equals_general(chain, random);
+    }
+  }
 }
 
 TEST(FastDynamics, LockedJointStaysAndTheRestObeysTheirOwnEquations) {
