@@ -9,6 +9,10 @@
 
 namespace faultline {
 
+/// Variance of an effect of the day that no motion distinguishes from another one, and that has none of its
+/// own.
+inline constexpr double kNoEffect = 1e-10;
+
 /// A robot as its torque-balance rows show it, with what is normal to differ from day to day and the noise of
 /// the rows: what explains a log (equation (2) of docs/how-it-works.md).
 struct BalanceModel {

@@ -27,13 +27,14 @@ struct NextFault {
   ExplainedLog rest{};                ///< what the log says beside the known faults
 };
 
-/// Effects of the day that a person would look at.
+/// Effects of the day that a person would look at, as far as the motion distinguishes them.
 std::vector<DayEffect> effects_of(const LogFit& fit) {
   const DayLayout at = day_layout(fit.model().rigid);
   std::vector<DayEffect> out;
   const auto add = [&](DayEffectKind kind, int joint, int index, double sign) {
-    out.push_back({kind, joint + 1, sign * fit.healthy().day[index], fit.healthy().day_std[index],
-                   std::sqrt(fit.model().day_variance[index])});
+    if (fit.model().day_variance[index] > kNoEffect)
+      out.push_back({kind, joint + 1, sign * fit.healthy().day[index], fit.healthy().day_std[index],
+                     std::sqrt(fit.model().day_variance[index])});
   };
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::friction, j, at.friction(j), 1.0);
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_gain, j, at.gain(j), -1.0);

@@ -40,8 +40,8 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
 /// The linear fault that a claim is of; null where its kind has none.
 const LinearFault* linear_of(const std::vector<LinearFault>& faults, const FaultClaim& claim);
 
-/// The columns of a collision: an unknown force on each joint that is the same from onset to end, then one on
-/// each joint that rises and falls in between (half a sine).
+/// The columns of a collision: an unknown force that pushes each joint, the same from onset to end, then one
+/// on each joint that rises and falls in between (half a sine).
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s);
 
 /// The columns switched on at the onset and off at the end (equation (9) of docs/how-it-works.md), smoothed

@@ -111,7 +111,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .next_check =
             "Feel {} by hand with power off: look at bearings, seals, gear, brake drag and lubrication, and "
             "compare the motor current at slow constant speed in both directions.",
-        .size_words = "friction rose by {second:.3g} {torque} plus {first:.3g} {torque} s/{length} of speed",
+        .size_words =
+            "dry friction changed by {second:+.3g} {torque}, viscous friction by {first:+.3g} {torque} s/{length}",
         .acts_on = FaultActsOn::motion,
         .creeps = true,
         .size = {{{
@@ -158,6 +159,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .next_check =
             "Look for contact marks and for what stood in the way at that time; check the tool and the "
             "tightness of {}, and that cables do not pull.",
+        .size_words = "the push had an impulse of {first:+.3g} {torque} s",
         .acts_on = FaultActsOn::motion,
         .passes = true,
         .course = SizeCourse::pulse,

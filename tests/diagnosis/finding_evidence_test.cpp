@@ -56,9 +56,9 @@ TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
   EXPECT_EQ(size_text({FaultKind::sensor_bias, 3}, -0.0021), "the position reads 0.0021 m too little");
   EXPECT_EQ(size_text({FaultKind::sensor_drift, 2}, -0.05), "the position drifts by -0.05 rad/s");
   EXPECT_EQ(size_text({FaultKind::friction_increase, 1}, 2.0, 3.5),
-            "friction rose by 3.5 N m plus 2 N m s/rad of speed");
+            "dry friction changed by +3.5 N m, viscous friction by +2 N m s/rad");
   EXPECT_EQ(size_text({FaultKind::friction_increase, 3}, 20.0, 8.0),
-            "friction rose by 8 N plus 20 N s/m of speed");
+            "dry friction changed by +8 N, viscous friction by +20 N s/m");
   EXPECT_EQ(size_text({FaultKind::payload_change, 3}, 0.75),
             "the load at the end of link 3 changed by +0.75 kg");
   EXPECT_EQ(size_text(kLocked2, 0.0), "") << "a lock has no size";
@@ -69,7 +69,7 @@ TEST(SizeText, OfAFaultThatGrowsIsWhatItHasGrownTo) {
   MonitoredEpisode episode = episode_of_fault(friction, 100.0, 1.0, 2.0);
   episode.fault.scores.front().claim.grows = true;
   EXPECT_EQ(item(decided(agreed_on(friction), episode), "size")->text,
-            "friction rose by 4 N m plus 2 N m s/rad of speed");
+            "dry friction changed by +4 N m, viscous friction by +2 N m s/rad");
 }
 
 TEST(EvidenceLines, TellTheEvidenceAndTheThreshold) {

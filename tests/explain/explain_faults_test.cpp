@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/explain/explained_scara.hpp"
@@ -47,6 +48,18 @@ std::string said(const std::vector<ExplainedFault>& faults) {
 
 TEST(ExplainFaults, AHealthyLogHasNone) {
   EXPECT_TRUE(faults_of(simulate_closed_form(of_day(2), run_of(21))).empty());
+}
+
+TEST(ExplainFaults, TheDayOfALogHasNoGainOfAnAxisThatLiftsItsOwnWeight) {
+  const ExplainedLog log = explain_faults(on_grid(simulate_closed_form(of_day(2), run_of(21))), scara_model(),
+                                          evidence_limits({}));
+  const auto listed = [&](DayEffectKind kind, int joint) {
+    return std::ranges::count_if(log.day,
+                                 [&](const DayEffect& e) { return e.kind == kind && e.joint == joint; });
+  };
+  EXPECT_EQ(listed(DayEffectKind::torque_gain, 2), 1);
+  EXPECT_EQ(listed(DayEffectKind::friction, 3), 1);
+  EXPECT_EQ(listed(DayEffectKind::torque_gain, 3), 0);
 }
 
 TEST(ExplainFaults, AFaultThatEndsHasItsEnd) {

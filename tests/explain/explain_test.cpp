@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "lib/classify/episode_features.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/explain/explain_faults.hpp"
 #include "tests/explain/explained_scara.hpp"
@@ -166,12 +167,13 @@ TEST(ExplainLog, APositionThatJumpsIsFoundWhereTheVelocityIsComputedFromIt) {
 TEST(ExplainLog, AForceOfAMomentIsACollision) {
   Log log = simulate_closed_form(of_day(0), run_of(14));
   for (int k = 0; k < log.rows(); ++k)
-    if (log.time[k] >= 5.0 && log.time[k] < 5.1) log.tau[1][k] -= 4.0;
+    if (log.time[k] >= 5.0 && log.time[k] < 5.1) log.tau[1][k] -= 4.0;  // what pushes spares the drive
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
   EXPECT_NEAR(fault->claim.onset_s, 5.0, 0.03);
+  EXPECT_NEAR(impulse_of(fault->claim, 1, 3), 0.4, 0.1);
 }
 
 TEST(ExplainLog, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {

@@ -50,16 +50,17 @@ TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
   EXPECT_EQ(said(FaultKind::sensor_bias, -0.5, 0.0, false), "the position reads 0.5 m too little");
   EXPECT_EQ(said(FaultKind::sensor_drift, -0.012345, 0.0, false), "the position drifts by -0.0123 m/s");
   EXPECT_EQ(said(FaultKind::friction_increase, 1.5, 2.25, true),
-            "friction rose by 2.25 N m plus 1.5 N m s/rad of speed");
+            "dry friction changed by +2.25 N m, viscous friction by +1.5 N m s/rad");
   EXPECT_EQ(said(FaultKind::friction_increase, 1.5, 2.25, false),
-            "friction rose by 2.25 N plus 1.5 N s/m of speed");
+            "dry friction changed by +2.25 N, viscous friction by +1.5 N s/m");
   EXPECT_EQ(said(FaultKind::payload_change, 1.2, 0.0, false),
             "the load at the end of link 2 changed by +1.2 kg");
+  EXPECT_EQ(said(FaultKind::collision, -0.25, 0.0, true), "the push had an impulse of -0.25 N m s");
 }
 
 TEST(SizeText, IsEmptyWhereNoSizeIsTold) {
   for (const FaultKind kind : {FaultKind::none, FaultKind::free_swinging, FaultKind::locked,
-                               FaultKind::stuck_encoder, FaultKind::collision, FaultKind::unknown})
+                               FaultKind::stuck_encoder, FaultKind::unknown})
     EXPECT_EQ(said(kind, 1.0, 2.0, true), "") << to_string(kind);
 }
 

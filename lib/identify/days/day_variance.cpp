@@ -4,7 +4,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kNoEffect = 1e-10;  // variance of an effect that cannot be told from another
 constexpr double kUnseenDays = 2.0;  // times the variance between the days that were seen
 
 /// Standard deviations of the effects, relative but for the offset, which is a share of the joint's torque
