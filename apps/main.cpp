@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <regex>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
@@ -12,6 +17,16 @@
 
 namespace faultline {
 namespace {
+
+/// Keeps freed memory instead of giving it back to the system: matrices of some MB that come and go would
+/// otherwise be cleared page by page each time, an eighth of the time of a diagnosis.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_TOP_PAD, 16 << 20);
+#endif
+}
 
 ColorChoice color_choice_from(const std::string& when) {
   if (when == "always") return ColorChoice::always;
@@ -78,6 +93,7 @@ std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
 }
 
 int run(int argc, char** argv) {
+  keep_freed_memory();
   CLI::App app("Fault diagnosis of SCARA robots from recorded joint logs.", "faultline");
   Program program;
   add_global_options(app, program);

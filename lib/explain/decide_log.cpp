@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
 constexpr double kLeastLoss = 0.08;      // share of the torque: less is the gain of another day
-constexpr double kOfNoKind = 200.0;      // nats by which a change of any form explains more
 constexpr double kNearlyAll = 0.05;      // of the excess over the noise that a halt leaves at most
 constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;    // of the best evidence
@@ -45,12 +44,15 @@ EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, con
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   EvidenceLimits out;
   double most = kLeastEvidence;
-  for (const LogExplanation& e : healthy)
+  double& unknown = out.nats[static_cast<std::size_t>(FaultKind::unknown)];
+  for (const LogExplanation& e : healthy) {
+    unknown = std::max(unknown, kBeyondHealthy * e.free_gain);
     for (const FaultHypothesis& h : e.best) {
       double& nats = out.nats[static_cast<std::size_t>(h.kind)];
       nats = std::max(nats, kBeyondHealthy * h.gain);
       most = std::max(most, h.gain);
     }
+  }
   for (double& nats : out.nats) nats = std::max(nats, most);
   return out;
 }
@@ -89,8 +91,7 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
   return out;
 }
 
-ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, const EvidenceLimits& limits,
-                          const LogEvidence& evidence) {
+ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, const LogEvidence& evidence) {
   ExplainedFault out = named;
   out.claim.kind = FaultKind::unknown;
   out.claim.size = {};
@@ -98,7 +99,25 @@ ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, 
   if (!evidence.course_of_free_form) return out;
   out.claim.onset_s = e.free_form.onset_s;
   out.claim.end_s = e.free_form.end_s;
-  out.alarm_s = evidence.course_of_free_form().alarm_s(limits.of(named.claim.kind));
+  out.alarm_s = evidence.course_of_free_form().alarm_s(named.limit);
+  return out;
+}
+
+std::optional<ExplainedFault> unnamed_fault(const LogExplanation& e, const EvidenceLimits& limits,
+                                            const LogEvidence& evidence) {
+  const double limit = std::max(kOfNoKind, limits.of(FaultKind::unknown));
+  if (e.best.empty() || e.free_gain <= limit) return std::nullopt;
+  FaultHypothesis nearest = e.best.front();
+  ExplainedFault named;
+  named.claim = nearest;
+  named.evidence = e.free_gain;
+  named.limit = limit;
+  named.misfit = evidence.misfit(nearest);
+  named.scores = scores_of(e);
+  ExplainedFault out = as_unknown(named, e, evidence);
+  nearest.kind = FaultKind::unknown;
+  out.trace = trace_of(e, nearest, evidence.course_of_free_form(), evidence, out.alarm_s + kTracedBeyond_s);
+  out.trace.limit = limit;
   return out;
 }
 
@@ -108,6 +127,8 @@ EvidenceLimits scaled(EvidenceLimits limits, double factor) {
 }
 
 EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fault) {
+  double& own = limits.nats[static_cast<std::size_t>(fault.claim.kind)];
+  own = std::max(own, kBeyondSimulated * fault.evidence);
   for (const LabelScore& score : fault.scores) {
     double& nats = limits.nats[static_cast<std::size_t>(score.claim.kind)];
     nats = std::max(nats, kBeyondSimulated * score.nats);
@@ -126,9 +147,9 @@ bool suffices(const ExplainedFault& named) {
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
                                          const LogEvidence& evidence) {
   const std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
-  if (named.empty()) return std::nullopt;
+  if (named.empty()) return unnamed_fault(e, limits, evidence);
   if (suffices(named.front())) return named.front();
-  return as_unknown(named.front(), e, limits, evidence);
+  return as_unknown(named.front(), e, evidence);
 }
 
 }  // namespace faultline

@@ -24,7 +24,7 @@ struct EvidenceLimits {
 
 /// Limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that was
 /// learned from the others: thrice the evidence that any of them gave for a kind, at least that of any kind,
-/// at least kLeastEvidence.
+/// at least kLeastEvidence. The evidence for an unknown fault is that of a change of any form.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
@@ -86,7 +86,14 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, cons
 
 /// A fault of no kind, which `named` comes nearest to.
 ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation,
-                          const EvidenceLimits& limits, const LogEvidence& evidence);
+                          const LogEvidence& evidence);
+
+/// A fault of no kind where no hypothesis passes its limit: a change of any form explains the log better than
+/// the healthy robot, by more than its own limit and than kOfNoKind.
+std::optional<ExplainedFault> unnamed_fault(const LogExplanation& explanation, const EvidenceLimits& limits,
+                                            const LogEvidence& evidence);
+
+inline constexpr double kOfNoKind = 200.0;  ///< nats by which a change of any form explains much more
 
 /// Whether a change of any form explains the log so much better that a further fault or none of the kinds
 /// may.

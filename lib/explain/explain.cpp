@@ -116,17 +116,21 @@ double best_gain(const JudgedHypotheses& bench) {
   return best;
 }
 
-/// Whether anything is worth judging: an onset that the search found, or a change of any form. A reading that
-/// jumps has no score in the search.
-bool stands_out(const LogFit& fit, const FreeForm& change, const std::vector<Candidate>& found,
-                double least_evidence) {
-  const double least = std::max(kStandsOut, kMayPass * least_evidence);
+/// Nats by which a change of any form explains the log better than the healthy robot.
+double gain_of(const LogFit& fit, const FreeForm& change) {
   double left = 0.0;
   for (const double z : fit.healthy().left)
     if (!std::isnan(z)) left += 0.5 * z * z;
-  return left - change.row_cost.sum() > least ||
-         std::any_of(found.begin(), found.end(),
-                     [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; });
+  return left - change.row_cost.sum();
+}
+
+/// Whether anything is worth judging: an onset that the search found, or a change of any form. A reading that
+/// jumps has no score in the search.
+bool stands_out(double free_gain, const std::vector<Candidate>& found, double least_evidence) {
+  const double least = std::max(kStandsOut, kMayPass * least_evidence);
+  return free_gain > least || std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
+           return c.score > least || c.kind == FaultKind::sensor_bias;
+         });
 }
 
 /// Whether the rows of some joint have much less noise, and those of none more.
@@ -169,9 +173,10 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
   bench.judged.reserve(1024);
   LogExplanation out;
   out.free_form = free_form(fit);
+  out.free_gain = gain_of(fit, out.free_form);
   out.healthy_square = fit.healthy().mean_square();
   const std::vector<Candidate> found = search(fit);
-  if (!stands_out(fit, out.free_form, found, least_evidence)) return out;
+  if (!stands_out(out.free_gain, found, least_evidence)) return out;
   judge_candidates(found, out.free_form, bench);
   std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);

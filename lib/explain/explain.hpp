@@ -15,6 +15,7 @@ struct LogExplanation {
   std::vector<FaultHypothesis> best;
   double healthy_square = 1.0;  ///< mean square of what the healthy robot leaves, in standard deviations
   FreeForm free_form;
+  double free_gain = 0.0;  ///< nats by which that explains the log better than the healthy robot
 };
 
 /// Where the search finds nothing that may give `least_evidence` (nats), no hypothesis is judged.

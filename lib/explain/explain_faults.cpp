@@ -80,8 +80,14 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
+  if (out.named.empty() && known.empty())
+    if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
+      out.named = {*unnamed};
+      out.unknown = *unnamed;
+      return out;
+    }
   if (!out.named.empty())
-    out.unknown = as_unknown(out.named.front(), e, own, evidence);
+    out.unknown = as_unknown(out.named.front(), e, evidence);
   else
     out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit), .judged_s = judged_s(fit)};
   return out;

@@ -198,6 +198,28 @@ TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
 }
 
+TEST(ExplainLog, AVibrationThatNoKnownFaultExplainsAtAllIsUnknown) {
+  Log log = simulate_closed_form(of_day(0), run_of(16));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= 4.0) log.tau[1][k] += std::sin(2.0 * M_PI * 17.0 * log.time[k]);
+  const LogFit fit = fit_of(std::move(log));
+  const LogExplanation e = explain_log(fit);
+  ASSERT_TRUE(named_faults(e, limits(), log_evidence(fit, e), 1).empty());
+  const auto fault = decide_log(e, limits(), log_evidence(fit, e));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
+  EXPECT_NEAR(fault->alarm_s, 4.5, 0.5);
+  EXPECT_GT(fault->evidence, fault->limit);
+}
+
+TEST(ExplainLog, TheUnknownFaultOfAHealthyLogSetsItsLimit) {
+  LogExplanation loud;
+  loud.free_gain = 150.0;
+  EXPECT_EQ(evidence_limits({loud}).of(FaultKind::unknown), 450.0);
+  EXPECT_EQ(evidence_limits({loud}).of(FaultKind::collision), 100.0);
+}
+
 TEST(ExplainLog, FrictionThatCreepsIsMoreFriction) {
   Log log = simulate_closed_form(of_day(0), run_of(17));
   for (int k = 0; k < log.rows(); ++k)  // what the drive must give beyond that of the healthy joint
