@@ -5,35 +5,103 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/balance/one_step/state_count.hpp"
+
 namespace faultline {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using StateVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
 
 constexpr double kFirstPosition = 1.0;   // rad^2 or m^2: variance of the first state before its reading
 constexpr double kFirstVelocity = 10.0;  // (rad/s)^2 or (m/s)^2
 constexpr double kLeastProcess = 1e-13;  // variance of a state that rounding alone gives
 
+template <int kStates>
+using Square = Eigen::Matrix<double, kStates, kStates>;
+template <int kStates>
+using Wide = Eigen::Matrix<double, kStates, Eigen::Dynamic>;
+
+/// State and its covariance, of the data and of each column.
+template <int kStates>
+struct Filter {
+  Square<kStates> covariance;
+  Wide<kStates> state;
+};
+
 /// Takes in one reading of state `i`.
-void take_in(int i, double variance, const Eigen::RowVectorXd& reading, StateMatrix& covariance, MatrixXd& x,
+template <int kStates>
+void take_in(int i, double variance, const Eigen::RowVectorXd& reading, Filter<kStates>& filter,
              Innovations& out, int k) {
-  const int states = out.states;
   if (variance > kNoReading) {
     out.variance(i, k) = std::numeric_limits<double>::quiet_NaN();
-    out.white.row(k * states + i).setZero();
-    out.gain.col(k * states + i).setZero();
+    out.white.row(k * kStates + i).setZero();
+    out.gain.col(k * kStates + i).setZero();
     return;
   }
-  const double s = covariance(i, i) + variance;
-  const StateVector gain = covariance.col(i) / s;
-  const Eigen::RowVectorXd off = reading - x.row(i);
+  const double s = filter.covariance(i, i) + variance;
+  const Eigen::Matrix<double, kStates, 1> gain = filter.covariance.col(i) / s;
+  const Eigen::RowVectorXd off = reading - filter.state.row(i);
   out.variance(i, k) = s;
-  out.gain.col(k * states + i) = gain;
-  out.white.row(k * states + i) = off / std::sqrt(s);
-  x.noalias() += gain * off;
-  covariance.noalias() -= s * gain * gain.transpose();
+  out.gain.col(k * kStates + i) = gain;
+  out.white.row(k * kStates + i) = off / std::sqrt(s);
+  for (Eigen::Index c = 0; c < off.size(); ++c) filter.state.col(c) += off[c] * gain;
+  filter.covariance -= s * gain * gain.transpose();
+}
+
+template <int kStates>
+void filter_all(const LinearSteps& steps, const FilterInput& in, Innovations& out) {
+  const int columns = out.columns, wide = 1 + columns;
+  Filter<kStates> filter{Square<kStates>::Zero(), Wide<kStates>::Zero(kStates, wide)};
+  filter.covariance.diagonal().template head<kStates / 2>().setConstant(kFirstPosition);
+  filter.covariance.diagonal().template tail<kStates / 2>().setConstant(kFirstVelocity);
+  Eigen::RowVectorXd reading = Eigen::RowVectorXd::Zero(wide);
+  for (int k = 0; k < out.samples; ++k) {
+    if (k > 0) {
+      const Square<kStates> a = steps.slope_of(k - 1);
+      for (int c = 0; c < wide; ++c) filter.state.col(c) = (a * filter.state.col(c)).eval();
+      filter.state.col(0) += steps.miss.col(k - 1);
+      filter.state.rightCols(columns) += in.column.middleCols((k - 1) * columns, columns);
+      const Square<kStates> p =
+          a * filter.covariance * a.transpose() + in.process.middleCols((k - 1) * kStates, kStates);
+      filter.covariance = 0.5 * (p + p.transpose());
+    }
+    out.before.middleCols(k * wide, wide) = filter.state;
+    out.before_covariance.middleCols(k * kStates, kStates) = filter.covariance;
+    for (int i = 0; i < kStates; ++i) {
+      reading[0] = in.reading(i, k);
+      if (in.read_column >= 0) reading[1 + in.read_column] = -in.read(i, k);
+      take_in(i, in.variance(i, k), reading, filter, out, k);
+    }
+    out.after.middleCols(k * wide, wide) = filter.state;
+    out.after_covariance.middleCols(k * kStates, kStates) = filter.covariance;
+  }
+}
+
+template <int kStates>
+Trajectory smooth_all(const LinearSteps& steps, const Innovations& filter, const VectorXd& mix,
+                      MatrixXd* variance) {
+  const int samples = filter.samples, wide = 1 + filter.columns;
+  using State = Eigen::Matrix<double, kStates, 1>;
+  Trajectory out(kStates, samples);
+  Square<kStates> p = filter.after_covariance.rightCols(kStates);
+  out.col(samples - 1) = filter.after.rightCols(wide) * mix;
+  if (variance != nullptr) variance->col(samples - 1) = p.diagonal();
+  for (int k = samples - 2; k >= 0; --k) {
+    const Square<kStates> after = filter.after_covariance.middleCols(k * kStates, kStates),
+                          slope = steps.slope_of(k);
+    Square<kStates> before = filter.before_covariance.middleCols((k + 1) * kStates, kStates);
+    before.diagonal().array() += kLeastProcess;
+    const Square<kStates> gain = before.ldlt().solve((slope * after).eval()).transpose();
+    const State predicted = filter.before.middleCols((k + 1) * wide, wide) * mix,
+                filtered = filter.after.middleCols(k * wide, wide) * mix, next = out.col(k + 1);
+    out.col(k) = filtered + gain * (next - predicted);
+    if (variance == nullptr) continue;
+    before.diagonal().array() -= kLeastProcess;
+    p = (after + gain * (p - before) * gain.transpose()).eval();
+    variance->col(k) = p.diagonal();
+  }
+  return out;
 }
 
 }  // namespace
@@ -50,31 +118,7 @@ Innovations innovations(const LinearSteps& steps, const FilterInput& in) {
   out.after.resize(states, wide * samples);
   out.before_covariance.resize(states, states * samples);
   out.after_covariance.resize(states, states * samples);
-  StateMatrix p = StateMatrix::Zero(states, states);
-  p.diagonal().head(states / 2).setConstant(kFirstPosition);
-  p.diagonal().tail(states / 2).setConstant(kFirstVelocity);
-  MatrixXd x = MatrixXd::Zero(states, wide), moved(states, wide);
-  Eigen::RowVectorXd reading = Eigen::RowVectorXd::Zero(wide);
-  for (int k = 0; k < samples; ++k) {
-    if (k > 0) {
-      const auto a = steps.slope_of(k - 1);
-      moved.noalias() = a * x;
-      moved.col(0) += steps.miss.col(k - 1);
-      moved.rightCols(columns) += in.column.middleCols((k - 1) * columns, columns);
-      x.swap(moved);
-      p = (a * p * a.transpose()).eval() + in.process.middleCols((k - 1) * states, states);
-      p = (0.5 * (p + p.transpose())).eval();
-    }
-    out.before.middleCols(k * wide, wide) = x;
-    out.before_covariance.middleCols(k * states, states) = p;
-    for (int i = 0; i < states; ++i) {
-      reading[0] = in.reading(i, k);
-      if (in.read_column >= 0) reading[1 + in.read_column] = -in.read(i, k);
-      take_in(i, in.variance(i, k), reading, p, x, out, k);
-    }
-    out.after.middleCols(k * wide, wide) = x;
-    out.after_covariance.middleCols(k * states, states) = p;
-  }
+  with_state_count(states, [&](auto count) { filter_all<count>(steps, in, out); });
   out.white.rightCols(columns) *= -1.0;
   return out;
 }
@@ -103,30 +147,11 @@ MatrixXd white_columns(const LinearSteps& steps, const Innovations& filter, cons
 
 Trajectory smoothed(const LinearSteps& steps, const Innovations& filter, const VectorXd& size,
                     MatrixXd* variance) {
-  const int states = filter.states, samples = filter.samples, wide = 1 + filter.columns;
-  VectorXd mix(wide);
+  VectorXd mix(1 + filter.columns);
   mix << 1.0, size;
-  Trajectory out(states, samples);
-  StateMatrix p = filter.after_covariance.rightCols(states);
-  out.col(samples - 1) = filter.after.rightCols(wide) * mix;
-  if (variance != nullptr) {
-    variance->resize(states, samples);
-    variance->col(samples - 1) = p.diagonal();
-  }
-  for (int k = samples - 2; k >= 0; --k) {
-    const StateMatrix after = filter.after_covariance.middleCols(k * states, states);
-    StateMatrix before = filter.before_covariance.middleCols((k + 1) * states, states);
-    before.diagonal().array() += kLeastProcess;
-    const StateMatrix gain = before.ldlt().solve((steps.slope_of(k) * after).eval()).transpose();
-    const StateVector predicted = filter.before.middleCols((k + 1) * wide, wide) * mix;
-    out.col(k) = filter.after.middleCols(k * wide, wide) * mix;
-    out.col(k) += gain * (out.col(k + 1) - predicted);
-    if (variance == nullptr) continue;
-    before.diagonal().array() -= kLeastProcess;
-    p = (after + gain * (p - before) * gain.transpose()).eval();
-    variance->col(k) = p.diagonal();
-  }
-  return out;
+  if (variance != nullptr) variance->resize(filter.states, filter.samples);
+  return with_state_count(filter.states,
+                          [&](auto count) { return smooth_all<count>(steps, filter, mix, variance); });
 }
 
 MatrixXd process_covariance(const LinearSteps& steps, const MotionLayout& layout, const MatrixXd& force_std) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/balance/one_step/state_count.hpp"
+
 namespace faultline {
 namespace {
 
@@ -30,42 +32,51 @@ void mean_of(const MotionSlopes& begin, const MotionSlopes& middle, const Motion
   out.torque = (begin.torque + 4.0 * middle.torque + end.torque) / 6.0;
 }
 
-}  // namespace
-
-void Tangent::move(double h, const MotionSlopes& at) {
-  const auto n = at.inverse.rows(), numbers = by_number.cols();
+template <int kStates>
+void move_tangent(double h, const MotionSlopes& at, Tangent& tangent) {
+  constexpr int n = kStates / 2;
+  using Square = Eigen::Matrix<double, kStates, kStates>;
+  using Half = Eigen::Matrix<double, kStates, n>;
+  using Wide = Eigen::Matrix<double, kStates, kStates + n>;  // by the state, by a torque
   int halvings = 0;  // until the series converges: friction near rest is fast
   for (double size = h * at.by_state.cwiseAbs().maxCoeff(); size > kConverges && halvings < kMostHalvings;
        size *= 0.5)
     ++halvings;
   h = std::ldexp(h, -halvings);
-  using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMaxJoints, 3 * kMaxJoints>;
-  Wide rate(2 * n, 3 * n), first(2 * n, 3 * n), sum(2 * n, 3 * n);  // by the state, by a torque
-  first.setZero();
-  first.topRightCorner(n, 2 * n).leftCols(n).setIdentity();
-  first.bottomLeftCorner(n, 2 * n) = at.by_state;
-  first.bottomRightCorner(n, n) = at.inverse;
-  sum = first;
+  const Eigen::Matrix<double, n, kStates> slope = at.by_state;
+  Wide rate, first = Wide::Zero();
+  first.template topRightCorner<n, kStates>().template leftCols<n>().setIdentity();
+  first.template bottomLeftCorner<n, kStates>() = slope;
+  first.template bottomRightCorner<n, n>() = at.inverse;
+  Wide sum = first;
   for (const double order : {4.0, 3.0, 2.0}) {
     sum *= h / order;
-    rate.topRows(n) = sum.bottomRows(n);
-    rate.bottomRows(n) = at.by_state.lazyProduct(sum);
+    rate.template topRows<n>() = sum.template bottomRows<n>();
+    rate.template bottomRows<n>().noalias() = slope.lazyProduct(sum);
     sum = first + rate;
   }
   sum *= h;
-  StateMatrix step = StateMatrix::Identity(2 * n, 2 * n) + sum.leftCols(2 * n);
-  StateMatrix by_torque = sum.rightCols(n);
+  Square step = Square::Identity() + sum.template leftCols<kStates>();
+  Half by_torque = sum.template rightCols<n>();
   for (int k = 0; k < halvings; ++k) {
     by_torque += step.lazyProduct(by_torque).eval();
     step = step.lazyProduct(step).eval();
   }
-  by_state = step.lazyProduct(by_state).eval();
-  for (Eigen::Index p = 0; p < numbers; ++p) {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1> moved = step.lazyProduct(by_number.col(p));
-    for (Eigen::Index j = 0; j < n; ++j)
+  const Square before = tangent.by_state;
+  tangent.by_state = step.lazyProduct(before);
+  for (Eigen::Index p = 0; p < tangent.by_number.cols(); ++p) {
+    const Eigen::Matrix<double, kStates, 1> number = tangent.by_number.col(p);
+    Eigen::Matrix<double, kStates, 1> moved = step.lazyProduct(number);
+    for (int j = 0; j < n; ++j)
       if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * by_torque.col(j);
-    by_number.col(p) = moved;
+    tangent.by_number.col(p) = moved;
   }
+}
+
+}  // namespace
+
+void Tangent::move(double h, const MotionSlopes& at) {
+  with_state_count(static_cast<int>(by_state.rows()), [&](auto count) { move_tangent<count>(h, at, *this); });
 }
 
 void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
