@@ -102,19 +102,20 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   };
   auto faults = [&](int each) { return labels_to_simulate(model.labels, each, options.kinds); };
   const std::vector<FaultLabel> calm(options.healthy_runs, FaultLabel{});
-  std::vector<MonitoredRun> healthy = runs_of(calm, kLimitSeeds, {}, {.keep_residuals = true});
-  for (const MonitoredRun& run : healthy)
+  const TwinStudy healthy = runs_of(calm, kLimitSeeds, {}, {.keep_residuals = true});
+  for (const MonitoredRun& run : healthy.runs)
     for (const MonitoredEpisode& alarm : run.log.episodes)
       model.explain.limits = above_false_alarm(model.explain.limits, alarm.fault);
 
-  std::vector<MonitoredRun> runs = runs_of(faults(options.runs_per_label), kTrainingSeeds,
-                                           part_of(progress, kResidualsLearned, kSimulated),
-                                           {.judging = TwinJudging::known, .keep_residuals = true});
-  const std::size_t simulated = runs.size();
+  TwinStudy faulty = runs_of(faults(options.runs_per_label), kTrainingSeeds,
+                             part_of(progress, kResidualsLearned, kSimulated),
+                             {.judging = TwinJudging::known, .keep_residuals = true});
   tell(progress, "training networks on samples", kSimulated);
-  std::vector<LabelledResiduals> residuals = residuals_of_samples(runs);
-  std::ranges::move(residuals_of_samples(healthy), std::back_inserter(residuals));
+  std::vector<LabelledResiduals> residuals = std::move(faulty.residuals);
+  residuals.insert(residuals.end(), healthy.residuals.begin(), healthy.residuals.end());
   model.samples = learn_sample_mode(model, std::move(residuals));
+  std::vector<MonitoredRun> runs = std::move(faulty.runs);
+  const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
   tell(progress, "training networks on episodes", kSimulated);
@@ -124,8 +125,10 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.episode_classifier = train_episode_classifier(training.episodes, classifying);
   out.cases = fill_case_base(training, model, classifying);
   std::vector<MonitoredRun> checks =
-      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0), {});
-  Validated validated = validate(checks, runs_of(calm, kHealthyValidationSeeds, {}, {}), model, out.cases);
+      runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0), {})
+          .runs;
+  Validated validated =
+      validate(checks, runs_of(calm, kHealthyValidationSeeds, {}, {}).runs, model, out.cases);
   model.validation = std::move(validated.validation);
   model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());

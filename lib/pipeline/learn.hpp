@@ -34,7 +34,7 @@ struct LearnOptions {
   int validation_per_label = 2;  ///< simulated to measure the model, trained on by nothing
   double alarms_per_hour =
       kUsualAlarmsPerHour;         ///< that chance may raise, by the regression and by each relation
-  int healthy_runs = 20;           ///< simulated to measure false alarms
+  int healthy_runs = 20;           ///< simulated for limits and networks, and as many to measure false alarms
   std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that can be named
   bool keep_doubtful = false;      ///< a model that is not to be trusted is marked rather than refused
   int threads = 0;                 ///< 0 = one a core; changes no byte of the result

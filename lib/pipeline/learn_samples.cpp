@@ -22,24 +22,25 @@ CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& cl
   return tune_criterion(start, meaning, outputs).best;
 }
 
-}  // namespace
-
-std::vector<LabelledResiduals> residuals_of_samples(std::vector<MonitoredRun>& runs) {
+/// The runs that single samples are judged by.
+std::vector<LabelledResiduals> of_samples(std::vector<LabelledResiduals> runs) {
   std::vector<LabelledResiduals> out;
   std::vector<FaultLabel> taken;
-  for (MonitoredRun& run : runs) {
-    LabelledResiduals residuals = std::exchange(run.residuals, {});
-    const bool is_healthy = run.label.kind == FaultKind::none;
-    if (!is_healthy && (!describe(run.label.kind).shows_in_each_sample ||
-                        std::ranges::count(taken, run.label) == kSampleRuns))
+  for (LabelledResiduals& run : runs) {
+    const bool is_healthy = run.fault.kind == FaultKind::none;
+    if (!is_healthy && (!describe(run.fault.kind).shows_in_each_sample ||
+                        std::ranges::count(taken, run.fault) == kSampleRuns))
       continue;
-    if (!is_healthy) taken.push_back(run.label);
-    out.push_back(std::move(residuals));
+    if (!is_healthy) taken.push_back(run.fault);
+    out.push_back(std::move(run));
   }
   return out;
 }
 
+}  // namespace
+
 SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs) {
+  runs = of_samples(std::move(runs));
   std::vector<LabelledResiduals> training, tuning;
   for (std::size_t i = 0; i < runs.size(); ++i)
     (i % 3 == 2 ? tuning : training).push_back(std::move(runs[i]));

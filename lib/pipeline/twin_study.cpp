@@ -63,22 +63,23 @@ Model with_rigid_gears(Model model) {
   return model;
 }
 
-std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels,
-                                              const TwinStudyOptions& options, const Progress& progress) {
+TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
+                              const TwinStudyOptions& options, const Progress& progress) {
   const Model rigid = with_rigid_gears(model);
-  std::vector<MonitoredRun> runs(labels.size());
+  TwinStudy study;
+  study.runs.resize(labels.size());
+  if (options.keep_residuals) study.residuals.resize(labels.size());
   std::mutex reporting;
   int done = 0;
   parallel_for(static_cast<int>(labels.size()), options.threads, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], options.first_seed + static_cast<std::uint64_t>(i));
-    MonitoredRun& out = runs[i];
+    MonitoredRun& out = study.runs[i];
     out.label = run.label;
     out.onset_s = run.onset_s;
     out.length_s = run.log.rows() > 0 ? run.log.time.back() - run.log.time.front() : 0.0;
     out.origin = kSimulatedOrigin;
     out.size = size_of(run);
-    if (options.keep_residuals) out.residuals = labelled_residuals(run, model.residual);
+    if (options.keep_residuals) study.residuals[i] = labelled_residuals(run, model.residual);
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
     out.log = options.judging == TwinJudging::known ? monitor_at(source, rigid, run.onset_s, run.end_s)
                                                     : monitor(source, rigid);
@@ -86,7 +87,7 @@ std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& mod
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));
   });
-  return runs;
+  return study;
 }
 
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,

@@ -23,7 +23,6 @@ struct MonitoredRun {
   std::string origin;     ///< where it comes from, as a case tells it
   MonitoredLog log;
   double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
-  LabelledResiduals residuals{};                           ///< of all its rows, where they were asked for
 };
 
 /// How a run of the twin is judged.
@@ -43,10 +42,15 @@ struct TwinStudyOptions {
   int threads = 0;               ///< 0 = one a core; changes no byte of the result
 };
 
+/// Runs of the twin, one for each label.
+struct TwinStudy {
+  std::vector<MonitoredRun> runs;
+  std::vector<LabelledResiduals> residuals;  ///< of all rows of each run; empty where they were not asked for
+};
+
 /// One run of the twin for each label, judged with the model, but with rigid gears.
-std::vector<MonitoredRun> monitored_twin_runs(const Twin& twin, const Model& model,
-                                              const std::vector<FaultLabel>& labels,
-                                              const TwinStudyOptions& options, const Progress& progress = {});
+TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
+                              const TwinStudyOptions& options, const Progress& progress = {});
 
 /// Each of the labels `count` times: of the kinds asked for, all if none is.
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,

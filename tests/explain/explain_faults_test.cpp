@@ -93,6 +93,26 @@ TEST(ExplainFaults, AFaultIsFoundBehindAnotherOne) {
   EXPECT_NEAR(faults[1].claim.onset_s, 5.0, 0.02);
 }
 
+TEST(ExplainFaults, ALostTorqueThatComesTwiceIsTwoFaults) {
+  constexpr double kLasts_s = 1.5;
+  for (const std::uint64_t seed : {25, 26, 27, 28}) {
+    ClosedFormRun run = run_of(seed);
+    run.duration_s = 10.0;
+    Log log = simulate_closed_form(of_day(0), run);
+    for (const double onset_s : {2.2, 6.1})
+      log = with_loss(std::move(log), 1, 0.6, onset_s, onset_s + kLasts_s);
+    const auto faults = faults_of(std::move(log));
+    ASSERT_EQ(faults.size(), 2u) << said(faults);
+    for (const double onset_s : {2.2, 6.1}) {
+      const FaultClaim& claim = faults[onset_s > 3.0].claim;
+      EXPECT_EQ(claim.label(), (FaultLabel{FaultKind::torque_loss, 1}));
+      EXPECT_NEAR(claim.onset_s, onset_s, 0.05);
+      EXPECT_NEAR(claim.end_s, onset_s + kLasts_s, 0.05);
+      EXPECT_NEAR(claim.size[0], 0.6, 0.05);
+    }
+  }
+}
+
 TEST(ExplainFaults, AFalsePositionThatComesTwiceIsTwoFaults) {
   const auto shift = [](Log& l, int k) { l.q[1][k] += 0.05; };
   Log log = changed(simulate_closed_form(of_day(0), run_of(25)), 2.0, 3.0, shift);
