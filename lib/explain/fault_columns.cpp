@@ -134,7 +134,7 @@ FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, d
   });
   FaultColumns out{StackedColumns::Zero(rows.rows() * n, 2 * n), VectorXd(2 * n)};
   for (int j = 0; j < n; ++j) {
-    out.column.col(j).segment(j * rows.rows(), rows.rows()) = -lasts;  // what pushes, the drive need not give
+    out.column.col(j).segment(j * rows.rows(), rows.rows()) = -lasts;  // a push relieves the drive
     out.column.col(n + j).segment(j * rows.rows(), rows.rows()) = -swells;
     out.variance[j] = out.variance[n + j] = rows.torque.col(j).squaredNorm() / rows.rows();
   }

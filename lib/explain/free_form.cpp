@@ -52,7 +52,7 @@ Stacked rows_to_explain(const LogFit& fit) {
 /// The rows of one joint, with the effects of the day that reach them: sums from which the cost of any
 /// effects follows.
 struct JointRows {
-  std::vector<int> reach{};  ///< effects
+  std::vector<int> reach{};  ///< indices of the effects
   NormalEquations sums{};    ///< of those effects
 };
 

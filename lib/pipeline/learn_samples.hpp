@@ -9,8 +9,8 @@
 namespace faultline {
 
 /// Trains the paper's classifiers on the residuals of simulated runs and tunes both criteria on every third
-/// of them, which it does not train on. Healthy runs count, and of each label whose faults show in every
-/// sample while they last the first few.
+/// of them, which it does not train on. It uses all healthy runs, and the first few runs of each label whose
+/// fault shows in every sample while it lasts.
 SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs);
 
 }  // namespace faultline

@@ -9,8 +9,8 @@
 namespace faultline {
 
 /// The functions of dynamics.hpp for one chain with fixed parameters, some ten times faster when all its axes
-/// are parallel (every SCARA, a planar arm, a single axis) and the same numbers to 1e-12; any other chain
-/// goes by SpatialDynamics. Parallel axes split the problem: prismatic joints see only masses,
+/// are parallel (every SCARA, a planar arm, a single axis) and the same numbers to 1e-12; for any other
+/// chain SpatialDynamics computes them. Parallel axes split the problem: prismatic joints see only masses,
 /// revolute joints a planar arm, whose kinetic energy in absolute link rates w is 1/2 sum A_ij w_i w_j with
 /// A_ij = alpha_ij cos(theta_j - theta_i) + beta_ij sin(theta_j - theta_i). No heap allocation after
 /// construction; safe to share between threads.

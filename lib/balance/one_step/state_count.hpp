@@ -8,29 +8,13 @@
 
 namespace faultline {
 
-/// Calls `function` with the number of states (2 to 16, even) as a constant: matrices of a size that the
-/// compiler knows take half the time.
-template <typename Function>
+/// Calls `function` with the number of states (2 to 16, even) as a constant: the compiler knows the size of
+/// its matrices, and they take half the time.
+template <int kStates = 2, typename Function>
 auto with_state_count(int states, const Function& function) {
-  static_assert(kMaxJoints == 8);
-  switch (states / 2) {
-    case 1:
-      return function(std::integral_constant<int, 2>{});
-    case 2:
-      return function(std::integral_constant<int, 4>{});
-    case 3:
-      return function(std::integral_constant<int, 6>{});
-    case 4:
-      return function(std::integral_constant<int, 8>{});
-    case 5:
-      return function(std::integral_constant<int, 10>{});
-    case 6:
-      return function(std::integral_constant<int, 12>{});
-    case 7:
-      return function(std::integral_constant<int, 14>{});
-    default:
-      return function(std::integral_constant<int, 16>{});
-  }
+  if constexpr (kStates < 2 * kMaxJoints)
+    if (states > kStates) return with_state_count<kStates + 2>(states, function);
+  return function(std::integral_constant<int, kStates>{});
 }
 
 }  // namespace faultline
