@@ -23,7 +23,7 @@ Eigen::VectorXd gradient(const Eigen::VectorXd& values, double period_s);
 /// of the values within 1 / (1 - decay) of them.
 Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double decay);
 
-/// Normal distribution function.
+/// Normal distribution function, to 2e-9.
 double normal_cdf(double x);
 
 }  // namespace faultline

@@ -71,7 +71,7 @@ PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, dou
     const double step = path[changes[c] + 1] - path[changes[c]];
     for (int k = 0; k < rows; ++k) {
       const double x = (time_s[k] - at) / kernel_s;
-      out.level[k] += std::abs(x) < kSurely ? step * normal_cdf(x) : x > 0.0 ? step : 0.0;
+      out.level[k] += step * normal_cdf(x);
       if (std::abs(x) > kSurely) continue;
       out.change(k, static_cast<int>(c)) =
           step * elementary::exp(-0.5 * x * x) / (kernel_s * std::sqrt(2.0 * std::numbers::pi));

@@ -47,4 +47,11 @@ TEST(Smoothing, TheGradientOfAParabolaIsItsSlope) {
 }
 
 }  // namespace
+TEST(Smoothing, TheNormalDistributionIsExactToItsTable) {
+  for (double x = -7.0; x <= 7.0; x += 0.00173)
+    EXPECT_NEAR(normal_cdf(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 2e-9) << x;
+  EXPECT_EQ(normal_cdf(-6.0), 0.0);
+  EXPECT_EQ(normal_cdf(6.0), 1.0);
+}
+
 }  // namespace faultline
