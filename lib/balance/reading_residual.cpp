@@ -22,6 +22,7 @@ ReadingResidual::ReadingResidual(const UniformLog& log, RowSetting setting, cons
       layout_(layout_of(rigid, setting_)),
       theta_(std::move(theta)),
       frame_(row_frame(log, setting_)),
+      q_(log.q.transpose()),
       dynamics_(chain_of(rigid, theta_)),
       drive_(frame_.at.torque.rows(), frame_.at.torque.cols()) {
   for (int j = 0; j < rigid.joints(); ++j)
@@ -46,22 +47,23 @@ VectorXd ReadingResidual::drive(int j, const VectorXd& speed, const VectorXd& q)
   return out;
 }
 
-MatrixXd ReadingResidual::of(const UniformLog& moved, int joint, int first_row) const {
+MatrixXd ReadingResidual::of(const JointReading& moved, int joint, int first_row) const {
   const CoarseGrid& grid = frame_.grid;
+  const Index samples = moved.q.size();
   const int from = first_row * grid.step;  // first sample within reach of the first row
   const VectorXd velocity = fused_velocity(moved, setting_, joint);
-  const VectorXd q_middle =
-      0.5 * (moved.q.col(joint).head(moved.rows() - 1) + moved.q.col(joint).tail(moved.rows() - 1));
+  const VectorXd q_middle = 0.5 * (moved.q.head(samples - 1) + moved.q.tail(samples - 1));
   MatrixXd left = drive_.bottomRows(drive_.rows() - from);
   left.col(joint) = drive(joint, link_speed(velocity, frame_.at.torque.col(joint), setting_, joint), q_middle)
                         .tail(left.rows());
   struct {
     JointVector<double> momentum, force;
   } before, now;
-  for (int k = from; k < moved.rows(); ++k) {
-    JointVector<double> dq = row_of(frame_.at.velocity, k);
+  for (Index k = from; k < samples; ++k) {
+    JointVector<double> q = q_.col(k), dq = row_of(frame_.at.velocity, k);
+    q[joint] = moved.q[k];
     dq[joint] = velocity[k];
-    dynamics_.momentum_and_force(row_of(moved.q, k), dq, now.momentum, now.force);
+    dynamics_.momentum_and_force(q, dq, now.momentum, now.force);
     if (k > from)
       left.row(k - 1 - from) -=
           ((now.momentum - before.momentum) / setting_.period_s - 0.5 * (now.force + before.force))

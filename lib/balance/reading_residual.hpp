@@ -17,8 +17,8 @@ class ReadingResidual {
   ReadingResidual(const UniformLog& log, RowSetting setting, const RigidColumns& rigid,
                   Eigen::VectorXd theta);
 
-  /// Rows from `first_row` on x joints, of a log that differs in q and dq of joint `joint` (from 0) only.
-  Eigen::MatrixXd of(const UniformLog& moved, int joint, int first_row = 0) const;
+  /// Rows from `first_row` on x joints, of a log that has other readings of joint `joint` (from 0).
+  Eigen::MatrixXd of(const JointReading& moved, int joint, int first_row = 0) const;
 
  private:
   /// What drive and friction give joint `joint` in each interval.
@@ -28,6 +28,7 @@ class ReadingResidual {
   ColumnLayout layout_;
   Eigen::VectorXd theta_;
   RowFrame frame_;
+  Eigen::MatrixXd q_;  ///< joints x samples, of the log
   FastDynamics dynamics_;
   Eigen::MatrixXd drive_;  ///< intervals x joints, of the log
 };

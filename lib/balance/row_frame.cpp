@@ -99,18 +99,18 @@ double velocity_reach_s(const RowSetting& setting, double share) {
   return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
 }
 
-VectorXd fused_velocity(const UniformLog& log, const RowSetting& setting, int joint) {
-  const VectorXd difference = gradient(log.q.col(joint), setting.period_s);
-  if (setting.velocity_is_difference || log.dq.rows() == 0) return difference;
-  VectorXd off = difference - log.dq.col(joint);
+VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, int joint) {
+  const VectorXd difference = gradient(reading.q, setting.period_s);
+  if (setting.velocity_is_difference || reading.dq.size() == 0) return difference;
+  VectorXd off = difference - reading.dq;
   const Index last = off.size() - 1;
   if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // there a difference lies half a sample aside
-  return log.dq.col(joint) + two_sided_exponential(off, setting.fusion[joint]);
+  return reading.dq + two_sided_exponential(off, setting.fusion[joint]);
 }
 
 MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting) {
   MatrixXd out(log.q.rows(), log.q.cols());
-  for (int j = 0; j < log.joints(); ++j) out.col(j) = fused_velocity(log, setting, j);
+  for (int j = 0; j < log.joints(); ++j) out.col(j) = fused_velocity(reading_of(log, j), setting, j);
   return out;
 }
 

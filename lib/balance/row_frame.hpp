@@ -38,7 +38,7 @@ Eigen::VectorXd link_speed(const Eigen::VectorXd& velocity, const Eigen::VectorX
 
 /// Velocity of joint `joint` (from 0) in each sample: the positions' differences where these are more
 /// precise, the logged velocity where that one is.
-Eigen::VectorXd fused_velocity(const UniformLog& log, const RowSetting& setting, int joint);
+Eigen::VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, int joint);
 
 /// tanh(speed / width).
 Eigen::VectorXd saturated(const Eigen::VectorXd& speed, double width);

@@ -136,6 +136,12 @@ UniformLog uniform_log(LogSource& log, double period_s) {
   return on_grid(all, placed(all, log.identity().path, period_s));
 }
 
+JointReading reading_of(const UniformLog& log, int joint) {
+  JointReading out{log.q.col(joint), {}};
+  if (log.dq.rows() > 0) out.dq = log.dq.col(joint);
+  return out;
+}
+
 UniformLog rows_from(const UniformLog& log, int first) {
   const auto rest = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
     return values.rows() == 0 ? values : Eigen::MatrixXd(values.bottomRows(log.rows() - first));

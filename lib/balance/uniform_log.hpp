@@ -27,6 +27,13 @@ struct UniformLog {
   int first_row(double time_s) const;
 };
 
+/// What a log says of the motion of one joint, by sample.
+struct JointReading {
+  Eigen::VectorXd q, dq;  ///< `dq` is empty without a velocity
+};
+
+JointReading reading_of(const UniformLog& log, int joint);
+
 /// The whole log on a grid of about `period_s` that begins with its first row; each row goes to its most
 /// likely point (see sample_grid). Throws Error(input) when the log has fewer than two rows.
 UniformLog uniform_log(LogSource& log, double period_s);

@@ -7,7 +7,6 @@ namespace faultline {
 namespace {
 
 constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
-constexpr double kLeastLoss = 0.08;      // share of the torque: less is the gain of another day
 constexpr double kNearlyAll = 0.05;      // of the excess over the noise that a halt leaves at most
 constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
 constexpr double kAlmostShare = 0.95;    // of the best evidence
@@ -21,7 +20,7 @@ bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
 
 std::vector<LabelScore> scores_of(const LogExplanation& e) {
   std::vector<LabelScore> out;
-  for (const FaultHypothesis& h : e.best) out.push_back({h, h.gain, h.fit.size_std, h.fit.mean_square()});
+  for (const FaultHypothesis& h : e.best) out.push_back({h, h.gain, h.fit.mean_square()});
   return out;
 }
 

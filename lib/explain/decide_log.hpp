@@ -27,6 +27,8 @@ struct EvidenceLimits {
 /// at least kLeastEvidence. The evidence for an unknown fault is that of a change of any form.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
+inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less is the gain of another day
+
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
 
 /// The least evidence with which a fault of any kind is believed.
@@ -38,9 +40,8 @@ EvidenceLimits scaled(EvidenceLimits limits, double factor);
 /// What a hypothesis of one kind and joint says of a log.
 struct LabelScore {
   FaultClaim claim;
-  double nats = 0.0;           ///< by which it explains the log better than what is known of it without
-  Eigen::VectorXd size_std{};  ///< of each size of the claim; empty where it is not known
-  double left = 1.0;           ///< mean square of what it leaves, in variances of the noise
+  double nats = 0.0;  ///< by which it explains the log better than what is known of it without
+  double left = 1.0;  ///< mean square of what it leaves, in variances of the noise
 
   FaultLabel label() const { return claim.label(); }
 };

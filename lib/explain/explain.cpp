@@ -9,8 +9,8 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
-#include "lib/explain/search.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/search.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {
@@ -19,15 +19,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
-constexpr double kMuchLess = 0.5;       // of what a lost torque leaves, that a clipping drive leaves
-constexpr double kStandsOut = 8.0;      // nats, of an onset that the search found,
-constexpr double kMayPass = 0.33;       // or share of the evidence that counts: the search is not exact
-constexpr double kWorthRefining = 5.0;  // nats
-constexpr std::size_t kRefined = 5;     // hypotheses
-constexpr double kSameNoise = 0.1;      // of a variance
-constexpr std::size_t kBeside = 5;      // hypotheses beside which it is estimated
-constexpr int kRoundsOfNoise = 3;       // of the noise beside the best explanation
-constexpr double kMayWin = 0.3;         // of the best evidence so far, that a better onset may make the best
+constexpr double kMuchLess = 0.5;        // of what a lost torque leaves, that a clipping drive leaves
+constexpr double kStandsOut = 8.0;       // nats, of an onset that the search found,
+constexpr double kMayPass = 0.33;        // or share of the evidence that counts: the search is not exact
+constexpr std::size_t kJudgedFirst = 4;  // candidates, before nothing is said to stand out
+constexpr double kWorthRefining = 5.0;   // nats
+constexpr std::size_t kRefined = 5;      // hypotheses
+constexpr double kSameNoise = 0.1;       // of a variance
+constexpr std::size_t kBeside = 5;       // hypotheses beside which it is estimated
+constexpr int kRoundsOfNoise = 3;        // of the noise beside the best explanation
+constexpr double kMayWin = 0.3;          // of the best evidence so far, that a better onset may make the best
 
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
   std::vector<Candidate> out;
@@ -125,12 +126,23 @@ double gain_of(const LogFit& fit, const FreeForm& change) {
 }
 
 /// Whether anything is worth judging: an onset that the search found, or a change of any form. A reading that
-/// jumps has no score in the search.
-bool stands_out(double free_gain, const std::vector<Candidate>& found, double least_evidence) {
+/// jumps has no score in the search. Scores take the noise as white; a fault that lasts gives more where the
+/// noise hardly wanders, so that the best candidates are judged before nothing is said to stand out.
+bool stands_out(double free_gain, std::vector<Candidate> found, double least_evidence, const LogFit& fit) {
   const double least = std::max(kStandsOut, kMayPass * least_evidence);
-  return free_gain > least || std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
-           return c.score > least || c.kind == FaultKind::sensor_bias;
-         });
+  if (free_gain > least) return true;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  if (std::any_of(found.begin(), found.end(),
+                  [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; }))
+    return true;
+  if (found.size() > kJudgedFirst) found.resize(kJudgedFirst);
+  JudgedHypotheses bench{fit, {}};
+  bench.judged.reserve(found.size());
+  return std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
+    const FaultHypothesis* h = bench.go_from(c);
+    return h != nullptr && h->gain > least;
+  });
 }
 
 /// Whether the rows of some joint have much less noise, and those of none more.
@@ -176,7 +188,7 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
   out.free_gain = gain_of(fit, out.free_form);
   out.healthy_square = fit.healthy().mean_square();
   const std::vector<Candidate> found = search(fit);
-  if (!stands_out(out.free_gain, found, least_evidence)) return out;
+  if (!stands_out(out.free_gain, found, least_evidence, fit)) return out;
   judge_candidates(found, out.free_form, bench);
   std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);

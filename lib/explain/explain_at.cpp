@@ -7,7 +7,7 @@
 #include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/refine.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {

@@ -179,33 +179,36 @@ namespace {
 
 /// Velocities around a jump of the position, which the controller computed from it: those of the positions
 /// without the jump.
-void mend_velocity(UniformLog& log, int j, double jump_s) {
+JointReading with_mended_velocity(JointReading reading, const UniformLog& log, double jump_s) {
   const int rows = log.rows();
   for (int k = 0; k < rows; ++k) {
     if (log.time_s(k) < jump_s - kVelocityBefore_s || log.time_s(k) > jump_s + kVelocityAfter_s) continue;
     const int a = std::max(0, k - 1), b = std::min(rows - 1, k + 1);
-    log.dq(k, j) = (log.q(b, j) - log.q(a, j)) / (log.time_s(b) - log.time_s(a));
+    reading.dq[k] = (reading.q[b] - reading.q[a]) / (log.time_s(b) - log.time_s(a));
   }
+  return reading;
 }
 
 }  // namespace
 
-UniformLog without_false_reading(UniformLog log, const FaultClaim& claim) {
-  const int j = claim.joint - 1;
+JointReading without_false_reading(const UniformLog& log, const FaultClaim& claim) {
+  JointReading out = reading_of(log, claim.joint - 1);
+  const bool shows_in_velocity = out.dq.size() > 0 && !claim.velocity_is_true;
   const double size = claim.size[0];
   for (int k = 0; k < log.rows(); ++k) {
     const double late = log.time_s(k) - claim.onset_s;
     if (late < -1e-9 || log.time_s(k) >= claim.end_s - 1e-9) continue;
     if (claim.kind == FaultKind::sensor_bias) {
-      log.q(k, j) -= size;
+      out.q[k] -= size;
     } else {
-      log.q(k, j) -= size * std::max(late, 0.0);
-      if (log.dq.rows() > 0 && !claim.velocity_is_true) log.dq(k, j) -= size;
+      out.q[k] -= size * std::max(late, 0.0);
+      if (shows_in_velocity) out.dq[k] -= size;
     }
   }
-  if (claim.kind == FaultKind::sensor_bias && log.dq.rows() > 0 && !claim.velocity_is_true)
-    for (const double jump_s : {claim.onset_s, claim.end_s}) mend_velocity(log, j, jump_s);
-  return log;
+  if (claim.kind == FaultKind::sensor_bias && shows_in_velocity)
+    for (const double jump_s : {claim.onset_s, claim.end_s})
+      out = with_mended_velocity(std::move(out), log, jump_s);
+  return out;
 }
 
 VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim) {
@@ -225,8 +228,12 @@ VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const F
 }
 
 UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& known) {
-  for (const FaultClaim& claim : known)
-    if (reads_wrong(claim.kind)) log = without_false_reading(std::move(log), claim);
+  for (const FaultClaim& claim : known) {
+    if (!reads_wrong(claim.kind)) continue;
+    const JointReading mended = without_false_reading(log, claim);
+    log.q.col(claim.joint - 1) = mended.q;
+    if (mended.dq.size() > 0) log.dq.col(claim.joint - 1) = mended.dq;
+  }
   return log;
 }
 

@@ -76,9 +76,9 @@ double form_share(FaultKind kind);
 /// form, a blow any, and a begin or end may take some time.
 Eigen::VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
 
-/// The log as it would be without a false reading of the size that the claim has.
-UniformLog without_false_reading(UniformLog log, const FaultClaim& claim);
-/// The same for all false readings among the claims.
+/// What the joint of a false reading would read without it; the claim has its size.
+JointReading without_false_reading(const UniformLog& log, const FaultClaim& claim);
+/// The log without all false readings among the claims.
 UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& claims);
 
 }  // namespace faultline

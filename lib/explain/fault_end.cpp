@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
-#include "lib/explain/search.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/search.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {

@@ -10,7 +10,7 @@
 #include "lib/balance/recursive_regression.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/fault_end.hpp"
-#include "lib/explain/white_search.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/judge_silent.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kImpossible = 1e9;    // nats that a size costs that no fault h
 constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
 constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
 constexpr int kReadingRounds = 3;      // of the size of a false reading
-constexpr double kSettled = 0.01;      // share of it that the last round changed
+constexpr double kSettled = 0.05;      // share of it that the last round changed
 constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
 constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld; nats: it is rare
 constexpr double kLeastClip = 0.04;  // of the greatest torque: a joint that gets less swings freely
@@ -38,8 +38,10 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
-  const VectorXd surely = (size + kSurely * e.size_std) *  // friction that is left is none that drives
-                          seconds(std::min(claim.end_s, fit.time_s()[fit.count() - 1]));
+  const VectorXd surely =
+      (size +
+       kSurely * e.size_covariance.diagonal().cwiseSqrt()) *  // friction that is left is none that drives
+      seconds(std::min(claim.end_s, fit.time_s()[fit.count() - 1]));
   if (surely[0] < -theta[layout.viscous(j)] || surely[1] < -theta[layout.coulomb(j)]) return kImpossible;
   double power = 0.0;  // that the friction takes
   int rows = 0;
@@ -90,25 +92,36 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
+/// Sizes of a false reading, rad or m, of a drift in each second.
+struct ReadingSize {
+  double usual = 0.0;  ///< prior standard deviation
+  double step = 0.0;   ///< of its derivative
+};
+
+ReadingSize reading_size(const LogFit& fit, const FaultClaim& claim) {
+  const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic;
+  if (claim.kind == FaultKind::sensor_bias) return slide ? ReadingSize{0.02, 2e-4} : ReadingSize{0.1, 1e-3};
+  return slide ? ReadingSize{0.03, 4e-4} : ReadingSize{0.1, 2e-3};
+}
+
+Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
+  claim.size = VectorXd::Constant(1, size);
+  return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
+}
+
 /// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
 /// between the last two sizes (the secant method), until the size is settled. A claim of no size starts from
 /// none.
 FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
-  const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic,
-             bias = claim.kind == FaultKind::sensor_bias;
-  const double usual = bias ? (slide ? 0.02 : 0.1) : (slide ? 0.03 : 0.1);
-  const double step = (bias ? 1e-3 : 2e-3) * (slide ? 0.2 : 1.0);
+  const bool bias = claim.kind == FaultKind::sensor_bias;
+  const auto [usual, step] = reading_size(fit, claim);
   FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
-  const auto residual_with = [&](double value) {
-    claim.size = VectorXd::Constant(1, value);
-    return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
-  };
   // Without a size a drift changes nothing; a jump still says that the velocity is computed from the
   // position.
-  Stacked at = size == 0.0 && !bias ? fit.residual() : residual_with(size),
-          slope = (at - residual_with(size + step)) / step;
+  Stacked at = size == 0.0 && !bias ? fit.residual() : residual_without(fit, claim, size),
+          slope = (at - residual_without(fit, claim, size + step)) / step;
   for (int round = 0; round < kReadingRounds; ++round) {
     const double doubt = size == 0.0 ? usual : 0.3 * std::abs(size) + 1e-5;
     FaultColumns columns{StackedColumns(slope), VectorXd::Constant(1, doubt * doubt)};
@@ -127,7 +140,7 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
         size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
     if (settled || moved == 0.0 || round + 1 == kReadingRounds) break;
     size += moved;
-    const Stacked next = residual_with(size);
+    const Stacked next = residual_without(fit, claim, size);
     slope = (at - next) / moved;
     at = next;
   }
@@ -147,6 +160,15 @@ FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
 }
 
 }  // namespace
+
+FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim) {
+  if (!reads_wrong(claim.kind)) return columns_of(fit, claim);
+  const auto [usual, step] = reading_size(fit, claim);
+  const Stacked without =
+      claim.kind == FaultKind::sensor_bias ? residual_without(fit, claim, 0.0) : fit.residual();
+  return {StackedColumns((without - residual_without(fit, claim, step)) / step),
+          VectorXd::Constant(1, usual * usual)};
+}
 
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   claim.kind = FaultKind::unknown;

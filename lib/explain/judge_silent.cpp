@@ -6,7 +6,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {

@@ -25,20 +25,18 @@ constexpr int kNoiseRounds = 3;
 FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
   claim.size[0] = doubt;
-  return {StackedColumns((fit.residual() - fit.residual_of(without_false_reading(fit.log(), claim),
-                                                           claim.joint - 1, claim.onset_s)) /
-                         doubt),
+  const JointReading mended = without_false_reading(fit.log(), claim);
+  return {StackedColumns((fit.residual() - fit.residual_of(mended, claim.joint - 1, claim.onset_s)) / doubt),
           VectorXd::Constant(1, doubt * doubt)};
 }
 
-/// Columns of a linear fault while it lasts.
+}  // namespace
+
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
   if (const LinearFault* fault = linear_of(fit.linear(), claim))
     return fit.between(fault->columns, claim.onset_s, claim.end_s);
   return force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
 }
-
-}  // namespace
 
 double Explanation::mean_square() const {
   double sum = 0.0, count = 0.0;
@@ -197,7 +195,7 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
   return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
 }
 
-Stacked LogFit::residual_of(const UniformLog& moved, int joint, double from_s) const {
+Stacked LogFit::residual_of(const JointReading& moved, int joint, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   const int first = std::min(first_row(unmoved_s), count() - 1);
   const MatrixXd after = reading_.of(moved, joint, first);

@@ -16,17 +16,17 @@ namespace faultline {
 
 /// How well a log is explained by the robot, the day's effects and the columns of a hypothesis.
 struct Explanation {
-  double log_likelihood = 0.0;  ///< marginal: effects, sizes and changes of the work piece integrated out
-  Eigen::VectorXd day;          ///< effects: those of the day, then sizes of known faults
-  Eigen::VectorXd day_std;      ///< standard deviation of each; only without a hypothesis
-  Eigen::VectorXd size;         ///< of the hypothesis' columns
-  Eigen::VectorXd size_std;     ///< standard deviation of each
-  Stacked left;                 ///< whitened rows left over; NaN where rows do not count
-  PiecePath path;               ///< of the work piece; empty without one
-  Eigen::VectorXd piece_level;  ///< the path, smoothed
-  Eigen::VectorXd later_s;      ///< by change of the path: than the middle between its two rows
-  Eigen::VectorXd row_gain;     ///< by sample, at coarse rates: nats by which it beats the healthy robot
-  double mean_square() const;   ///< of what is left: 1 where it is noise
+  double log_likelihood = 0.0;      ///< marginal: effects, sizes and changes of the work piece integrated out
+  Eigen::VectorXd day;              ///< effects: those of the day, then sizes of known faults
+  Eigen::VectorXd day_std;          ///< standard deviation of each; only without a hypothesis
+  Eigen::VectorXd size;             ///< of the hypothesis' columns
+  Eigen::MatrixXd size_covariance;  ///< of the sizes, by rows and prior
+  Stacked left;                     ///< whitened rows left over; NaN where rows do not count
+  PiecePath path;                   ///< of the work piece; empty without one
+  Eigen::VectorXd piece_level;      ///< the path, smoothed
+  Eigen::VectorXd later_s;          ///< by change of the path: than the middle between its two rows
+  Eigen::VectorXd row_gain;         ///< by sample, at coarse rates: nats by which it beats the healthy robot
+  double mean_square() const;       ///< of what is left: 1 where it is noise
 };
 
 /// A white column that is 0 but for a few rows: what the time of a change of the work piece is off by.
@@ -68,8 +68,8 @@ class LogFit {
   const Eigen::MatrixXd& std() const { return std_; }
   /// Torque that robot and known faults leave unexplained, without effects.
   const Stacked& residual() const { return residual_; }
-  /// The same of a trajectory that differs from `from_s` on in the readings of joint `joint` (from 0).
-  Stacked residual_of(const UniformLog& moved, int joint, double from_s) const;
+  /// The same of a log that has other readings of joint `joint` (from 0) from `from_s` on.
+  Stacked residual_of(const JointReading& moved, int joint, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Effects that every hypothesis has: those of the day (DayLayout), then the sizes of the known faults. By
   /// joint: rows x effects.
@@ -160,5 +160,8 @@ struct LeftWithin {
   Eigen::VectorXd rows, square;
 };
 LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
+
+/// Columns of a linear fault or of a push while it lasts.
+FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim);
 
 }  // namespace faultline

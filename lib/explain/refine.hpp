@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/explain/hypothesis.hpp"
-#include "lib/explain/white_search.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 

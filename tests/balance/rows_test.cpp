@@ -81,11 +81,11 @@ TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   const UniformLog log = log_of(run);
   const BalanceRows rows = balance_rows(log, setting, rigid, theta);
   const ReadingResidual residual(log, setting, rigid, theta);
-  const Eigen::MatrixXd left = residual.of(log, 0);
+  const Eigen::MatrixXd left = residual.of(reading_of(log, 0), 0);
   for (int j = 0; j < 3; ++j)
     EXPECT_LT((rows.torque.col(j) - rows.column[j] * theta - left.col(j)).norm(), 1e-9) << j;
   const int first = 7;
-  const Eigen::MatrixXd later = residual.of(log, 1, first);
+  const Eigen::MatrixXd later = residual.of(reading_of(log, 1), 1, first);
   ASSERT_EQ(later.rows(), left.rows() - first);
   EXPECT_LT((later - left.bottomRows(later.rows())).norm(), 1e-9);
 }

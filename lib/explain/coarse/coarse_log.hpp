@@ -21,13 +21,14 @@ struct CoarseSteps {
 
 /// A log explained at a coarse rate, as far as it goes on: what the filter and the regression leave of it.
 struct CoarseExplanation {
-  double log_likelihood = 0.0;  ///< marginal, up to what all hypotheses of the log share
-  Eigen::VectorXd day;          ///< effects of the day, see OneStepModel::day_variance
-  Eigen::VectorXd size;         ///< of the hypothesis
-  double onset_step_s = 0.0;    ///< by which the onset should move; only where it was asked for
-  Eigen::MatrixXd left;         ///< 2 joints x samples: innovations left over, in standard deviations
-  Eigen::MatrixXd variance;     ///< of each innovation; NaN where there was no reading
-  Eigen::MatrixXd log_ratio;    ///< ln of `variance` over that of the healthy robot; 0 where there is none
+  double log_likelihood = 0.0;      ///< marginal, up to what all hypotheses of the log share
+  Eigen::VectorXd day;              ///< effects of the day, see OneStepModel::day_variance
+  Eigen::VectorXd size;             ///< of the hypothesis
+  Eigen::MatrixXd size_covariance;  ///< of the sizes, by readings and prior
+  double onset_step_s = 0.0;        ///< by which the onset should move; only where it was asked for
+  Eigen::MatrixXd left;             ///< 2 joints x samples: innovations left over, in standard deviations
+  Eigen::MatrixXd variance;         ///< of each innovation; NaN where there was no reading
+  Eigen::MatrixXd log_ratio;  ///< ln of `variance` over that of the healthy robot; 0 where there is none
   /// (2 joints * samples) x effects: what the effects of the day take away from the innovations. Only of the
   /// healthy robot.
   Eigen::MatrixXd day_column;

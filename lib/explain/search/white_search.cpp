@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/white_search.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 #include <algorithm>
 #include <cmath>

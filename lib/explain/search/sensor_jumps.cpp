@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>

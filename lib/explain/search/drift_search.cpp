@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/drift_search.hpp"
+#include "lib/explain/search/drift_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -73,9 +73,9 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, int j) {
   const ColumnLayout layout = m.layout();
   const int rows = fit.count();
   const double scale = m.rigid.chain.geometry[j].kind == AxisKind::revolute ? 1.0 : kSlideShare;
-  UniformLog moved = fit.log();
-  moved.q.col(j).array() += kShift;
-  const Stacked slope = (fit.residual_of(moved, j, moved.time_s(0)) - fit.residual()) / kShift;
+  JointReading moved = reading_of(fit.log(), j);
+  moved.q.array() += kShift;
+  const Stacked slope = (fit.residual_of(moved, j, fit.log().start_s) - fit.residual()) / kShift;
   const bool matters = slope.cwiseAbs().maxCoeff() > kNoTorque;
   const VectorXd time = fit.time_s().array() - fit.time_s()[0];
   const Impulse impulse = impulse_of(s, j);

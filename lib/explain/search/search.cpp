@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/search.hpp"
+#include "lib/explain/search/search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/explain/drift_search.hpp"
-#include "lib/explain/sensor_jumps.hpp"
+#include "lib/explain/search/drift_search.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/explain/white_search.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/explain/white_search.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 
