@@ -96,7 +96,7 @@ void add_learn(CLI::App& app, Program& program) {
                   " to this file, - for standard output");
   command
       ->add_option("--runs-per-label", arguments->options.runs_per_label,
-                   "Simulated runs for each fault and joint that the networks learn from, at least 4")
+                   "Simulated runs for each fault and joint that the networks learn from, at least 2")
       ->capture_default_str();
   command
       ->add_option("--alarms-per-hour", arguments->options.alarms_per_hour,

@@ -63,7 +63,7 @@ std::string validation_text(const Validation& validation) {
 std::string reach_table(const Model& model) {
   if (model.validation.reach.empty()) return "";
   std::string text =
-      fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", "found surely", "joint", "found", "from", "delay/s");
+      fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", "fault", "joint", "found", "from", "delay/s");
   for (const Reach& reach : model.validation.reach) {
     const std::string size = reach_text(reach, model.motion.chain);
     text += fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", to_string(reach.label.kind), reach.label.joint,
@@ -138,7 +138,8 @@ std::string mechanics_text(const Learned& learned) {
                      parameter_text(learned.identification)) +
          fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
                      validation_text(learned.model.validation)) +
-         "\nThe smallest fault that would be found, nine times of ten, in all simulated runs:\n" +
+         "\nThe smallest fault that a log like the healthy ones shows nine times of ten when it begins in its middle, and "
+         "how many of the simulated faults were found:\n" +
          reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 

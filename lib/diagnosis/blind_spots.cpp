@@ -161,7 +161,7 @@ std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const 
     }
     if (!joints.empty())
       sentences.push_back(
-          fmt::format("Smaller than this, \"{}\" may be missed (9 of 10 simulated are found): {}.",
+          fmt::format("Smaller than this, \"{}\" may be missed in a log like the healthy ones: {}.",
                       describe(static_cast<FaultKind>(k)).heading, joints));
   }
   return sentences;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/identify/feasible/feasible.hpp"
 
 namespace faultline {
 namespace {
@@ -99,21 +100,68 @@ RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
   return robot;
 }
 
-Identification with_explained_friction(Identification identification, const RobotRows& robot) {
+namespace {
+
+/// The friction that explains the logs, in place of the identified one.
+template <typename Rows>
+Identification with_friction_of(Identification identification, const Rows& model,
+                                const Eigen::VectorXd& width) {
   const ParameterSpace& space = identification.space;
-  const auto take = [&](const auto& layout, const Eigen::VectorXd& theta, const Eigen::VectorXd& width) {
-    for (int j = 0; j < space.joints(); ++j) {
-      identification.estimate[space.viscous(j)] = theta[layout.viscous(j)];
-      identification.estimate[space.coulomb(j)] = theta[layout.coulomb(j)];
-      identification.estimate[space.log_width(j)] = elementary::log(width[j]);
-      identification.robot.chain.friction[j].width = width[j];
-    }
-  };
-  if (const auto* rows = std::get_if<BalanceModel>(&robot))
-    take(rows->layout(), rows->theta, rows->setting.friction_width);
-  else if (const auto* steps = std::get_if<OneStepModel>(&robot))
-    take(steps->layout(), steps->theta, steps->body.friction_width());
+  const auto layout = model.layout();
+  for (int j = 0; j < space.joints(); ++j) {
+    identification.estimate[space.viscous(j)] = model.theta[layout.viscous(j)];
+    identification.estimate[space.coulomb(j)] = model.theta[layout.coulomb(j)];
+    identification.estimate[space.log_width(j)] = elementary::log(width[j]);
+    identification.robot.chain.friction[j].width = width[j];
+  }
   return identification;
+}
+
+/// The base parameters that explain the logs, which differ by day as these logs do. Rotors that the model
+/// does not have are none.
+template <typename Rows, typename Days>
+Identification with_base_of(Identification identification, const Rows& model, const Days& day) {
+  const ParameterSpace& space = identification.space;
+  const bool has_rotors = model.layout().base == space.rigid();
+  identification.covariance.setZero();
+  for (int p = 0, at = 0; p < space.rigid(); ++p) {
+    identification.estimate[p] = 0.0;
+    if (!has_rotors && space.base[p].is_rotor) continue;
+    identification.estimate[p] = model.theta[at];
+    identification.covariance(p, p) =
+        model.day_variance[day.inertia(at)] * Eigen::numext::abs2(model.theta[at]);
+    ++at;
+  }
+  return identification;
+}
+
+template <typename Rows, typename Days>
+Identification with_rows_of(const Identification& identification, const Rows& model, const Days& day,
+                            const Eigen::VectorXd& width) {
+  Identification friction = with_friction_of(identification, model, width),
+                 all = with_base_of(friction, model, day);
+  const bool is_feasible =
+      infeasibility(all.space, all.estimate, all.covariance, model.q_low, model.q_high).empty();
+  return is_feasible ? all : friction;
+}
+
+/// Noise of the readings as one-step predictions leave it: few samples of a move show it no other way.
+Identification with_noise_of(Identification identification, const OneStepModel& model) {
+  const Eigen::VectorXd noise = model.reading_variance.cwiseSqrt();
+  identification.q_noise.assign(noise.begin(), noise.begin() + model.joints());
+  if (!identification.dq_noise.empty())
+    identification.dq_noise.assign(noise.begin() + model.joints(), noise.end());
+  return identification;
+}
+
+}  // namespace
+
+Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
+  if (const auto* rows = std::get_if<BalanceModel>(&robot))
+    return with_rows_of(identification, *rows, day_layout(rows->rigid), rows->setting.friction_width);
+  const auto& steps = std::get<OneStepModel>(robot);
+  return with_noise_of(with_rows_of(identification, steps, steps.day_layout(), steps.body.friction_width()),
+                       steps);
 }
 
 }  // namespace faultline

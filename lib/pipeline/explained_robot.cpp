@@ -34,14 +34,15 @@ double window_s(const std::vector<UniformLog>& logs) {
 
 ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& robot,
                                const ExplainedRobotOptions& options, const Progress& progress) {
-  ExplainedRobot out{healthy_robot(logs, robot, options.identify, part_of(progress, 0.0, kHealthyKnown)), {}};
+  ExplainedRobot out{
+      healthy_robot(logs, robot, options.identify, part_of(progress, 0.0, kHealthyKnown)), {}, {}};
   if (progress) progress("judging each log by the others", kHealthyKnown);
   HealthyRobot& healthy = out.robot;
   Model& model = healthy.model;
   model.explain.robot = as_stated(std::move(model.explain.robot), model);
   model.labels = labels_of(model.robot);
   model.motion.slow = day_differences(model.explain.robot);
-  std::vector<UniformLog> uniform;
+  std::vector<UniformLog>& uniform = out.logs;
   for (LogSource* day : healthy.days) {
     day->rewind();
     uniform.push_back(uniform_log(*day, model.sample_period_s));

@@ -13,7 +13,8 @@ namespace faultline {
 /// that log was left out.
 struct ExplainedRobot {
   HealthyRobot robot;
-  std::vector<LogExplanation> left_out;  ///< of robot.days
+  std::vector<UniformLog> logs{};        ///< robot.days, on a grid
+  std::vector<LogExplanation> left_out;  ///< of each of them
 };
 
 struct ExplainedRobotOptions {

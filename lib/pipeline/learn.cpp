@@ -10,6 +10,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/parallel.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/model/model_files.hpp"
@@ -33,9 +34,11 @@ constexpr double kFewestAlarms = 1e-6, kMostAlarms = 100.0;  // an hour
 // Shares of the work that are done after its stages, roughly.
 constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8, kTrained = 0.85;
 
+constexpr double kEnoughFound = 0.5;  // of the training runs: where fewer are, as many again are simulated
+
 // Streams of seeds that never meet.
-constexpr std::uint64_t kTrainingSeeds = 0, kValidationSeeds = 1'000'000, kHealthyValidationSeeds = 3'000'000,
-                        kLimitSeeds = 2'000'000, kSeedBlock = 10'000'000;
+constexpr std::uint64_t kTrainingSeeds = 0, kMoreSeeds = 500'000, kValidationSeeds = 1'000'000,
+                        kHealthyValidationSeeds = 3'000'000, kLimitSeeds = 2'000'000, kSeedBlock = 10'000'000;
 
 /// The logs with an empty row for each that was lost, as diagnose() reads them.
 class FilledLogs {
@@ -86,12 +89,33 @@ std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const
   return runs;
 }
 
+std::vector<std::vector<LeastFound>> least_found_in(const std::vector<UniformLog>& days, const Model& model,
+                                                    int threads) {
+  std::vector<std::vector<LeastFound>> out(days.size());
+  parallel_for(static_cast<int>(days.size()), threads,
+               [&](int k) { out[k] = least_found(days[k], model.explain, model.labels); });
+  return out;
+}
+
+double share_found(const TwinStudy& study) {
+  const auto found = std::count_if(study.runs.begin(), study.runs.end(),
+                                   [](const MonitoredRun& run) { return episode_of_fault(run) != nullptr; });
+  return static_cast<double>(found) / static_cast<double>(std::max<std::size_t>(study.runs.size(), 1));
+}
+
+TwinStudy joined(TwinStudy a, TwinStudy b) {
+  std::move(b.runs.begin(), b.runs.end(), std::back_inserter(a.runs));
+  std::move(b.residuals.begin(), b.residuals.end(), std::back_inserter(a.residuals));
+  return a;
+}
+
 /// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
 /// nothing was trained on measure all that.
 void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueReading& reading,
-                     const LearnOptions& options, const Progress& progress) {
+                     const std::vector<UniformLog>& days, const LearnOptions& options,
+                     const Progress& progress) {
   Model& model = out.model;
-  const Identification explained = with_explained_friction(out.identification, model.explain.robot);
+  const Identification explained = with_explained_robot(out.identification, model.explain.robot);
   const Twin twin{&explained, &model.motion, model.sample_period_s, model.has_velocity, options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
   auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part,
@@ -107,9 +131,12 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
     for (const MonitoredEpisode& alarm : run.log.episodes)
       model.explain.limits = above_false_alarm(model.explain.limits, alarm.fault);
 
-  TwinStudy faulty = runs_of(faults(options.runs_per_label), kTrainingSeeds,
-                             part_of(progress, kResidualsLearned, kSimulated),
-                             {.judging = TwinJudging::known, .keep_residuals = true});
+  const auto training_runs = [&](std::uint64_t stream) {
+    return runs_of(faults(options.runs_per_label), stream, part_of(progress, kResidualsLearned, kSimulated),
+                   {.judging = TwinJudging::known, .keep_residuals = true});
+  };
+  TwinStudy faulty = training_runs(kTrainingSeeds);
+  if (share_found(faulty) < kEnoughFound) faulty = joined(std::move(faulty), training_runs(kMoreSeeds));
   tell(progress, "training networks on samples", kSimulated);
   std::vector<LabelledResiduals> residuals = std::move(faulty.residuals);
   residuals.insert(residuals.end(), healthy.residuals.begin(), healthy.residuals.end());
@@ -133,7 +160,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());
   std::move(checks.begin(), checks.end(), std::back_inserter(runs));
-  model.validation.reach = reach_of(runs);
+  model.validation.reach = reach_of(runs, least_found_in(days, model, options.threads));
 }
 
 Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled,
@@ -162,7 +189,7 @@ void LearnOptions::check() const {
   if (!(alarms_per_hour >= kFewestAlarms && alarms_per_hour <= kMostAlarms))
     throw Error(ErrorCode::usage, "alarms_per_hour",
                 fmt::format("is {}, must be between {} and {}", alarms_per_hour, kFewestAlarms, kMostAlarms));
-  at_least("runs_per_label", runs_per_label, 4);
+  at_least("runs_per_label", runs_per_label, 2);
   at_least("validation_per_label", validation_per_label, 0);
   at_least("healthy_runs", healthy_runs, 0);
   at_least("threads", threads, 0);
@@ -196,7 +223,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  learn_from_twin(out, labelled, found.reading, options, progress);
+  learn_from_twin(out, labelled, found.reading, trusted.explained.logs, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

@@ -30,8 +30,8 @@ struct LearnOptions {
   IdentifyOptions identify{};
   ResidualOptions residual{};
   TwinOptions twin{};            ///< how faults are simulated
-  int runs_per_label = 6;        ///< simulated to train the networks and fill the case base
-  int validation_per_label = 2;  ///< simulated to measure the model, trained on by nothing
+  int runs_per_label = 3;        ///< simulated to train the networks and fill the case base
+  int validation_per_label = 1;  ///< simulated to measure the model, trained on by nothing
   double alarms_per_hour =
       kUsualAlarmsPerHour;         ///< that chance may raise, by the regression and by each relation
   int healthy_runs = 20;           ///< simulated for limits and networks, and as many to measure false alarms

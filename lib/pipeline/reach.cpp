@@ -3,59 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kSurely = 0.9;  // share found
-constexpr int kFewestAbove = 5;  // runs of that size or more: fewer say nothing
+constexpr double kSurely = 0.9;
 
-struct Trial {
-  double size = 0.0;
-  bool found = false;
-};
-
-/// A stretch of sizes with one share found.
-struct Block {
-  double least = 0.0;
-  int runs = 0;
-  int found = 0;
-
-  double share() const { return static_cast<double>(found) / runs; }
-};
-
-/// Pools neighbours until the share rises from block to block.
-std::vector<Block> rising(const std::vector<Trial>& by_size) {
-  std::vector<Block> blocks;
-  for (const Trial& trial : by_size) {
-    blocks.push_back({trial.size, 1, trial.found ? 1 : 0});
-    while (blocks.size() > 1 && blocks[blocks.size() - 2].share() >= blocks.back().share()) {
-      const Block last = blocks.back();
-      blocks.pop_back();
-      blocks.back().runs += last.runs;
-      blocks.back().found += last.found;
-    }
-  }
-  return blocks;
+/// Size of a label that nine of ten logs show; NaN where no log says, or too few show any.
+double size_shown(const FaultLabel& label, const std::vector<std::vector<LeastFound>>& by_log) {
+  std::vector<double> sizes;
+  for (const std::vector<LeastFound>& log : by_log)
+    for (const LeastFound& each : log)
+      if (each.label == label) sizes.push_back(each.size);
+  const double size = upper_quantile(std::move(sizes), kSurely);
+  return std::isfinite(size) ? size : std::numeric_limits<double>::quiet_NaN();
 }
 
-double surely_found_from(std::vector<Trial> trials) {
-  std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.size < b.size; });
-  double from = std::numeric_limits<double>::quiet_NaN();
-  int above = 0;
-  const std::vector<Block> blocks = rising(trials);
-  for (auto block = blocks.rbegin(); block != blocks.rend() && block->share() >= kSurely; ++block) {
-    above += block->runs;
-    if (above >= kFewestAbove) from = block->least;
-  }
-  return from;
-}
-
-Reach reach_of(const FaultLabel& label, std::span<const MonitoredRun> runs) {
+Reach reach_of(const FaultLabel& label, std::span<const MonitoredRun> runs,
+               const std::vector<std::vector<LeastFound>>& by_log) {
   Reach reach{.label = label};
-  std::vector<Trial> trials;
+  std::vector<double> sizes;
   std::vector<double> delays;
   for (const MonitoredRun& run : runs) {
     if (run.label != label) continue;
@@ -65,24 +35,24 @@ Reach reach_of(const FaultLabel& label, std::span<const MonitoredRun> runs) {
       ++reach.found;
       delays.push_back(episode->alarm_s() - run.onset_s);
     }
-    if (std::isfinite(run.size)) trials.push_back({std::abs(run.size), episode != nullptr});
+    if (std::isfinite(run.size)) sizes.push_back(std::abs(run.size));
   }
   reach.median_delay_s = lower_quantile(delays, 0.5);
-  if (trials.empty()) return reach;
-  reach.size = surely_found_from(trials);
-  reach.least_size = trials.front().size;
-  for (const Trial& trial : trials) reach.least_size = std::min(reach.least_size, trial.size);
+  if (sizes.empty()) return reach;
+  reach.size = size_shown(label, by_log);
+  reach.least_size = *std::min_element(sizes.begin(), sizes.end());
   return reach;
 }
 
 }  // namespace
 
-std::vector<Reach> reach_of(std::span<const MonitoredRun> runs) {
+std::vector<Reach> reach_of(std::span<const MonitoredRun> runs,
+                            const std::vector<std::vector<LeastFound>>& by_log) {
   std::vector<Reach> all;
   for (const MonitoredRun& run : runs) {
     const bool known =
         std::any_of(all.begin(), all.end(), [&](const Reach& r) { return r.label == run.label; });
-    if (!known && run.label.kind != FaultKind::none) all.push_back(reach_of(run.label, runs));
+    if (!known && run.label.kind != FaultKind::none) all.push_back(reach_of(run.label, runs, by_log));
   }
   return all;
 }

@@ -230,7 +230,7 @@ def learn(
     output: Optional[PathLike] = None,
     cases: Optional[PathLike] = None,
     labels: Labels = None,
-    runs_per_label: int = 14,
+    runs_per_label: int = 3,
     alarms_per_hour: float = 0.01,
     keep_all: bool = False,
     force: bool = False,

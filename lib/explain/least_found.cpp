@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/least_found.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/coarse/coarse_judge.hpp"
+#include "lib/explain/judge.hpp"
+#include "lib/fault/fault_catalogue.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kOfTen = 1.2816;        // standard deviations of noise that nine of ten logs do not have
+constexpr double kNoInformation = 1e-9;  // share of the prior's precision
+
+/// What the rows of a log say of the sizes of a hypothesis.
+struct SizeKnowledge {
+  MatrixXd covariance;
+  VectorXd variance;  ///< prior
+};
+
+/// Where the size that reports name stands among those of a hypothesis, and how much of each it takes.
+VectorXd named_size(const FaultLabel& label, Eigen::Index sizes) {
+  VectorXd out = VectorXd::Zero(sizes);
+  switch (label.kind) {
+    case FaultKind::friction_increase:
+      out[1] = 1.0;  // dry, after viscous
+      break;
+    case FaultKind::collision:
+      out[label.joint - 1] = 1.0 / kUsualPush_s;  // a steady force on each joint comes first
+      break;
+    default:
+      out[0] = 1.0;
+  }
+  return out;
+}
+
+FaultClaim claim_of(const FaultLabel& label, double onset_s) {
+  FaultClaim out{label.kind, label.joint, onset_s};
+  if (label.kind == FaultKind::collision) out.end_s = onset_s + kUsualPush_s;
+  return out;
+}
+
+SizeKnowledge knowledge(const LogFit& fit, const FaultClaim& claim) {
+  const FaultColumns columns = columns_about_healthy(fit, claim);
+  return {fit.explain(fit.residual(), columns, {}).size_covariance, columns.variance};
+}
+
+SizeKnowledge knowledge(const CoarseLog& log, const FaultClaim& claim) {
+  const CoarseGuess guess{claim.kind,
+                          claim.joint,
+                          claim.onset_s,
+                          claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0,
+                          {}};
+  const VectorXd std = reads_wrong(claim.kind)
+                           ? VectorXd::Constant(1, usual_reading_error(*log.model, claim.joint - 1))
+                           : fault_directions(*log.model, claim.kind, claim.joint).std;
+  return {judge_coarse(log, guess, {}).size_covariance, std.cwiseAbs2()};
+}
+
+template <typename Fitted>
+std::vector<LeastFound> of_each(const Fitted& fitted, const std::vector<FaultLabel>& labels,
+                                const EvidenceLimits& limits, double onset_s) {
+  std::vector<LeastFound> out;
+  for (const FaultLabel& label : labels) {
+    if (describe(label.kind).size_count == 0) continue;
+    const SizeKnowledge known = knowledge(fitted, claim_of(label, onset_s));
+    const VectorXd direction = named_size(label, known.variance.size());
+    const double size =
+        known.covariance.rows() == known.variance.size()
+            ? least_size_found(known.covariance, known.variance, direction, limits.of(label.kind))
+            : std::numeric_limits<double>::infinity();
+    const double least = label.kind == FaultKind::torque_loss ? kLeastLoss : 0.0;
+    out.push_back({label, std::max(size, least)});
+  }
+  return out;
+}
+
+}  // namespace
+
+double least_size_found(const MatrixXd& covariance, const VectorXd& variance, const VectorXd& direction,
+                        double limit) {
+  const VectorXd precision = variance.cwiseInverse();
+  const MatrixXd information = covariance.inverse() - MatrixXd(precision.asDiagonal());
+  const VectorXd along = information * direction;
+  const double each = along.dot(covariance * along);  // twice the evidence of a size of one without noise
+  if (!(each > kNoInformation * direction.cwiseAbs2().dot(precision)))
+    return std::numeric_limits<double>::infinity();
+  const double price = -0.5 * elementary::log((covariance * precision.asDiagonal()).determinant());
+  return (kOfTen + std::sqrt(2.0 * (limit + price))) / std::sqrt(each);
+}
+
+std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
+                                    const std::vector<FaultLabel>& labels) {
+  if (!can_explain(healthy, model.robot)) return {};
+  const double middle_s = healthy.time_s(0.5 * healthy.rows());
+  if (const auto* steps = std::get_if<OneStepModel>(&model.robot)) {
+    const std::optional<CoarseLog> log = followed_log(healthy, *steps);
+    return log ? of_each(*log, labels, model.limits, middle_s) : std::vector<LeastFound>{};
+  }
+  const LogFit fit(averaged_as(healthy, model.robot), std::get<BalanceModel>(model.robot));
+  return of_each(fit, labels, model.limits, middle_s);
+}
+
+}  // namespace faultline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lib/balance/uniform_log.hpp"
+#include "lib/explain/explain_log.hpp"
+#include "lib/fault/fault_labels.hpp"
+
+namespace faultline {
+
+/// The smallest fault of a kind at a joint that a log would show.
+struct LeastFound {
+  FaultLabel label;
+  double size = 0.0;  ///< share, rad, m, N m, N, kg and so on, of a collision its impulse; infinite for none
+};
+
+/// What a healthy log would show of each label whose kind has a size: the smallest fault that nine of ten
+/// times gives more evidence than its limit, when it begins in the middle of the log and lasts to its end (a
+/// collision for kUsualPush_s). In closed form, from the columns of the fault (equation (13) of
+/// docs/how-it-works.md). Empty where the log cannot be explained.
+std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
+                                    const std::vector<FaultLabel>& labels);
+
+inline constexpr double kUsualPush_s = 0.1;
+
+/// Size along `direction` from which on evidence passes `limit` (nats) nine of ten times, when the sizes of a
+/// hypothesis have a prior `variance` and, by the rows of a log, the posterior `covariance`. Infinite where
+/// the rows say nothing of that direction.
+double least_size_found(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& variance,
+                        const Eigen::VectorXd& direction, double limit);
+
+}  // namespace faultline
