@@ -143,6 +143,14 @@ VectorXd autocovariance(const JointNoise& noise) {
   return out;
 }
 
+double most_hidden_by_white_noise(const RowNoise& noise) {
+  double out = 1.0;
+  for (const JointNoise& joint : noise.joint)
+    out =
+        std::max(out, autocovariance(joint)[0] * Eigen::numext::abs2(joint.filter.sum() / joint.innovation));
+  return out;
+}
+
 JointNoise with_autocovariance(JointNoise noise, VectorXd covariance) {
   const Eigen::Index order = covariance.size() - 1;
   covariance[0] *= 1.0 + kRidge;

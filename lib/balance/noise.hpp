@@ -51,6 +51,9 @@ RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise nois
 
 /// Autocovariance of rows over their standard deviation: of lag 0 up to the order of the filter.
 Eigen::VectorXd autocovariance(const JointNoise& noise);
+/// By how much the evidence for a torque that lasts may exceed its score with white noise: the greatest
+/// variance of a joint's noise over its spectral density at frequency zero; at least 1.
+double most_hidden_by_white_noise(const RowNoise& noise);
 /// The noise with the autoregression that has this autocovariance (Yule and Walker).
 JointNoise with_autocovariance(JointNoise noise, Eigen::VectorXd covariance);
 

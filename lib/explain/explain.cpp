@@ -137,6 +137,8 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
                   [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; }))
     return true;
   if (found.size() > kJudgedFirst) found.resize(kJudgedFirst);
+  const double most = most_hidden_by_white_noise(fit.noise());
+  std::erase_if(found, [&](const Candidate& c) { return most * c.score < least; });
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(found.size());
   return std::any_of(found.begin(), found.end(), [&](const Candidate& c) {

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr double kOfTen = 1.2816;        // standard deviations of noise that nine of ten logs do not have
 constexpr double kNoInformation = 1e-9;  // share of the prior's precision
 
-/// What the rows of a log say of the sizes of a hypothesis.
+/// What the rows of a log say of the sizes of a hypothesis; empty where they cannot show it.
 struct SizeKnowledge {
   MatrixXd covariance;
   VectorXd variance;  ///< prior
@@ -49,6 +49,8 @@ FaultClaim claim_of(const FaultLabel& label, double onset_s) {
 }
 
 SizeKnowledge knowledge(const LogFit& fit, const FaultClaim& claim) {
+  const bool is_linear = claim.kind != FaultKind::collision && !reads_wrong(claim.kind);
+  if (is_linear && linear_of(fit.linear(), claim) == nullptr) return {};
   const FaultColumns columns = columns_about_healthy(fit, claim);
   return {fit.explain(fit.residual(), columns, {}).size_covariance, columns.variance};
 }
@@ -71,12 +73,11 @@ std::vector<LeastFound> of_each(const Fitted& fitted, const std::vector<FaultLab
   std::vector<LeastFound> out;
   for (const FaultLabel& label : labels) {
     if (describe(label.kind).size_count == 0) continue;
-    const SizeKnowledge known = knowledge(fitted, claim_of(label, onset_s));
-    const VectorXd direction = named_size(label, known.variance.size());
-    const double size =
-        known.covariance.rows() == known.variance.size()
-            ? least_size_found(known.covariance, known.variance, direction, limits.of(label.kind))
-            : std::numeric_limits<double>::infinity();
+    const auto [covariance, variance] = knowledge(fitted, claim_of(label, onset_s));
+    double size = std::numeric_limits<double>::infinity();
+    if (variance.size() > 0 && covariance.rows() == variance.size())
+      size =
+          least_size_found(covariance, variance, named_size(label, variance.size()), limits.of(label.kind));
     const double least = label.kind == FaultKind::torque_loss ? kLeastLoss : 0.0;
     out.push_back({label, std::max(size, least)});
   }

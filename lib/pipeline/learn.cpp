@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <filesystem>
+#include <iterator>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
