@@ -31,7 +31,7 @@ class Example(InFolder):
         page = (ROOT / "docs/python.md").read_text()
         code = re.search(r"```python\n(.*?)```", page, re.S).group(1)
         self.assertIn('output="bench.json")', code)
-        code = code.replace('output="bench.json")', 'output="bench.json", runs_per_label=4)')  # saves half the time
+        code = code.replace('output="bench.json")', 'output="bench.json", runs_per_label=2)')  # saves some time
         for name in BENCH.iterdir():
             (self.folder / name.name).write_bytes(name.read_bytes())
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=self.folder)

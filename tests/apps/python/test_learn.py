@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Learning and identifying are those of the program."""
+import json as json_text
 import pickle
 
 import numpy
@@ -44,7 +45,8 @@ class Learning(InFolder):
         in_memory = faultline.learn(frames, ROBOT, labels={"frame 4": label}, runs_per_label=RUNS)
         log = BENCH / "torque_loss_1.csv"
         of_file, of_frames = (without_origin(m.model.diagnose(log)) for m in (learned, in_memory))
-        self.assertEqual(of_frames["faults"], of_file["faults"])
+        named = json_text.dumps(of_frames["faults"]).replace("frame 4", LOCKED.name)  # it may be a precedent
+        self.assertEqual(json_text.loads(named), of_file["faults"])
         self.expect_file_of(in_memory.model, self.folder / "memory.json")
         again = pickle.loads(pickle.dumps(learned.model))
         self.assertEqual(again.diagnose(log).to_json(), learned.model.diagnose(log).to_json())
