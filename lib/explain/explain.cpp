@@ -22,7 +22,8 @@ constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
 constexpr double kMuchLess = 0.5;        // of what a lost torque leaves, that a clipping drive leaves
 constexpr double kStandsOut = 8.0;       // nats, of an onset that the search found,
 constexpr double kMayPass = 0.33;        // or share of the evidence that counts: the search is not exact
-constexpr std::size_t kJudgedFirst = 4;  // candidates, before nothing is said to stand out
+constexpr std::size_t kJudgedFirst = 4;  // candidates, before nothing is said to stand out,
+constexpr double kHidden = 2.0;          // of the evidence that counts: of many quiet windows some pass once
 constexpr double kWorthRefining = 5.0;   // nats
 constexpr std::size_t kRefined = 5;      // hypotheses
 constexpr double kSameNoise = 0.1;       // of a variance
@@ -138,12 +139,13 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
     return true;
   if (found.size() > kJudgedFirst) found.resize(kJudgedFirst);
   const double most = most_hidden_by_white_noise(fit.noise());
-  std::erase_if(found, [&](const Candidate& c) { return most * c.score < least; });
+  const double hidden = std::max(least, kHidden * least_evidence);
+  std::erase_if(found, [&](const Candidate& c) { return most * c.score < hidden; });
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(found.size());
   return std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
     const FaultHypothesis* h = bench.go_from(c);
-    return h != nullptr && h->gain > least;
+    return h != nullptr && h->gain > hidden;
   });
 }
 

@@ -117,32 +117,23 @@ Identification with_friction_of(Identification identification, const Rows& model
   return identification;
 }
 
-/// The base parameters that explain the logs, which differ by day as these logs do. Rotors that the model
-/// does not have are none.
-template <typename Rows, typename Days>
-Identification with_base_of(Identification identification, const Rows& model, const Days& day) {
-  const ParameterSpace& space = identification.space;
-  const bool has_rotors = model.layout().base == space.rigid();
-  identification.covariance.setZero();
+/// The base parameters that explain the logs, which differ by day as these logs do, where some bodies can
+/// have them. A model of one-step predictions has no rotors.
+Identification with_base_of(const Identification& identification, const OneStepModel& model) {
+  Identification out = identification;
+  const ParameterSpace& space = out.space;
+  out.covariance.setZero();
   for (int p = 0, at = 0; p < space.rigid(); ++p) {
-    identification.estimate[p] = 0.0;
-    if (!has_rotors && space.base[p].is_rotor) continue;
-    identification.estimate[p] = model.theta[at];
-    identification.covariance(p, p) =
-        model.day_variance[day.inertia(at)] * Eigen::numext::abs2(model.theta[at]);
+    out.estimate[p] = 0.0;
+    if (space.base[p].is_rotor) continue;
+    out.estimate[p] = model.theta[at];
+    out.covariance(p, p) =
+        model.day_variance[model.day_layout().inertia(at)] * Eigen::numext::abs2(model.theta[at]);
     ++at;
   }
-  return identification;
-}
-
-template <typename Rows, typename Days>
-Identification with_rows_of(const Identification& identification, const Rows& model, const Days& day,
-                            const Eigen::VectorXd& width) {
-  Identification friction = with_friction_of(identification, model, width),
-                 all = with_base_of(friction, model, day);
   const bool is_feasible =
-      infeasibility(all.space, all.estimate, all.covariance, model.q_low, model.q_high).empty();
-  return is_feasible ? all : friction;
+      infeasibility(space, out.estimate, out.covariance, model.q_low, model.q_high).empty();
+  return is_feasible ? out : identification;
 }
 
 /// Noise of the readings as one-step predictions leave it: few samples of a move show it no other way.
@@ -158,10 +149,10 @@ Identification with_noise_of(Identification identification, const OneStepModel& 
 
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
   if (const auto* rows = std::get_if<BalanceModel>(&robot))
-    return with_rows_of(identification, *rows, day_layout(rows->rigid), rows->setting.friction_width);
+    return with_friction_of(identification, *rows, rows->setting.friction_width);
   const auto& steps = std::get<OneStepModel>(robot);
-  return with_noise_of(with_rows_of(identification, steps, steps.day_layout(), steps.body.friction_width()),
-                       steps);
+  return with_noise_of(
+      with_base_of(with_friction_of(identification, steps, steps.body.friction_width()), steps), steps);
 }
 
 }  // namespace faultline

@@ -18,9 +18,9 @@ std::vector<SlowState> day_differences(const RobotRows& robot);
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale);
 
-/// The identified robot with the friction that explains its logs, at coarse rates with their noise, and with
-/// the base parameters that explain them where some bodies can have these: the twin must not differ from what
-/// it is judged by.
+/// The identified robot with the friction that explains its logs, at coarse rates also with their noise and
+/// the base parameters that explain them, where some bodies can have these: the twin must not differ from
+/// what it is judged by.
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot);
 
 }  // namespace faultline
