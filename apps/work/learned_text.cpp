@@ -139,8 +139,7 @@ std::string mechanics_text(const Learned& learned) {
          fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
                      validation_text(learned.model.validation)) +
          "\nThe smallest fault whose evidence passes its limit when it begins in the middle of a log like the healthy "
-         "ones, and "
-         "how many of the simulated faults were found:\n" +
+         "ones, and how many of the simulated faults were found:\n" +
          reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 

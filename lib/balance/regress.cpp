@@ -20,6 +20,13 @@ Eigen::MatrixXd Regression::covariance() const {
   return factor.solve(Eigen::MatrixXd::Identity(estimate.size(), estimate.size()));
 }
 
+Eigen::MatrixXd Regression::covariance(Eigen::Index first, Eigen::Index count) const {
+  Eigen::MatrixXd out(count, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    out.col(k) = factor.solve(Eigen::VectorXd::Unit(estimate.size(), first + k)).segment(first, count);
+  return out;
+}
+
 Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision) {
   Regression out;
   Eigen::MatrixXd posterior = sums.matrix;

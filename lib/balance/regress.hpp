@@ -26,6 +26,8 @@ struct Regression {
   double left = 0.0;  ///< squares left over, without the prior's
 
   Eigen::MatrixXd covariance() const;
+  /// That of the parameters `first` to `first` + `count` - 1.
+  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index count) const;
 };
 
 /// `precision` is the inverse prior variance of each parameter; all are above 0.

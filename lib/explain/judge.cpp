@@ -104,11 +104,6 @@ ReadingSize reading_size(const LogFit& fit, const FaultClaim& claim) {
   return slide ? ReadingSize{0.03, 4e-4} : ReadingSize{0.1, 2e-3};
 }
 
-Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
-  claim.size = VectorXd::Constant(1, size);
-  return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
-}
-
 /// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
 /// between the last two sizes (the secant method), until the size is settled. A claim of no size starts from
 /// none.

@@ -22,15 +22,18 @@ constexpr double kSizeDoubt = 0.05;    // share of the size of a fault that bega
 constexpr int kNoiseRounds = 3;
 
 /// What the size of a false reading that is mended still changes.
-FaultColumns reading_column(const LogFit& fit, FaultClaim claim) {
+FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
-  claim.size[0] = doubt;
-  const JointReading mended = without_false_reading(fit.log(), claim);
-  return {StackedColumns((fit.residual() - fit.residual_of(mended, claim.joint - 1, claim.onset_s)) / doubt),
+  return {StackedColumns((fit.residual() - residual_without(fit, claim, doubt)) / doubt),
           VectorXd::Constant(1, doubt * doubt)};
 }
 
 }  // namespace
+
+Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
+  claim.size = VectorXd::Constant(1, size);
+  return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
+}
 
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
   if (const LinearFault* fault = linear_of(fit.linear(), claim))

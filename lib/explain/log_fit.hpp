@@ -161,6 +161,8 @@ struct LeftWithin {
 };
 LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
 
+/// Residual of the log without a false reading of that size.
+Stacked residual_without(const LogFit& fit, FaultClaim claim, double size);
 /// Columns of a linear fault or of a push while it lasts.
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim);
 

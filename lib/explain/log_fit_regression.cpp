@@ -114,9 +114,7 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, sizes);
   const auto std_of = [&](int k) { return std::sqrt(fit.factor.solve(VectorXd::Unit(all, k))[k]); };
-  out.size_covariance.resize(sizes, sizes);
-  for (int k = 0; k < sizes; ++k)
-    out.size_covariance.col(k) = fit.factor.solve(VectorXd::Unit(all, effects + k)).segment(effects, sizes);
+  out.size_covariance = fit.covariance(effects, sizes);
   if (sizes == 0) out.day_std.resize(effects);
   for (int k = 0; k < out.day_std.size(); ++k) out.day_std[k] = std_of(k);
   out.later_s = -fit.estimate.segment(fixed, ramps.change.cols());

@@ -68,7 +68,7 @@ def simulated_size(label, factor):
     return size / PUSH_S if label["kind"] == "collision" else size  # an impulse; the simulator takes the force
 
 
-def is_found(report, label, onset_s):
+def is_found(report, onset_s):
     faults = report["faults"] + report.get("small_changes", [])
     return any(fault.get("alarm_s", fault["onset_s"]) >= onset_s - 0.05 for fault in faults)
 
@@ -90,7 +90,7 @@ def judge(name, seed):
     of = [(label, factor) for label in labels for factor in FACTORS for i in range(REPEATS)]
     for (label, factor), report in zip(of, reports):
         tally = found.setdefault(label["kind"], {}).setdefault(factor, [0, 0])
-        tally[0] += is_found(report, label, onset_s)
+        tally[0] += is_found(report, onset_s)
         tally[1] += 1
     return found
 

@@ -201,11 +201,7 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
   out.log_likelihood = fit.log_likelihood - 0.5 * missing - 0.5 * out.log_ratio.sum();
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, columns - effects - (how.move_onset ? 1 : 0));
-  const Eigen::Index sizes = out.size.size();
-  out.size_covariance.resize(sizes, sizes);
-  for (int k = 0; k < sizes; ++k)
-    out.size_covariance.col(k) =
-        fit.factor.solve(VectorXd::Unit(columns, effects + k)).segment(effects, sizes);
+  out.size_covariance = fit.covariance(effects, out.size.size());
   if (how.move_onset) out.onset_step_s = fit.estimate[columns - 1];
   if (guess.kind == FaultKind::none) out.day_column = x.leftCols(effects);
   out.about = at.about + smoothed(lin.steps, filter, change);
