@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "lib/balance/noise.hpp"
@@ -34,6 +35,8 @@ struct BalanceModel {
 
   int joints() const { return setting.joints(); }
   ColumnLayout layout() const { return layout_of(rigid, setting); }
+  /// Of the gear spring of joint `joint` (from 0), rad per N m or m per N; 0: rigid.
+  double compliance(int joint) const { return std::max(theta[layout().spring(joint)], 0.0); }
 };
 
 /// Where the effects of a day stand (equation (2) of docs/how-it-works.md): relative change of each base

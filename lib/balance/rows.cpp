@@ -173,10 +173,11 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   return rows;
 }
 
-VectorXd coulomb_column(const UniformLog& log, const RowSetting& setting, int joint) {
+Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int joint) {
   const auto [kernel, grid, at] = row_frame(log, setting);
-  return smooth_at(saturated(at.link_speed.col(joint), setting.friction_width[joint]), kernel, grid.first,
-                   grid.step, grid.count);
+  Eigen::MatrixX2d friction(at.q.rows(), 2);
+  friction << at.link_speed.col(joint), saturated(at.link_speed.col(joint), setting.friction_width[joint]);
+  return smooth_at(friction, kernel, grid.first, grid.step, grid.count);
 }
 
 }  // namespace faultline

@@ -31,8 +31,9 @@ struct BalanceRows {
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const Eigen::VectorXd& theta);
 
-/// The column of Coulomb friction of joint `joint` (from 0) alone: what its width changes.
-Eigen::VectorXd coulomb_column(const UniformLog& log, const RowSetting& setting, int joint);
+/// The columns of viscous and Coulomb friction of joint `joint` (from 0) alone: what its width and its spring
+/// change.
+Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int joint);
 
 /// How far the samples that a row is made of lie from its middle at most, s.
 double reach_s(const RowSetting& setting);

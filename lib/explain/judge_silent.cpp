@@ -28,7 +28,7 @@ constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
 /// Nats by which a joint that is said to be locked moves, but for its spring.
 double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   const BalanceModel& m = fit.model();
-  const double compliance = m.setting.compliance[j];
+  const double compliance = m.compliance(j);
   const VectorXd q = fit.rows().q.col(j)(late), torque = fit.rows().torque.col(j)(late);
   MatrixXd x(q.size(), compliance > 0.0 ? 2 : 1);
   x.col(0).setOnes();

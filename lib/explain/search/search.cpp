@@ -112,7 +112,7 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
 
 Standstill standstill(const LogFit& fit, int j) {
   const BalanceModel& m = fit.model();
-  const double compliance = m.setting.compliance[j];
+  const double compliance = m.compliance(j);
   const VectorXd torque = fit.rows().torque.col(j);
   const double noise = std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
                        gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();

@@ -137,10 +137,13 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
   for (const int lag : kLags) {
     setting.torque_lag = lag;
     const std::vector<BalanceRows> rows = rows_of(logs, setting, rigid);
-    const VectorXd rms = left_rms(rows, plain_fit(rows, layout, used, VectorXd::Ones(n)), n);
-    const double score = rms[0];
-    if (score >= least) continue;
-    least = score;
+    const VectorXd theta = plain_fit(rows, layout, used, VectorXd::Ones(n));
+    const VectorXd rms = left_rms(rows, theta, n);
+    double nats = 0.5 * theta.segment(layout.delay(0), n).squaredNorm() / Eigen::numext::abs2(kDelayStd);
+    for (const BalanceRows& log : rows)
+      for (int j = 0; j < n; ++j) nats += log.rows() * elementary::log(rms[j]);
+    if (nats >= least) continue;
+    least = nats;
     best_lag = lag;
     scale = rms;
   }
@@ -151,7 +154,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
     for (const double width : kWidths) {
       setting.friction_width[j] = width;
       for (std::size_t d = 0; d < logs.size(); ++d)
-        rows[d].column[j].col(layout.coulomb(j)) = coulomb_column(logs[d], setting, j);
+        rows[d].column[j].col(layout.coulomb(j)) = friction_columns(logs[d], setting, j).col(1);
       const double sum = left(rows, plain_fit(rows, layout, used, scale), j).first;
       if (sum >= narrowest) continue;
       narrowest = sum;
@@ -159,7 +162,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
     }
     setting.friction_width[j] = best;
     for (std::size_t d = 0; d < logs.size(); ++d)
-      rows[d].column[j].col(layout.coulomb(j)) = coulomb_column(logs[d], setting, j);
+      rows[d].column[j].col(layout.coulomb(j)) = friction_columns(logs[d], setting, j).col(1);
   }
   return setting;
 }

@@ -8,6 +8,9 @@
 
 namespace faultline {
 
+/// Standard deviation of the delay of a joint's torque beyond the lag of all torques, samples.
+inline constexpr double kDelayStd = 0.3;
+
 /// Whether no log has a velocity that is a second measurement: none, or the difference of the positions.
 /// `logs` have the samples that were recorded, not means.
 bool hold_no_velocity(const std::vector<UniformLog>& logs);
@@ -16,7 +19,7 @@ bool hold_no_velocity(const std::vector<UniformLog>& logs);
 /// precise.
 RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, double row_s);
 
-/// Chooses the lag of the torque, then the friction width of each joint, by what a rigid robot leaves
+/// Chooses the lag of all torques, then the friction width of each joint, by what a rigid robot leaves
 /// unexplained.
 RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const RigidColumns& rigid,
                                       RowSetting setting);

@@ -63,7 +63,8 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
 DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& options) {
   if (round == kWidthsAt[0] || round == kWidthsAt[1]) draft = with_refined_widths(std::move(draft));
   if (round == kRipplesAt && options.ripples) draft = with_ripples(std::move(draft));
-  if (round >= kSpringsFrom && options.springs) draft.model = with_compliance(std::move(draft.model));
+  if (round == kSpringsFrom) draft = with_chosen_springs(std::move(draft));
+  if (round >= kSpringsFrom) draft.model = with_compliance(std::move(draft.model));
   draft = with_rotors(std::move(draft), round >= kRotorsFrom);
   if (round <= kRowsUntil) draft = with_rows(std::move(draft));
   return with_day_columns(std::move(draft));

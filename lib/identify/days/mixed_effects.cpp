@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/identify/days/day_arrow.hpp"
+#include "lib/identify/days/draft_rows.hpp"
 
 namespace faultline {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDelayStd = 0.3;                      // samples
 constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not move
 constexpr double kPieceForce = 9.81;                   // N of 1 kg that may be there or not
 

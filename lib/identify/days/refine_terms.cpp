@@ -15,27 +15,40 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
-constexpr double kStiff = 1e-5;        // rad per N m or m per N: a gear that gives way less is rigid
+constexpr double kClearSpring = 20.0;  // nats, of rows that are not quite independent
 constexpr double kWidthRidge = 1e-12;  // for joints that rest
 
-VectorXd saturated_by(const VectorXd& speed, double width) {
-  return speed.unaryExpr([width](double v) { return elementary::tanh(v / width); });
-}
-
-/// Squares of joint `j` that remain of a day when its friction has this width and level and slope are fitted
-/// anew.
-double left_with_width(const HealthyDay& day, const BalanceModel& m, int j, double width) {
+/// Rows of a day that say what friction there is.
+std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) {
   const std::vector<bool> near = rows_near_change(day, m);
   std::vector<int> rows;
   for (int k = 0; k < day.rows.rows(); ++k)
     if (!day.rows.lost[k] && (near.empty() || !near[k])) rows.push_back(k);
-  const VectorXd all = left_over(day, m.theta).col(j), left = all(rows), speed = day.rows.dq.col(j)(rows);
-  const VectorXd y = left + m.theta[m.layout().coulomb(j)] * saturated_by(speed, m.setting.friction_width[j]);
-  MatrixXd x(speed.size(), 3);
-  x << speed, saturated_by(speed, width), VectorXd::Ones(speed.size());
+  return rows;
+}
+
+/// Squares of joint `j` that remain of a day with the friction width and the spring of `setting`, where level
+/// and slope of the friction are fitted anew.
+double left_with(const HealthyDay& day, const BalanceModel& m, int j, const RowSetting& setting) {
+  const ColumnLayout at = m.layout();
+  const MatrixXd& column = day.rows.column[j];
+  VectorXd y = left_over(day, m.theta).col(j);
+  for (const int p : {at.viscous(j), at.coulomb(j)}) y += m.theta[p] * column.col(p);
+  y += (m.theta[at.spring(j)] - setting.compliance[j]) * column.col(at.spring(j));
+  MatrixXd x(y.size(), 3);
+  x << friction_columns(day.log, setting, j), VectorXd::Ones(y.size());
+  const std::vector<int> rows = rows_of_friction(day, m);
+  x = x(rows, Eigen::all).eval();
+  y = y(rows).eval();
   const MatrixXd square = x.transpose() * x + kWidthRidge * MatrixXd::Identity(3, 3);
   const VectorXd product = x.transpose() * y;
   return y.squaredNorm() - product.dot(square.ldlt().solve(product));
+}
+
+double left_with(const DayDraft& draft, int j, const RowSetting& setting) {
+  double out = 0.0;
+  for (const HealthyDay& day : draft.days) out += left_with(day, draft.model, j, setting);
+  return out;
 }
 
 /// Where the parabola through three points, the middle one the lowest, is lowest.
@@ -51,9 +64,11 @@ DayDraft with_refined_widths(DayDraft draft) {
   const int last = static_cast<int>(kWidthFactors.size()) - 1;
   for (int j = 0; j < m.joints(); ++j) {
     std::array<double, kWidthFactors.size()> left{};
-    for (int k = 0; k <= last; ++k)
-      for (const HealthyDay& day : draft.days)
-        left[k] += left_with_width(day, m, j, kWidthFactors[k] * m.setting.friction_width[j]);
+    for (int k = 0; k <= last; ++k) {
+      RowSetting setting = m.setting;
+      setting.friction_width[j] *= kWidthFactors[k];
+      left[k] = left_with(draft, j, setting);
+    }
     const int best = static_cast<int>(std::min_element(left.begin(), left.end()) - left.begin());
     const auto log_factor = [](int k) { return elementary::log(kWidthFactors[k]); };
     double at = log_factor(best);
@@ -65,11 +80,25 @@ DayDraft with_refined_widths(DayDraft draft) {
   return draft;
 }
 
-BalanceModel with_compliance(BalanceModel m) {
+DayDraft with_chosen_springs(DayDraft draft) {
+  const BalanceModel& m = draft.model;
+  double rows = 0.0;
+  for (const HealthyDay& day : draft.days) rows += static_cast<double>(rows_of_friction(day, m).size());
   for (int j = 0; j < m.joints(); ++j) {
-    const double k = m.theta[m.layout().spring(j)];
-    m.setting.compliance[j] = k > kStiff ? k : 0.0;
+    const int spring = m.layout().spring(j);
+    const auto left = [&](double compliance) {
+      RowSetting setting = m.setting;
+      setting.compliance[j] = compliance;
+      return left_with(draft, j, setting);
+    };
+    draft.used[spring] = draft.used[spring] && m.compliance(j) > 0.0 &&
+                         0.5 * rows * elementary::log(left(0.0) / left(m.compliance(j))) > kClearSpring;
   }
+  return draft;
+}
+
+BalanceModel with_compliance(BalanceModel m) {
+  for (int j = 0; j < m.joints(); ++j) m.setting.compliance[j] = m.compliance(j);
   return m;
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// One joint in closed form: rigid and light, or with a gear that gives way.
+#include "lib/identify/days/fit_days.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lib/core/random.hpp"
+#include "lib/log/memory_source.hpp"
+#include "lib/robot/robot_file.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kStiffness = 3000.0;  // N m/rad
+
+/// A drive and a link, with a spring between them; the encoder sits on the drive, friction acts on the link.
+struct Joint {
+  double drive_inertia = 0.0, link_inertia = 1.2;  ///< kg m^2; without a drive's, the gear is rigid
+  double coulomb = 3.0;                            ///< N m; viscous friction: a third of it a rad/s
+};
+
+constexpr double kWidth = 0.01;  // rad/s
+constexpr double kBandwidth = 12.0;
+
+double friction(double coulomb, double speed) { return coulomb * (std::tanh(speed / kWidth) + speed / 3.0); }
+
+/// A sum of sines followed by a controller on the drive, torque held over a row; white noise.
+Log day(const Joint& joint, double period_s, std::uint64_t seed) {
+  constexpr double kStep_s = 2e-5, kRate[] = {2.1, 4.7, 9.3}, kReach[] = {0.5, 0.2, 0.05};
+  Random random(seed);
+  double phase[3];
+  for (double& p : phase) p = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const bool is_rigid = joint.drive_inertia == 0.0;
+  const double inertia = joint.drive_inertia + joint.link_inertia;
+  double q[2] = {}, dq[2] = {};  // drive, link
+  Log log;
+  log.q.resize(1);
+  log.dq.resize(1);
+  log.tau.resize(1);
+  for (int row = 0; row * period_s < 20.0; ++row) {
+    const double t = row * period_s;
+    double r = 0.0, dr = 0.0, ddr = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      r += kReach[i] * std::sin(kRate[i] * t + phase[i]);
+      dr += kReach[i] * kRate[i] * std::cos(kRate[i] * t + phase[i]);
+      ddr -= kReach[i] * kRate[i] * kRate[i] * std::sin(kRate[i] * t + phase[i]);
+    }
+    const double tau =
+        inertia * (ddr + kBandwidth * kBandwidth * (r - q[0]) + 2.0 * kBandwidth * (dr - dq[0])) +
+        friction(joint.coulomb, dr);
+    log.time.push_back(t);
+    log.q[0].push_back(q[0] + 2e-5 * random.normal());
+    log.dq[0].push_back(dq[0] + 2e-3 * random.normal());
+    log.tau[0].push_back(tau);
+    for (int i = 0; i < std::lround(period_s / kStep_s); ++i) {
+      if (is_rigid) {
+        dq[0] += kStep_s * (tau - friction(joint.coulomb, dq[0])) / inertia;
+      } else {
+        const double spring = kStiffness * (q[0] - q[1]) + 2.0 * (dq[0] - dq[1]);
+        dq[0] += kStep_s * (tau - spring) / joint.drive_inertia;
+        dq[1] += kStep_s * (spring - friction(joint.coulomb, dq[1])) / joint.link_inertia;
+      }
+      for (int k = 0; k < 2; ++k) q[k] += kStep_s * dq[k];
+    }
+  }
+  return log;
+}
+
+BalanceModel fitted(const Joint& joint, double period_s) {
+  std::vector<MemorySource> sources;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) sources.emplace_back(day(joint, period_s, seed), "day");
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  const Robot robot = robot_from_toml("axes = \"R\"\ngravity = [0, 0, -9.81]\n", "robot");
+  return fit_days(logs, parameter_space(robot), {.torque_is_held = true}).model;
+}
+
+TEST(FitDays, ALightRigidJointThatReversesHasNoSpring) {
+  const BalanceModel model = fitted({.link_inertia = 0.004, .coulomb = 0.6}, 0.01);
+  EXPECT_EQ(model.compliance(0), 0.0);
+  EXPECT_EQ(model.setting.compliance[0], 0.0);
+  EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 0.6, 0.01);
+  EXPECT_NEAR(model.theta[model.layout().delay(0)], 0.0, 0.1);
+}
+
+TEST(FitDays, AGearThatGivesWayHasItsCompliance) {
+  const Joint joint{.drive_inertia = 0.05};
+  const BalanceModel model = fitted(joint, 0.002);
+  EXPECT_NEAR(model.compliance(0) * kStiffness, 1.0, 0.2);
+  EXPECT_NEAR(model.setting.compliance[0] / model.compliance(0), 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace faultline
