@@ -56,27 +56,36 @@ struct LayerNumbers {
   int rows, columns;
 };
 
+/// `Count` outputs of a layer from `first` on: each input is loaded once for all of them.
+template <int Width, int Count>
+[[gnu::always_inline]] inline void affine_outputs(const LayerNumbers& layer, int first, const double* in,
+                                                  double* out) {
+  using P = Pack<Width>;
+  constexpr int kSums = Count * P::kCount;  // of output o, vector p at o * P::kCount + p
+  typename P::Type sum[kSums];
+#pragma GCC unroll 12
+  for (int k = 0; k < kSums; ++k) sum[k] = layer.second[first + k / P::kCount] + typename P::Type{};
+  for (int i = 0; i < layer.columns; ++i) {
+    const double* weight = layer.first + i * layer.rows + first;
+#pragma GCC unroll 12
+    for (int k = 0; k < kSums; ++k) {
+      typename P::Type x;
+      P::load(x, in + i * kLanes + k % P::kCount * Width);
+      sum[k] += weight[k / P::kCount] * x;
+    }
+  }
+#pragma GCC unroll 12
+  for (int k = 0; k < kSums; ++k)
+    P::store(out + (first + k / P::kCount) * kLanes + k % P::kCount * Width, sum[k]);
+}
+
 /// `layer`: weights and bias of outputs x inputs.
 template <int Width>
 [[gnu::always_inline]] inline void affine_body(LayerNumbers layer, const double* in, double* out) {
-  const auto [weights, bias, outputs, inputs] = layer;
-  using P = Pack<Width>;
-  for (int o = 0; o < outputs; ++o) {
-    typename P::Type sum[P::kCount];
-#pragma GCC unroll 8
-    for (int p = 0; p < P::kCount; ++p) sum[p] = bias[o] + typename P::Type{};
-    for (int i = 0; i < inputs; ++i) {
-      const double weight = weights[i * outputs + o];
-#pragma GCC unroll 8
-      for (int p = 0; p < P::kCount; ++p) {
-        typename P::Type x;
-        P::load(x, in + i * kLanes + p * Width);
-        sum[p] += weight * x;
-      }
-    }
-#pragma GCC unroll 8
-    for (int p = 0; p < P::kCount; ++p) P::store(out + o * kLanes + p * Width, sum[p]);
-  }
+  constexpr int kTogether = Width / 2;  // as many as the registers of this width hold
+  int o = 0;
+  for (; o + kTogether <= layer.rows; o += kTogether) affine_outputs<Width, kTogether>(layer, o, in, out);
+  for (; o < layer.rows; ++o) affine_outputs<Width, 1>(layer, o, in, out);
 }
 
 /// `layer`: centres and inverse radii of inputs x units.
