@@ -53,20 +53,22 @@ std::vector<Candidate> search_collision(const WhiteSearch& s) {
   std::vector<Candidate> out;
   const LogFit& fit = s.fit;
   const int rows = fit.count();
+  MatrixXd left(fit.joints(), rows), weight(fit.joints(), rows);  // sums from each row on
+  for (int j = 0; j < fit.joints(); ++j) {
+    Stacked push = Stacked::Zero(rows * fit.joints());
+    push.segment(j * rows, rows).setOnes();
+    left.row(j) = sums_from_each_row(s, push, s.left).transpose();
+    weight.row(j) = sums_from_each_row(s, push, push).transpose();
+  }
   for (const double length : kBlows_s) {
     const int m = std::max(1, static_cast<int>(std::lround(length / fit.model().setting.row_s())));
-    VectorXd gain = VectorXd::Zero(rows);
+    const MatrixXd u = over_rows(left, m), w = over_rows(weight, m);
+    Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(rows);
     for (int j = 0; j < fit.joints(); ++j) {
-      const VectorXd y = s.weighted(j);
       const double prior = fit.rows().torque.col(j).squaredNorm() / rows;
-      VectorXd u = VectorXd::Zero(rows), w = VectorXd::Zero(rows);
-      for (int t = 0; t < rows; ++t)
-        for (int i = t; i < std::min(rows, t + m); ++i) {
-          u[t] += y[i];
-          w[t] += s.precision[j] / (fit.std()(i, j) * fit.std()(i, j));
-        }
-      for (int t = 0; t < rows; ++t)
-        gain[t] += 0.5 * u[t] * u[t] / (w[t] + 1.0 / prior) - 0.5 * elementary::log1p(w[t] * prior);
+      const Eigen::ArrayXd left_over = u.row(j).array(), weight_over = w.row(j).array();
+      gain += 0.5 * left_over.square() / (weight_over + 1.0 / prior) -
+              0.5 * (weight_over * prior).unaryExpr(&elementary::log1p);
     }
     append(peaks(fit, {FaultKind::collision, fit.joints()}, gain, 2), out);
   }
@@ -126,7 +128,8 @@ std::vector<Candidate> search(const LogFit& fit) {
   std::vector<Candidate> out;
   for (const LinearFault& fault : fit.linear())
     if (!fault.columns.grow) append(search_linear(s, fault), out);
-  for (int j = 0; j < fit.joints(); ++j) append(search_drift(s, j), out);
+  const InertiaRows inertia = inertia_rows(fit);
+  for (int j = 0; j < fit.joints(); ++j) append(search_drift(s, inertia, j), out);
   append(search_collision(s), out);
   for (int j = 0; j < fit.joints(); ++j) {
     append(search_standstill(fit, j), out);

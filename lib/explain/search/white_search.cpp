@@ -10,95 +10,85 @@
 namespace faultline {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::MatrixXd;
+using Eigen::Ref;
 using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
 constexpr int kFirstOnsetRow = 6;  // rows
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
-/// Normal equations of columns over some rows, with the effects not yet taken away. The sums of many onsets
-/// stand side by side in one matrix, each of them in a column.
-class SwitchedSums {
- public:
-  SwitchedSums(Eigen::Index sizes, Eigen::Index effects, Eigen::Index onsets)
-      : sizes_(sizes), effects_(effects), sums_(MatrixXd::Zero(sizes * (sizes + effects + 1), onsets)) {}
-
-  /// Row `t` added to the sums of one onset.
-  void add_row(const WhiteSearch& s, const StackedColumns& columns, int t, Eigen::Index onset) {
-    const int rows = s.fit.count();
-    Eigen::Map<MatrixXd> square(at(onset), sizes_, sizes_),
-        cross(at(onset) + sizes_ * sizes_, effects_, sizes_);
-    Eigen::Map<VectorXd> vector(at(onset) + sizes_ * (sizes_ + effects_), sizes_);
-    for (int j = 0; j < s.fit.joints(); ++j) {
-      const double std = s.fit.std()(t, j), weight = s.precision[j] / (std * std);
-      for (Eigen::Index a = 0; a < sizes_; ++a) {
-        const double x = columns(j * rows + t, a);
-        if (x == 0.0) continue;
-        for (Eigen::Index b = 0; b < sizes_; ++b) square(b, a) += weight * x * columns(j * rows + t, b);
-        vector[a] += weight * x * s.left[j * rows + t];
-        cross.col(a) += weight * x * s.effects[j].col(t);
-      }
-    }
-  }
-  void begin_with(Eigen::Index onset, Eigen::Index other) { sums_.col(onset) = sums_.col(other); }
-  /// Those of one onset without those of a later one.
-  SwitchedSums between(Eigen::Index onset, Eigen::Index end) const {
-    SwitchedSums out(sizes_, effects_, 1);
-    out.sums_.col(0) = sums_.col(onset) - sums_.col(end);
-    return out;
-  }
-  /// Of the first onset: the matrix without what the effects of the day explain, its quadratic form, the
-  /// vector.
-  MatrixXd without_effects() const { return square() - cross().transpose() * cross(); }
-  double quadratic_form(const VectorXd& of) const {
-    double known = 0.0;
-    for (Eigen::Index e = 0; e < effects_; ++e) known += Eigen::numext::abs2(cross().row(e).dot(of));
-    return of.dot(square().lazyProduct(of)) - known;
-  }
-  Eigen::Map<const VectorXd> vector() const {
-    return Eigen::Map<const VectorXd>(sums_.data() + sizes_ * (sizes_ + effects_), sizes_);
-  }
-
- private:
-  double* at(Eigen::Index onset) { return sums_.data() + onset * sums_.rows(); }
-  Eigen::Map<const MatrixXd> square() const { return {sums_.data(), sizes_, sizes_}; }
-  Eigen::Map<const MatrixXd> cross() const { return {sums_.data() + sizes_ * sizes_, effects_, sizes_}; }
-
-  Eigen::Index sizes_, effects_;
-  MatrixXd sums_;
+/// Normal equations of some columns for an onset at each row.
+struct OnsetEquations {
+  std::vector<MatrixXd> square;  ///< by column a: sums with the columns 0 to a, (a + 1) x onsets
+  std::vector<MatrixXd> cross;   ///< by column: sums with the effects, effects x onsets
+  MatrixXd vector;               ///< of each column with what is left over, columns x onsets
 };
 
-/// Nats by which columns explain more, their sizes and the effects integrated out.
-double gain_of(const SwitchedSums& sums, const VectorXd& variance) {
-  MatrixXd inner = sums.without_effects();
-  inner.diagonal() += variance.cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(inner);
-  double volume = 0.0;
-  for (int i = 0; i < variance.size(); ++i)
-    volume += elementary::log(factor.matrixLLT()(i, i)) + 0.5 * elementary::log(variance[i]);
-  return 0.5 * sums.vector().dot(factor.solve(sums.vector())) - volume;
+OnsetEquations onset_equations(const WhiteSearch& s, const StackedColumns& columns) {
+  OnsetEquations out{{}, {}, MatrixXd(columns.cols(), s.fit.count())};
+  for (Eigen::Index a = 0; a < columns.cols(); ++a) {
+    out.square.emplace_back(a + 1, s.fit.count());
+    for (Eigen::Index b = 0; b <= a; ++b)
+      out.square[a].row(b) = sums_from_each_row(s, columns.col(a), columns.col(b)).transpose();
+    out.cross.push_back(effect_sums_from_each_row(s, columns.col(a)));
+    out.vector.row(a) = sums_from_each_row(s, columns.col(a), s.left).transpose();
+  }
+  return out;
+}
+
+OnsetEquations over_length(const OnsetEquations& all, int length) {
+  OnsetEquations out{{}, {}, over_rows(all.vector, length)};
+  for (const MatrixXd& sums : all.square) out.square.push_back(over_rows(sums, length));
+  for (const MatrixXd& sums : all.cross) out.cross.push_back(over_rows(sums, length));
+  return out;
+}
+
+/// Nats by which columns explain more from each onset on, their sizes and the effects integrated out: a
+/// Cholesky factor of the normal equations of all onsets at once.
+VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance) {
+  const Eigen::Index sizes = variance.size(), onsets = equations.vector.cols();
+  std::vector<std::vector<ArrayXd>> factor(sizes);  // row, column, onset
+  std::vector<ArrayXd> solved;
+  ArrayXd gain = ArrayXd::Zero(onsets);
+  for (Eigen::Index a = 0; a < sizes; ++a) {
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      ArrayXd left = equations.square[a].row(b).array();
+      left -= (equations.cross[a].array() * equations.cross[b].array()).colwise().sum().transpose();
+      for (Eigen::Index k = 0; k < b; ++k) left -= factor[a][k] * factor[b][k];
+      factor[a].push_back(b == a ? ArrayXd((left + 1.0 / variance[a]).sqrt()) : ArrayXd(left / factor[b][b]));
+    }
+    ArrayXd right = equations.vector.row(a).array();
+    for (Eigen::Index k = 0; k < a; ++k) right -= factor[a][k] * solved[k];
+    solved.push_back(right / factor[a][a]);
+    gain += 0.5 * solved[a].square() - factor[a][a].unaryExpr(&elementary::log) -
+            0.5 * elementary::log(variance[a]);
+  }
+  return gain;
 }
 
 }  // namespace
 
 VectorXd WhiteSearch::weighted(int joint) const {
   const int rows = fit.count();
-  return precision[joint] * left.segment(joint * rows, rows).cwiseQuotient(fit.std().col(joint).cwiseAbs2());
+  return weight.segment(joint * rows, rows).cwiseProduct(left.segment(joint * rows, rows));
 }
 
 WhiteSearch white_search(const LogFit& fit) {
-  WhiteSearch out{fit, VectorXd(fit.joints()), {}, {}};
+  const int rows = fit.count();
+  WhiteSearch out{fit, Stacked(rows * fit.joints()), {}, {}};
   MatrixXd a = fit.effect_variance().cwiseInverse().asDiagonal();
   VectorXd b = VectorXd::Zero(a.rows());
   Stacked y = fit.residual();
   if (fit.has_piece()) y -= fit.piece_torque(fit.healthy().piece_level);
   for (int j = 0; j < fit.joints(); ++j) {
-    out.precision[j] = 1.0 / autocovariance(fit.noise().joint[j])[0];
-    const VectorXd inverse = fit.std().col(j).cwiseInverse();
-    const MatrixXd w = inverse.asDiagonal() * fit.effect_columns()[j];
-    a += out.precision[j] * w.transpose() * w;
-    b += out.precision[j] * w.transpose() * y.segment(j * fit.count(), fit.count()).cwiseProduct(inverse);
+    auto weight = out.weight.segment(j * rows, rows);
+    weight = fit.std().col(j).cwiseAbs2().cwiseInverse() / autocovariance(fit.noise().joint[j])[0];
+    const MatrixXd& effects = fit.effect_columns()[j];
+    const MatrixXd weighted = weight.asDiagonal() * effects;
+    a += effects.transpose() * weighted;
+    b += weighted.transpose() * y.segment(j * rows, rows);
   }
   const Eigen::LLT<MatrixXd> factor(a);
   out.left = y - fit.day_torque(factor.solve(b));
@@ -107,30 +97,42 @@ WhiteSearch white_search(const LogFit& fit) {
   return out;
 }
 
-std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& columns,
-                                  const std::vector<int>& lengths) {
+VectorXd sums_from_each_row(const WhiteSearch& s, const Ref<const Stacked>& column,
+                            const Ref<const Stacked>& other) {
   const int rows = s.fit.count();
-  std::vector<VectorXd> out(lengths.size(), VectorXd(rows));
-  SwitchedSums from(columns.column.cols(), s.effects.front().rows(), rows + 1);  // row t and all later rows
-  for (int t = rows - 1; t >= 0; --t) {
-    from.begin_with(t, t + 1);
-    from.add_row(s, columns.column, t, t);
+  VectorXd out = VectorXd::Zero(rows);
+  for (int j = 0; j < s.fit.joints(); ++j) {
+    const auto of_joint = [&](const auto& v) { return v.segment(j * rows, rows).array(); };
+    if ((of_joint(column) == 0.0).all()) continue;
+    out.array() += of_joint(s.weight) * of_joint(column) * of_joint(other);
   }
-  for (std::size_t l = 0; l < lengths.size(); ++l)
-    for (int t = 0; t < rows; ++t)
-      out[l][t] =
-          gain_of(from.between(t, lengths[l] > 0 ? std::min(t + lengths[l], rows) : rows), columns.variance);
+  for (int t = rows - 1; t-- > 0;) out[t] += out[t + 1];
   return out;
 }
 
-VectorXd onset_gains_of_size(const WhiteSearch& s, const StackedColumns& columns, const MatrixXd& size) {
-  VectorXd out(s.fit.count());
-  SwitchedSums sums(columns.cols(), s.effects.front().rows(), 1);
-  for (int t = s.fit.count() - 1; t >= 0; --t) {
-    sums.add_row(s, columns, t, 0);
-    const VectorXd of_onset = size.row(t).transpose();
-    out[t] = of_onset.dot(sums.vector()) - 0.5 * sums.quadratic_form(of_onset);
+MatrixXd effect_sums_from_each_row(const WhiteSearch& s, const Ref<const Stacked>& column) {
+  const int rows = s.fit.count();
+  MatrixXd out = MatrixXd::Zero(s.effects.front().rows(), rows);
+  for (int j = 0; j < s.fit.joints(); ++j) {
+    const VectorXd weighted = s.weight.segment(j * rows, rows).cwiseProduct(column.segment(j * rows, rows));
+    if (!weighted.isZero(0.0)) out += s.effects[j] * weighted.asDiagonal();
   }
+  for (int t = rows - 1; t-- > 0;) out.col(t) += out.col(t + 1);
+  return out;
+}
+
+MatrixXd over_rows(const MatrixXd& sums_from_each_row, int length) {
+  MatrixXd out = sums_from_each_row;
+  const Eigen::Index ended = length > 0 ? std::max<Eigen::Index>(out.cols() - length, 0) : 0;
+  out.leftCols(ended) -= sums_from_each_row.rightCols(ended);
+  return out;
+}
+
+std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& columns,
+                                  const std::vector<int>& lengths) {
+  const OnsetEquations equations = onset_equations(s, columns.column);
+  std::vector<VectorXd> out;
+  for (const int length : lengths) out.push_back(gains_of(over_length(equations, length), columns.variance));
   return out;
 }
 
