@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lib/explain/fault_end.hpp"
+#include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 
@@ -23,8 +24,10 @@ constexpr double kOppositeWithin = 0.3;  // of a false reading's size
 /// One step of the explanation: the faults that explain best what the known ones leave, best first.
 struct NextFault {
   std::vector<ExplainedFault> named;  ///< none where what is left is healthy
-  ExplainedFault unknown{};           ///< the best of them as a fault of no kind
-  ExplainedLog rest{};                ///< what the log says beside the known faults
+  /// By named fault that leaves much: when the log shows it, where it comes and goes.
+  std::vector<std::vector<FaultClaim>> spans{};
+  ExplainedFault unknown{};  ///< the best of them as a fault of no kind
+  ExplainedLog rest{};       ///< what the log says beside the known faults
 };
 
 /// Effects of the day that a person would look at, as far as the motion distinguishes them.
@@ -80,9 +83,12 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
+  for (const ExplainedFault& fault : out.named)
+    out.spans.push_back(leaves_much(fault) ? fault_spans(fit, fault.claim) : std::vector<FaultClaim>{});
   if (out.named.empty() && known.empty())
     if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
       out.named = {*unnamed};
+      out.spans = {{}};
       out.unknown = *unnamed;
       return out;
     }
@@ -91,30 +97,6 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   else
     out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit), .judged_s = judged_s(fit)};
   return out;
-}
-
-/// The fault that explains best what is left; or several that explain it together, where one alone leaves
-/// much; or a fault of no kind where these leave much, too.
-std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceModel& model,
-                                        const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
-                                        const NextFault& next) {
-  const ExplainedFault& alone = next.named.front();
-  // A drive that clips is no known kind: what several known faults explain comes before it.
-  if (suffices(alone) && alone.claim.kind != FaultKind::unknown) return {alone};
-  for (const ExplainedFault& first : next.named) {
-    if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
-    std::vector<FaultClaim> more = known;
-    std::vector<ExplainedFault> together = {first};
-    while (together.size() < kMostTogether) {
-      more.push_back(together.back().claim);
-      const NextFault another = next_fault(log, model, limits, more);
-      if (another.named.empty()) break;
-      together.push_back(another.named.front());
-      if (together.back().claim.kind == FaultKind::unknown) break;
-      if (!leaves_much(together.back())) return together;
-    }
-  }
-  return {suffices(alone) ? alone : next.unknown};
 }
 
 /// Those of `before`, and those of all faults but one.
@@ -154,6 +136,49 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
     ++k;
   }
   return faults;
+}
+
+/// A fault that comes and goes as one of each span, judged beside each other; empty where they leave much,
+/// too.
+std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceModel& model,
+                                           const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+                                           const ExplainedFault& fault,
+                                           const std::vector<FaultClaim>& spans) {
+  if (spans.size() < 2 || spans.size() > kMostFaults) return {};
+  std::vector<ExplainedFault> out;
+  for (const FaultClaim& span : spans) {
+    out.push_back(fault);
+    out.back().claim = span;
+  }
+  out = jointly(log, model, limits, known, std::move(out));
+  return std::none_of(out.begin(), out.end(), &leaves_much) ? out : std::vector<ExplainedFault>{};
+}
+
+/// The fault that explains best what is left; or several that explain it together, where one alone leaves
+/// much; or a fault of no kind where these leave much, too.
+std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceModel& model,
+                                        const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+                                        const NextFault& next) {
+  const ExplainedFault& alone = next.named.front();
+  // A drive that clips is no known kind: what several known faults explain comes before it.
+  if (suffices(alone) && alone.claim.kind != FaultKind::unknown) return {alone};
+  for (std::size_t k = 0; k < next.named.size(); ++k) {
+    const ExplainedFault& first = next.named[k];
+    if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
+    std::vector<ExplainedFault> repeated = repeated_fault(log, model, limits, known, first, next.spans[k]);
+    if (!repeated.empty()) return repeated;
+    std::vector<FaultClaim> more = known;
+    std::vector<ExplainedFault> together = {first};
+    while (together.size() < kMostTogether) {
+      more.push_back(together.back().claim);
+      const NextFault another = next_fault(log, model, limits, more);
+      if (another.named.empty()) break;
+      together.push_back(another.named.front());
+      if (together.back().claim.kind == FaultKind::unknown) break;
+      if (!leaves_much(together.back())) return together;
+    }
+  }
+  return {suffices(alone) ? alone : next.unknown};
 }
 
 /// A false reading within another one of the joint that is its opposite, as two that follow each other: what

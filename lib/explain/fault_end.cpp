@@ -109,7 +109,8 @@ std::optional<double> gone_from(const LogFit& fit, const WithAndWithout& left, d
       absent += 0.5 * (with * with - without * without);
       possible += 0.5 * (with - without) * (with - without);
     }
-    if (absent > enough && absent > kAbsentShare * possible) return since;
+    const bool is_told = absent > enough && absent > kAbsentShare * possible;
+    if (is_told && fit.time_s()[k] >= since + kLeastStay_s) return since;
   }
   return std::nullopt;
 }

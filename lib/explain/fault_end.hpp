@@ -11,6 +11,9 @@ namespace faultline {
 /// Nats of a fault's absence that show its end, by the mean square that is left.
 inline constexpr double kEndEvidence = 50.0;
 inline constexpr double kLeastFault_s = 0.1;  ///< behind an onset, before which no end is looked for
+/// Of a fault that stays for a while and ends, and of the time for which it is gone: where a joint comes to
+/// rest, a row or two may look as if it were.
+inline constexpr double kLeastStay_s = 0.25;
 
 /// Whitened rows of a log, explained with a fault and without it.
 struct WithAndWithout {

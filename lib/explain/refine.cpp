@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 
 constexpr double kSameFault_s = 0.3;
 constexpr double kLeastGain = 0.1;      // nats by which a move explains more
-constexpr double kLeastStay_s = 0.25;   // of a fault that stays for a while and ends
 constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
 constexpr int kMovesOfOnset = 40;
 constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
@@ -63,12 +62,19 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   return best;
 }
 
+/// Rows with the fault and without it, by effects of the day as the rows before its onset show them: where a
+/// fault ends and the hypothesis does not, the effects that it estimates are bent.
+WithAndWithout by_earlier_effects(const LogFit& fit, const FaultHypothesis& h) {
+  const Stacked shift = fit.white_effects() * (h.fit.day - fit.day_before(h.onset_s));
+  return {h.fit.left + shift, fit.left_without_fault(h.fit) + shift};
+}
+
 /// The hypothesis with an end, where the log shows that the fault is gone; it takes the place of the one
 /// without.
 void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   if (silences(h.kind) || h.end_s < kNeverEnds) return;
   const std::optional<double> end_s =
-      gone_from(bench.fit, {h.fit.left, bench.fit.left_without_fault(h.fit)}, h.onset_s + kLeastFault_s);
+      gone_from(bench.fit, by_earlier_effects(bench.fit, h), h.onset_s + kLeastFault_s);
   if (!end_s) return;
   FaultClaim claim = h;
   claim.end_s = *end_s;

@@ -12,6 +12,7 @@
 namespace faultline {
 namespace {
 
+using testing::changed;
 using testing::ClosedFormRun;
 using testing::ClosedFormScara;
 using testing::fit_of;
@@ -20,18 +21,8 @@ using testing::on_grid;
 using testing::run_of;
 using testing::scara_model;
 using testing::simulate_closed_form;
-
-/// The log with changes of its rows from `onset_s` until `end_s`.
-template <typename Change>
-Log changed(Log log, double onset_s, double end_s, Change change) {
-  for (int k = 0; k < log.rows(); ++k)
-    if (log.time[k] >= onset_s && log.time[k] < end_s) change(log, k);
-  return log;
-}
-
-Log with_loss(Log log, int joint, double share, double onset_s, double end_s = kNeverEnds) {
-  return changed(std::move(log), onset_s, end_s, [=](Log& l, int k) { l.tau[joint - 1][k] /= 1.0 - share; });
-}
+using testing::with_loss;
+using testing::with_loss_but_for_a_second;
 
 std::vector<ExplainedFault> faults_of(Log log) {
   return explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({})).faults;
@@ -111,6 +102,18 @@ TEST(ExplainFaults, ALostTorqueThatComesTwiceIsTwoFaults) {
       EXPECT_NEAR(claim.end_s, onset_s + kLasts_s, 0.05);
       EXPECT_NEAR(claim.size[0], 0.6, 0.05);
     }
+  }
+}
+
+TEST(ExplainFaults, ALostTorqueThatIsGoneForASecondIsTwoFaults) {
+  for (const std::uint64_t seed : {26, 28, 29, 30}) {
+    const auto faults = faults_of(with_loss_but_for_a_second(seed));
+    ASSERT_EQ(faults.size(), 2u) << said(faults);
+    EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+    EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+    EXPECT_NEAR(faults[0].claim.onset_s, 3.5, 0.05);
+    EXPECT_NEAR(faults[0].claim.end_s, 5.5, 0.05);
+    EXPECT_NEAR(faults[1].claim.onset_s, 6.5, 0.05);
   }
 }
 

@@ -59,4 +59,24 @@ inline UniformLog on_grid(Log log) {
 
 inline LogFit fit_of(Log log) { return {on_grid(std::move(log)), scara_model()}; }
 
+/// The log with changes of its rows from `onset_s` until `end_s`.
+template <typename Change>
+Log changed(Log log, double onset_s, double end_s, Change change) {
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] >= onset_s && log.time[k] < end_s) change(log, k);
+  return log;
+}
+
+/// The log of a drive that loses a share of its torque.
+inline Log with_loss(Log log, int joint, double share, double onset_s, double end_s = kNeverEnds) {
+  return changed(std::move(log), onset_s, end_s, [=](Log& l, int k) { l.tau[joint - 1][k] /= 1.0 - share; });
+}
+
+/// A loose contact: half of the torque of joint 1 is lost from 3.5 s on, but not from 5.5 to 6.5 s.
+inline Log with_loss_but_for_a_second(std::uint64_t seed) {
+  ClosedFormRun run = run_of(seed);
+  run.duration_s = 12.0;
+  return with_loss(with_loss(simulate_closed_form(of_day(0), run), 1, 0.5, 3.5, 5.5), 1, 0.5, 6.5);
+}
+
 }  // namespace faultline::testing

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/fault_spans.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/explain/fault_end.hpp"
+#include "lib/explain/search/white_search.hpp"
+
+namespace faultline {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kRounds = 6;
+
+/// From when to when the fault is present.
+struct Span {
+  double onset_s = 0.0, end_s = kNeverEnds;
+
+  bool operator==(const Span&) const = default;
+};
+
+/// The sizes of a fault and the effects of the day while it is present in some spans.
+struct SpanFit {
+  VectorXd size;
+  Stacked absent;       ///< whitened rows without the fault
+  double square = 1.0;  ///< mean square of what is left
+};
+
+SpanFit fit_of(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+  FaultColumns columns = fault.columns;
+  columns.column.setZero();
+  for (const Span& span : spans)
+    columns.column += fit.between(fault.columns, span.onset_s, span.end_s).column;
+  const Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, spans.front().onset_s);
+  return {e.size, fit.left_without_fault(e), e.mean_square()};
+}
+
+/// Nats, by row, by which the row is more likely without the fault than with it.
+VectorXd evidence_of_absence(const LogFit& fit, const StackedColumns& white, const SpanFit& by) {
+  const Stacked torque = white * by.size;
+  VectorXd out = VectorXd::Zero(fit.count());
+  for (int k = 0; k < fit.count(); ++k)
+    for (int j = 0; j < fit.joints(); ++j) {
+      const Eigen::Index at = j * fit.count() + k;
+      const double absent = by.absent[at], present = absent - torque[at];
+      if (!std::isnan(absent)) out[k] += 0.5 * (present * present - absent * absent);
+    }
+  return out;
+}
+
+/// By row, whether the fault is present: the most likely states together, each change of which costs
+/// `price` nats. It is absent in the rows before `first`.
+std::vector<bool> likely_states(const VectorXd& absence, int first, double price) {
+  const Eigen::Index rows = absence.size();
+  std::array<double, 2> cost = {0.0, price};  // absent, present
+  std::vector<std::array<bool, 2>> has_changed(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const std::array<double, 2> before = cost;
+    for (const int state : {0, 1}) {
+      const double stays = before[state], changes = before[1 - state] + price;
+      has_changed[k][state] = changes < stays;
+      cost[state] = std::min(stays, changes);
+    }
+    cost[0] -= absence[k];
+    if (k < first) cost[1] = cost[0] + price;
+  }
+  std::vector<bool> out(rows);
+  int state = cost[1] < cost[0] ? 1 : 0;
+  for (Eigen::Index k = rows - 1; k >= 0; --k) {
+    out[k] = state == 1;
+    if (has_changed[k][state]) state = 1 - state;
+  }
+  return out;
+}
+
+/// The spans of the states; moments shorter than kLeastStay_s belong to what surrounds them.
+std::vector<Span> spans_of(const LogFit& fit, const std::vector<bool>& present) {
+  std::vector<Span> out;
+  const double half_s = 0.5 * fit.model().setting.row_s();
+  for (int k = 0; k < fit.count(); ++k) {
+    const bool was = k > 0 && present[k - 1];
+    if (present[k] && !was) {
+      const double onset_s = fit.time_s()[k] - half_s;
+      if (!out.empty() && onset_s - out.back().end_s < kLeastStay_s)
+        out.back().end_s = kNeverEnds;
+      else
+        out.push_back({onset_s, kNeverEnds});
+    }
+    if (!present[k] && was) out.back().end_s = fit.time_s()[k] - half_s;
+  }
+  std::erase_if(out, [](const Span& span) { return span.end_s - span.onset_s < kLeastStay_s; });
+  return out;
+}
+
+}  // namespace
+
+std::vector<FaultClaim> fault_spans(const LogFit& fit, const FaultClaim& claim) {
+  const LinearFault* fault = linear_of(fit.linear(), claim);
+  if (fault == nullptr || claim.grows) return {};
+  const StackedColumns white = fit.whitened(fault->columns.column);
+  const int first = std::max(1, fit.first_row(fit.time_s()[0] + kLead_s));
+  std::vector<Span> spans = {{claim.onset_s, claim.end_s}};
+  SpanFit by = fit_of(fit, *fault, spans);
+  for (int round = 0; round < kRounds; ++round) {
+    const double price = kEndEvidence * std::max(1.0, by.square);
+    std::vector<Span> next = spans_of(fit, likely_states(evidence_of_absence(fit, white, by), first, price));
+    if (next.empty()) return {};
+    const bool is_settled = next == spans;
+    spans = std::move(next);
+    by = fit_of(fit, *fault, spans);
+    if (is_settled) break;
+  }
+  std::vector<FaultClaim> out;
+  for (const Span& span : spans) {
+    out.push_back(claim);
+    out.back().onset_s = span.onset_s;
+    out.back().end_s = span.end_s;
+    out.back().size = by.size;
+  }
+  return out;
+}
+
+}  // namespace faultline

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The spans of a fault that comes and goes, of a robot in closed form.
+#include "lib/explain/fault_spans.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/explain/explained_scara.hpp"
+
+namespace faultline {
+namespace {
+
+using testing::fit_of;
+using testing::of_day;
+using testing::run_of;
+using testing::simulate_closed_form;
+using testing::with_loss_but_for_a_second;
+
+TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
+  const LogFit fit = fit_of(with_loss_but_for_a_second(26));
+  for (const FaultClaim& claim :
+       {FaultClaim{FaultKind::torque_loss, 1, 3.5}, FaultClaim{FaultKind::torque_loss, 1, 6.6}}) {
+    const std::vector<FaultClaim> spans = fault_spans(fit, claim);
+    ASSERT_EQ(spans.size(), 2u);
+    EXPECT_NEAR(spans[0].onset_s, 3.5, 0.05);
+    EXPECT_NEAR(spans[0].end_s, 5.5, 0.05);
+    EXPECT_NEAR(spans[1].onset_s, 6.5, 0.05);
+    EXPECT_EQ(spans[1].end_s, kNeverEnds);
+    EXPECT_NEAR(spans[0].size[0], 0.5, 0.02);
+  }
+}
+
+TEST(FaultSpans, AFaultThatAHealthyLogDoesNotShowHasNone) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(26)));
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1, 3.5}).empty());
+}
+
+TEST(FaultSpans, AFaultThatIsNotLinearHasNone) {
+  const LogFit fit = fit_of(with_loss_but_for_a_second(26));
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1, 3.5}).empty());
+}
+
+}  // namespace
+}  // namespace faultline
