@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "lib/core/random.hpp"
+
 namespace faultline {
 namespace {
 
@@ -38,6 +40,17 @@ TEST(SampleGrid, ExactStampsStandWhereTheyAre) {
 TEST(SampleGrid, StampsThatWobbleByHalfAPeriodLoseNoRow) {
   const std::vector<double> error_ms{0.0, 0.8, -0.7, 0.0, 1.0, 0.2, -0.9};
   EXPECT_EQ(sample_grid(stamps(counted(200), error_ms), kPeriod_s).point, counted(200));
+}
+
+TEST(SampleGrid, TheUsualStepOfStampsThatWobbleNeedNotBeThePeriod) {
+  Random random(3);
+  std::vector<double> time;
+  for (int k = 0; k < 2500; ++k) time.push_back(kPeriod_s * (k + 0.1 * random.normal()));
+  for (const double off : {-0.01, -0.004, 0.004, 0.01}) {
+    const SampleGrid grid = sample_grid(time, (1.0 + off) * kPeriod_s);
+    EXPECT_EQ(grid.point, counted(2500)) << off;
+    EXPECT_NEAR(grid.period_s, kPeriod_s, 1e-5 * kPeriod_s);
+  }
 }
 
 TEST(SampleGrid, LostRowsLeaveTheirPointsFree) {
