@@ -138,20 +138,22 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
   return faults;
 }
 
-/// A fault that comes and goes as one of each span, judged beside each other; empty where they leave much,
-/// too.
+/// The first of the named faults that comes and goes and so explains the log, as a fault in each of its
+/// spans, judged beside each other; empty where none does.
 std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceModel& model,
                                            const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
-                                           const ExplainedFault& fault,
-                                           const std::vector<FaultClaim>& spans) {
-  if (spans.size() < 2 || spans.size() > kMostFaults) return {};
-  std::vector<ExplainedFault> out;
-  for (const FaultClaim& span : spans) {
-    out.push_back(fault);
-    out.back().claim = span;
+                                           const NextFault& next) {
+  for (std::size_t k = 0; k < next.named.size(); ++k) {
+    if (next.spans[k].size() < 2 || next.spans[k].size() > kMostFaults) continue;
+    std::vector<ExplainedFault> out;
+    for (const FaultClaim& span : next.spans[k]) {
+      out.push_back(next.named[k]);
+      out.back().claim = span;
+    }
+    out = jointly(log, model, limits, known, std::move(out));
+    if (std::none_of(out.begin(), out.end(), &leaves_much)) return out;
   }
-  out = jointly(log, model, limits, known, std::move(out));
-  return std::none_of(out.begin(), out.end(), &leaves_much) ? out : std::vector<ExplainedFault>{};
+  return {};
 }
 
 /// The fault that explains best what is left; or several that explain it together, where one alone leaves
@@ -162,17 +164,19 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
   const ExplainedFault& alone = next.named.front();
   // A drive that clips is no known kind: what several known faults explain comes before it.
   if (suffices(alone) && alone.claim.kind != FaultKind::unknown) return {alone};
-  for (std::size_t k = 0; k < next.named.size(); ++k) {
-    const ExplainedFault& first = next.named[k];
+  std::vector<ExplainedFault> repeated = repeated_fault(log, model, limits, known, next);
+  if (!repeated.empty()) return repeated;
+  for (const ExplainedFault& first : next.named) {
     if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
-    std::vector<ExplainedFault> repeated = repeated_fault(log, model, limits, known, first, next.spans[k]);
-    if (!repeated.empty()) return repeated;
     std::vector<FaultClaim> more = known;
     std::vector<ExplainedFault> together = {first};
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
       const NextFault another = next_fault(log, model, limits, more);
       if (another.named.empty()) break;
+      // Beside a part of a fault that comes and goes the other parts are easier to find.
+      repeated = repeated_fault(log, model, limits, known, another);
+      if (!repeated.empty()) return repeated;
       together.push_back(another.named.front());
       if (together.back().claim.kind == FaultKind::unknown) break;
       if (!leaves_much(together.back())) return together;

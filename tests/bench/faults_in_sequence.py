@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Grave faults after other faults, faults that come twice, two at once: simulates, learns, diagnoses, prints.
+"""Grave faults after other faults, faults that come twice or are gone for a while, two at once.
+
+Simulates, learns, diagnoses, prints.
 
 Usage: faults_in_sequence.py     called by faults_in_sequence.sh
 """
@@ -33,6 +35,12 @@ PAIRS = [
     (("free_swinging", 3, 0.0, ""), ("locked", 2)),
 ]
 TWICE = [("torque_loss", 1, 0.5), ("friction_increase", 2, 4.0), ("sensor_bias", 1, 0.03)]
+LOOSE = [
+    ("torque_loss", 1, 0.5, ""), ("torque_loss", 2, 0.4, ""), ("torque_loss", 3, 0.3, ""),
+    ("friction_increase", 1, 5.0, "viscous = 1.5"), ("friction_increase", 2, 4.0, "viscous = 1.5"),
+    ("sensor_bias", 1, 0.03, ""), ("sensor_bias", 2, 0.03, ""), ("free_swinging", 2, 0.0, ""),
+]
+GONE_FROM_S, GONE_S = 4.2137, 2.0
 AT_ONCE = [
     (("torque_loss", 3, 0.3, ""), ("locked", 1, 0.0, "")),
     (("sensor_bias", 3, 0.006, ""), ("free_swinging", 2, 0.0, "")),
@@ -70,6 +78,10 @@ def cases():
     for i, pair in enumerate(AT_ONCE):
         text = "".join(event(kind, joint, SECOND_S, size, more) for kind, joint, size, more in pair)
         out.append((f"at_once_{i + 1}", [(kind, joint, SECOND_S, None) for kind, joint, _, _ in pair], text))
+    for i, (kind, joint, size, more) in enumerate(LOOSE):
+        length, again_s = f"duration_s = {GONE_FROM_S - FIRST_S}\n", GONE_FROM_S + GONE_S
+        text = event(kind, joint, FIRST_S, size, length + more) + event(kind, joint, again_s, size, more)
+        out.append((f"loose_{i + 1}", [(kind, joint, FIRST_S, GONE_FROM_S), (kind, joint, again_s, None)], text))
     return out
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# A grave fault after another fault, one that comes twice, two at once: simulated at 500 Hz, diagnosed with a model
+# A grave fault after another fault, one that comes twice or is gone for a while, two at once: simulated at 500 Hz, diagnosed with a model
 # of three healthy logs. Takes two minutes on two cores.
 # Usage: bash tests/bench/faults_in_sequence.sh
 set -euo pipefail
