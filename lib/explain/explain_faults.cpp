@@ -24,7 +24,7 @@ constexpr double kOppositeWithin = 0.3;  // of a false reading's size
 /// One step of the explanation: the faults that explain best what the known ones leave, best first.
 struct NextFault {
   std::vector<ExplainedFault> named;  ///< none where what is left is healthy
-  /// By named fault that leaves much: when the log shows it, where it comes and goes.
+  /// By named fault: when the log shows it, where it comes and goes.
   std::vector<std::vector<FaultClaim>> spans{};
   ExplainedFault unknown{};  ///< the best of them as a fault of no kind
   ExplainedLog rest{};       ///< what the log says beside the known faults
@@ -83,8 +83,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
-  for (const ExplainedFault& fault : out.named)
-    out.spans.push_back(leaves_much(fault) ? fault_spans(fit, fault.claim) : std::vector<FaultClaim>{});
+  for (const ExplainedFault& fault : out.named) out.spans.push_back(fault_spans(fit, fault.claim));
   if (out.named.empty() && known.empty())
     if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
       out.named = {*unnamed};
@@ -138,12 +137,12 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
   return faults;
 }
 
-/// The first of the named faults that comes and goes and so explains the log, as a fault in each of its
-/// spans, judged beside each other; empty where none does.
+/// The first of the `most` best named faults that comes and goes and so explains the log, as a fault in each
+/// of its spans, judged beside each other; empty where none does.
 std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceModel& model,
                                            const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
-                                           const NextFault& next) {
-  for (std::size_t k = 0; k < next.named.size(); ++k) {
+                                           const NextFault& next, std::size_t most) {
+  for (std::size_t k = 0; k < most; ++k) {
     if (next.spans[k].size() < 2 || next.spans[k].size() > kMostFaults) continue;
     std::vector<ExplainedFault> out;
     for (const FaultClaim& span : next.spans[k]) {
@@ -151,7 +150,7 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
       out.back().claim = span;
     }
     out = jointly(log, model, limits, known, std::move(out));
-    if (std::none_of(out.begin(), out.end(), &leaves_much)) return out;
+    if (out.size() > 1 && std::none_of(out.begin(), out.end(), &leaves_much)) return out;
   }
   return {};
 }
@@ -163,9 +162,11 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
                                         const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
   // A drive that clips is no known kind: what several known faults explain comes before it.
-  if (suffices(alone) && alone.claim.kind != FaultKind::unknown) return {alone};
-  std::vector<ExplainedFault> repeated = repeated_fault(log, model, limits, known, next);
+  const bool is_enough = suffices(alone) && alone.claim.kind != FaultKind::unknown;
+  std::vector<ExplainedFault> repeated =
+      repeated_fault(log, model, limits, known, next, is_enough ? 1 : next.named.size());
   if (!repeated.empty()) return repeated;
+  if (is_enough) return {alone};
   for (const ExplainedFault& first : next.named) {
     if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
@@ -175,7 +176,7 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
       const NextFault another = next_fault(log, model, limits, more);
       if (another.named.empty()) break;
       // Beside a part of a fault that comes and goes the other parts are easier to find.
-      repeated = repeated_fault(log, model, limits, known, another);
+      repeated = repeated_fault(log, model, limits, known, another, another.named.size());
       if (!repeated.empty()) return repeated;
       together.push_back(another.named.front());
       if (together.back().claim.kind == FaultKind::unknown) break;
