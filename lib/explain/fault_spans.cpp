@@ -52,7 +52,7 @@ VectorXd evidence_of_absence(const LogFit& fit, const StackedColumns& white, con
 }
 
 /// By row, whether the fault is present: the most likely states together, each change of which costs
-/// `price` nats. It is absent in the rows before `first`.
+/// `price` nats. It begins with the row before `first` at the earliest.
 std::vector<bool> likely_states(const VectorXd& absence, int first, double price) {
   const Eigen::Index rows = absence.size();
   std::array<double, 2> cost = {0.0, price};  // absent, present
@@ -65,7 +65,9 @@ std::vector<bool> likely_states(const VectorXd& absence, int first, double price
       cost[state] = std::min(stays, changes);
     }
     cost[0] -= absence[k];
-    if (k < first) cost[1] = cost[0] + price;
+    if (k >= first) continue;
+    cost[1] = cost[0] + price;
+    has_changed[k][1] = true;
   }
   std::vector<bool> out(rows);
   int state = cost[1] < cost[0] ? 1 : 0;

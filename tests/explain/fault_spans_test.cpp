@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lib/explain/search/white_search.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
@@ -13,6 +14,7 @@ using testing::fit_of;
 using testing::of_day;
 using testing::run_of;
 using testing::simulate_closed_form;
+using testing::with_loss;
 using testing::with_loss_but_for_a_second;
 
 TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
@@ -27,6 +29,13 @@ TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
     EXPECT_EQ(spans[1].end_s, kNeverEnds);
     EXPECT_NEAR(spans[0].size[0], 0.5, 0.02);
   }
+}
+
+TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsBehindTheLead) {
+  const LogFit fit = fit_of(with_loss(simulate_closed_form(of_day(0), run_of(26)), 1, 0.5, 0.0, 4.0));
+  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 1, 0.6});
+  ASSERT_EQ(spans.size(), 1u);
+  EXPECT_NEAR(spans[0].onset_s, kLead_s, 0.1);
 }
 
 TEST(FaultSpans, AFaultThatAHealthyLogDoesNotShowHasNone) {
