@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "lib/explain/fault_end.hpp"
@@ -148,6 +149,7 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
     for (const FaultClaim& span : next.spans[k]) {
       out.push_back(next.named[k]);
       out.back().claim = span;
+      out.back().misfit = std::numeric_limits<double>::infinity();  // until it is judged
     }
     out = jointly(log, model, limits, known, std::move(out));
     if (out.size() > 1 && std::none_of(out.begin(), out.end(), &leaves_much)) return out;
