@@ -22,7 +22,7 @@ struct Span {
   bool operator==(const Span&) const = default;
 };
 
-/// The sizes of a fault and the effects of the day while it is present in some spans.
+/// The log explained by a fault that is present in some spans.
 struct SpanFit {
   VectorXd size;
   Stacked absent;       ///< whitened rows without the fault

@@ -52,8 +52,8 @@ Impulse impulse_of(const WhiteSearch& s, const InertiaRows& all, int j) {
   return {std::move(vector), std::move(square)};
 }
 
-/// Torques that a drift of 1 rad/s since the first row changes by its position, and what an onset at a later
-/// time takes back of them: `slope` times that time.
+/// Changes of the torques by a position that is off: by 1 rad or m (`slope`), and by 1 rad or m more in each
+/// second since the first row (`growing`). A drift that begins at time t is `growing` - t `slope`.
 struct DriftingPosition {
   Stacked growing, slope;
 };
