@@ -7,8 +7,10 @@
 
 namespace faultline {
 
-/// The robot's own numbers by least squares of momentum differences between neighbouring samples: a start,
-/// biased by noise and by the coarse rate. Each joint counts by its usual torque.
-Eigen::VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& model);
+/// The robot's own numbers (MotionLayout::learned()) to start a fit from: those of momentum differences
+/// between neighbouring samples or the identified ones, whichever predict the readings of these logs better.
+Eigen::VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& model,
+                             const Eigen::VectorXd& identified_base,
+                             const std::vector<Friction<double>>& identified_friction);
 
 }  // namespace faultline

@@ -22,23 +22,23 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnfelt = 1e-9;         // of the squares of a torque: rounding
-constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
-constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
-constexpr int kDoubtRounds = 7;
-constexpr int kNoiseFrom = 2;           // round from which the readings' noise is learned
-constexpr double kLeastReading = 1e-5;  // rad, m, rad/s or m/s: rounding of what a log holds
-constexpr double kFree = 100.0;         // SI units: prior standard deviation of a parameter's step
-constexpr double kKeptInertia = 0.3;    // of the inertia before: what one step may leave of it
-constexpr int kStepHalvings = 8;        // of a step that leaves less
-constexpr int kInertiaRows = 40;        // of each log that the inertia is looked at in
-constexpr double kDayInertia = 1e-3;    // relative: how much masses differ by day at least
-constexpr double kDayFriction = 0.02;   // relative
-constexpr double kDayForce = 1e-3;      // of the usual torque
-constexpr double kDayGain = 1e-3;       // relative
-constexpr double kNoGain = 1e-5;        // of a slide along gravity: its gain looks like its mass
-constexpr double kCoarseUnseen = 2.0;   // times the variance between the days that were seen
-constexpr double kSpeedQuantile = 0.995;
+constexpr double kUnfelt = 1e-9;          // of the squares of a torque: rounding
+constexpr double kFrictionWidth = 0.01;   // rad/s or m/s: steep against the speeds of a sample
+constexpr double kFirstDoubt = 0.3;       // of the usual torque, halved each round: a start that is wrong
+constexpr int kDoubtRounds = 7;           // with that doubt: the last one has 0.5 % of the usual torque
+constexpr int kNoiseFrom = 2;             // round from which the readings' noise is learned
+constexpr double kLeastReading = 1e-5;    // rad, m, rad/s or m/s: rounding of what a log holds
+constexpr double kFree = 100.0;           // SI units: prior standard deviation of a parameter's step
+constexpr double kKeptInertia = 0.3;      // of the inertia before: what one step may leave of it
+constexpr int kStepHalvings = 8;          // of a step that leaves less
+constexpr int kInertiaRows = 40;          // of each log that the inertia is looked at in
+constexpr double kDayInertia = 1e-3;      // relative: how much masses differ by day at least
+constexpr double kDayFriction = 0.02;     // relative
+constexpr double kDayForce = 1e-3;        // of the usual torque
+constexpr double kDayGain = 1e-3;         // relative
+constexpr double kNoGain = 1e-5;          // of a slide along gravity: its gain looks like its mass
+constexpr double kCoarseUnseen = 2.0;     // times the variance between the days that were seen
+constexpr double kSpeedQuantile = 0.995;  // of a joint's speed: 1 row in 200 exceeds the top speed
 
 /// The columns of a space that links have a part in: a rotor's inertia is not told at coarse rates.
 std::vector<int> of_links(const RigidColumns& rigid) {
@@ -241,7 +241,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.setting.torque_is_held = options.torque_is_held;
   take_looks(logs, m);
   m.reading_variance = first_reading_variance(logs);
-  m.theta = coarse_start(logs, m);
+  m.theta = coarse_start(logs, m, parameters_of(space, robot.chain, 0.0)(kept), robot.chain.friction);
   const MotionLayout at = m.layout();
   const VectorXd least = least_day_variance(m);
   VectorXd between = least;

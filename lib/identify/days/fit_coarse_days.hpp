@@ -17,8 +17,9 @@ struct CoarseFitOptions {
 /// The robot, what differs by day and the noise of its readings from healthy logs of one coarse rate, without
 /// a derivative: the parameters and effects of each day that make the innovations of the one-step prediction
 /// smallest, about trajectories that are smoothed in turn; the variance of the effects and the noise that the
-/// smoothed trajectories leave (expectation and maximisation). `robot` says which lengths are known, `space`
-/// gives base parameters.
+/// smoothed trajectories leave (expectation and maximisation). `robot` says which lengths are known,
+/// and where it predicts the logs better than momentum differences do, it is the start; `space` gives base
+/// parameters.
 OneStepModel fit_coarse_days(std::span<LogSource* const> logs, const Robot& robot,
                              const ParameterSpace& space, const CoarseFitOptions& options = {});
 

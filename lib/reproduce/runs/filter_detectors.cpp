@@ -2,7 +2,7 @@
 #include "lib/reproduce/runs/filter_detectors.hpp"
 
 #include "lib/reproduce/runs/criterion_sweep.hpp"
-#include "lib/reproduce/runs/filter_watch.hpp"
+#include "lib/reproduce/runs/free_joint_filter.hpp"
 #include "lib/reproduce/runs/product_detector.hpp"
 
 namespace faultline {
@@ -12,11 +12,11 @@ namespace {
 const std::vector<double> kThresholds = {7, 10, 14, 20, 28, 40, 56, 80, 110, 160, 220};
 constexpr double kName_s = 0.6;
 
-std::vector<AlarmScore> scores(const MotionModel& model, std::span<const ExperimentRun> runs,
+std::vector<AlarmScore> scores(const FilteredRobot& robot, std::span<const ExperimentRun> runs,
                                const std::vector<double>& thresholds) {
   std::vector<AlarmScore> scores(thresholds.size());
   for (const ExperimentRun& run : runs) {
-    const auto alarms = watch_free_joints(model, run.log, {thresholds, kName_s});
+    const auto alarms = free_joint_alarms(robot, run.log, {thresholds, kName_s});
     for (std::size_t i = 0; i < alarms.size(); ++i) scores[i].add(run, alarms[i]);
   }
   return scores;
@@ -24,11 +24,11 @@ std::vector<AlarmScore> scores(const MotionModel& model, std::span<const Experim
 
 }  // namespace
 
-DetectorResult watch_with_filters(const std::string& detector, const MotionModel& model,
+DetectorResult watch_with_filters(const std::string& detector, const FilteredRobot& robot,
                                   std::span<const ExperimentRun> tuning,
                                   std::span<const ExperimentRun> test) {
-  const double threshold = kThresholds[choose_setting(scores(model, tuning, kThresholds))];
-  return {detector, decision_name::kLogOdds, threshold, scores(model, test, {threshold}).front()};
+  const double threshold = kThresholds[choose_setting(scores(robot, tuning, kThresholds))];
+  return {detector, decision_name::kLogOdds, threshold, scores(robot, test, {threshold}).front()};
 }
 
 std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test) {

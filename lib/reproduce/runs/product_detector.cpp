@@ -6,22 +6,16 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
-#include "lib/evidence/usual_motion.hpp"
+#include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/monitor/monitor.hpp"
-#include "lib/reproduce/filter/match_noise.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kHealthyLogs = 3;
 constexpr std::uint64_t kDetectorNoise = 100;
-constexpr int kMatchedRows = 2000;
-constexpr int kHealthyRuns = 10;      // simulated to calibrate the threshold
-constexpr double kLeastSigma = 1e-5;  // a filter needs some measurement noise
-constexpr double kSafety = 1.25;      // other days are worse than those that the noise was matched to
-// Floors that keep a model of perfect logs from trusting itself too much.
-constexpr double kLeastTorqueShare = 0.003, kLeastRestShare = 0.05;
+constexpr int kHealthyRuns = 10;  // simulated to calibrate the threshold
 
 /// Healthy logs as the stages read them.
 class Sources {
@@ -37,7 +31,7 @@ class Sources {
   std::vector<LogSource*> pointers_;
 };
 
-/// With noise of a tenth of the range shooting creeps on for long without a gain that the filters feel.
+/// With noise of a tenth of the range shooting creeps on for long without a gain that the detectors feel.
 IdentifyOptions identify_options() {
   IdentifyOptions options;
   options.threads = 1;
@@ -85,28 +79,24 @@ Identification identify_robot(const HealthyLogs& healthy) {
   return identify(sources.all(), healthy.robot, identify_options());
 }
 
-MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,
-                            double sigma) {
-  IdentifiedMotion motion;
-  motion.chain = chain;
-  motion.torque_is_held = is_held(healthy.robot);
-  motion.torque_phi = motion.torque_is_held ? 0.0 : 0.5;
-  for (int j = 0; j < chain.joints(); ++j) {
-    motion.q_std.push_back(std::max(sigma, kLeastSigma) * ranges.q[j]);
-    motion.dq_std.push_back(std::max(sigma, kLeastSigma) * ranges.dq[j]);
-  }
+OneStepModel known_steps(const Robot& robot, const HealthyLogs& healthy) {
   const Sources sources(healthy);
-  MotionModel model = usual_motion(sources.all(), motion);
-  std::vector<HealthyExcerpt> excerpts;
-  const int each = kMatchedRows / static_cast<int>(healthy.logs.size());
-  for (const Log& log : healthy.logs) excerpts.push_back({slice(log, 0, std::min(log.rows(), each))});
-  match_noise(model, excerpts, {.held = motion.torque_is_held, .threads = 1});
-  ProcessNoise& noise = model.noise;
-  noise.torque_share = std::max(kSafety * noise.torque_share, kLeastTorqueShare);
-  noise.rest_share = std::max(kSafety * noise.rest_share, kLeastRestShare);
-  noise.step_share *= kSafety;
-  for (double& floor : noise.floor) floor *= kSafety;
-  return model;
+  const ParameterSpace space = parameter_space(robot);
+  OneStepModel steps =
+      fit_coarse_days(sources.all(), robot, space, {.torque_is_held = is_held(healthy.robot)});
+  const Eigen::VectorXd truth = parameters_of(space, robot.chain, 0.0);
+  Eigen::VectorXd width(space.joints());
+  int at = 0;
+  for (int p = 0; p < space.rigid(); ++p)
+    if (!space.base[p].is_rotor) steps.theta[at++] = truth[p];
+  for (int j = 0; j < space.joints(); ++j) {
+    const Friction<double>& friction = robot.chain.friction[j];
+    steps.theta[steps.layout().viscous(j)] = friction.viscous;
+    steps.theta[steps.layout().coulomb(j)] = friction.coulomb;
+    width[j] = friction.width;
+  }
+  steps.body = MotionBody(steps.body.rigid(), width);
+  return steps;
 }
 
 ProductAlarms product_alarms(const Learned& learned, const Log& log) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "lib/balance/one_step/one_step_model.hpp"
 #include "lib/pipeline/learn.hpp"
 #include "lib/reproduce/runs/alarm_score.hpp"
 
@@ -20,9 +21,8 @@ HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double
 /// network.
 Learned learn_product(const HealthyLogs& healthy, bool quick, std::uint64_t seed);
 Identification identify_robot(const HealthyLogs& healthy);
-/// The motion model of a known robot, its noise matched to these logs.
-MotionModel motion_model_of(const Chain<double>& chain, const HealthyLogs& healthy, const HalfRanges& ranges,
-                            double sigma);
+/// One-step predictions of the true robot, with the noise of the readings that these logs show.
+OneStepModel known_steps(const Robot& robot, const HealthyLogs& healthy);
 
 /// `diagnose` on one run: when the bank raised alarms, and what each of those who name them says.
 struct ProductAlarms {

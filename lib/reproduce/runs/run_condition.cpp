@@ -86,12 +86,13 @@ ConditionResult run_condition(const RunBench& bench, double sigma) {
   const auto tuning = some_of(runs.tuning, plan.filter_tuning_faulty, plan.filter_tuning_h);
   if (learns) {
     const auto test = some_of(runs.test, plan.filter_faulty, plan.filter_fault_free_h);
-    result.detectors.push_back(
-        watch_with_filters(detector_name::kFilters, learned.model.motion, tuning, test));
+    result.detectors.push_back(watch_with_filters(
+        detector_name::kFilters,
+        with_missed_share(std::get<OneStepModel>(learned.model.explain.robot), healthy.logs), tuning, test));
     append(result.detectors, watch_with_product(learned, test));
   }
   if (!contains(plan.filtered_sigmas, sigma)) return result;
-  const MotionModel known = motion_model_of(e.robot.chain, healthy, e.ranges, sigma);
+  const FilteredRobot known = with_missed_share(known_steps(e.robot, healthy), healthy.logs);
   const auto test = some_of(runs.test, plan.reference_faulty, plan.reference_h);
   result.detectors.push_back(watch_with_filters(detector_name::kReference, known, tuning, test));
   return result;

@@ -49,5 +49,30 @@ TEST(FitCoarseDays, FrictionThatDiffersByDayIsNoNoiseOfTheReadings) {
   }
 }
 
+TEST(FitCoarseDays, MuchNoiseDoesNotHideTheIdentifiedRobot) {
+  const testing::ClosedFormScara truth;
+  std::vector<MemorySource> sources;
+  for (std::uint64_t day = 1; day <= 3; ++day) {
+    testing::ClosedFormRun run{.duration_s = 90.0,
+                               .period_s = 0.06,
+                               .reach = {1.0, 1.0, 0.1},
+                               .q_noise = 0.25,
+                               .dq_noise = 1.0,
+                               .seed = day,
+                               .bandwidth = 1.5};
+    sources.emplace_back(testing::simulate_closed_form(truth, run), "day");
+  }
+  std::vector<LogSource*> logs;
+  for (MemorySource& source : sources) logs.push_back(&source);
+  Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
+  set_masses_and_lengths(robot, {1.1, 0.7, 0.55}, {1.0, 0.8, 0.0});  // as identified: some 10 % off
+  const OneStepModel model = fit_coarse_days(logs, robot, parameter_space(robot), {.torque_is_held = true});
+  EXPECT_NEAR(model.theta[0] / truth.a(), 1.0, 0.03);
+  EXPECT_NEAR(model.theta[1] / truth.b(), 1.0, 0.03);
+  EXPECT_NEAR(model.theta[3] / truth.m3, 1.0, 0.01);
+  EXPECT_NEAR(std::sqrt(model.reading_variance[0]), 0.25, 0.02);
+  EXPECT_NEAR(std::sqrt(model.reading_variance[4]), 1.0, 0.08);
+}
+
 }  // namespace
 }  // namespace faultline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/runs/filter_watch.hpp"
+#include "lib/reproduce/runs/free_joint_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kSigma = 0.01;
 
-TEST(FilterWatch, finds_and_names_each_free_joint_and_keeps_quiet_before) {
+TEST(FreeJointFilter, finds_and_names_each_free_joint_and_keeps_quiet_before) {
   const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
   const HealthyLogs healthy = healthy_logs(experiment, 20.0, kSigma);
-  const MotionModel model = motion_model_of(experiment.robot.chain, healthy, experiment.ranges, kSigma);
+  const FilteredRobot robot = with_missed_share(known_steps(experiment.robot, healthy), healthy.logs);
   const RunSet set{.faulty = 3, .fault_free_h = 0.0};
   const auto runs = with_noise(monitored_runs(experiment, set, SeedUse::run_tuning), experiment, kSigma,
                                SeedUse::run_tuning);
   for (const ExperimentRun& run : runs) {
-    const auto alarms = watch_free_joints(model, run.log, {{14.0, 1e9}, 0.6});
+    const auto alarms = free_joint_alarms(robot, run.log, {{14.0, 1e9}, 0.6});
     ASSERT_FALSE(alarms[0].empty()) << run.fault.joint;
     EXPECT_GE(alarms[0][0].time_s, run.onset_s);
     EXPECT_LT(alarms[0][0].time_s, run.onset_s + 1.0);
