@@ -21,7 +21,7 @@ constexpr double kLeastShare = 0.1;      // of the median square that the consta
 constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
 constexpr Eigen::Index kImpulse = 2000;  // rows of the response of the autoregression to one innovation
 
-constexpr int kTerms = 5;
+constexpr int kTerms = 5;  // parts of a row's variance: constant, torque, rest, speed, timing
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
 constexpr double kLeastTiming = 0.01;  // samples^2: a torque's step is known to a tenth of a sample at best

@@ -34,8 +34,8 @@ class NormalTable {
   }
 
  private:
-  static constexpr double kEnd = 6.0;  // standard deviations: beyond, the function is 0 or 1 within 1e-9
-  static constexpr double kPerUnit = 32.0;
+  static constexpr double kEnd = 6.0;       // standard deviations: beyond, the function is 0 or 1 within 1e-9
+  static constexpr double kPerUnit = 32.0;  // nodes for each standard deviation: cubics leave 2e-9
   static constexpr int kNodes = static_cast<int>(2.0 * kEnd * kPerUnit) + 1;
   std::array<double, kNodes> value_{}, slope_{};
 };

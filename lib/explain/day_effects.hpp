@@ -34,7 +34,7 @@ struct DayEffect {
   /// Normal days are within +- this.
   double normal_range() const { return kStdsInRange * day_std; }
 
-  static constexpr double kStdsInRange = 2.0;
+  static constexpr double kStdsInRange = 2.0;  ///< standard deviations of healthy days on either side
 };
 
 }  // namespace faultline

@@ -29,7 +29,7 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less is the gain of another day
 
-inline constexpr double kLeastEvidence = 100.0;  ///< nats; healthy days that no few logs show add some tens
+inline constexpr double kLeastEvidence = 100.0;  ///< nats; days unlike the few logged give some tens
 
 /// The least evidence with which a fault of any kind is believed.
 double least_limit(const EvidenceLimits& limits);
@@ -66,7 +66,7 @@ struct ExplainedFault {
 /// kind that was judged.
 EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fault);
 
-inline constexpr double kBeyondSimulated = 1.5;  ///< there are more simulated logs than recorded ones
+inline constexpr double kBeyondSimulated = 1.5;  ///< times: there are more simulated logs than recorded ones
 
 /// What decides about the hypotheses of a log: how the evidence of one, and of a change of any form, grows,
 /// and how much better a change of any form explains the log. Without `course_of_free_form` an unknown fault

@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kTracedTimes = 120;
+constexpr std::size_t kTracedTimes = 120;  // times of a trace, at most
 
 /// Evidence at a time: that of the last row before it.
 double at(const EvidenceCourse& course, double time_s) {

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kLongestPush_s = 1.2;
+constexpr double kLongestPush_s = 1.2;  // s, of a collision: what presses for longer is another fault
 
 /// Times of a fault. Kinds that pass have an end in any case; those that repeat or jump begin with a sample.
 struct FaultTimes {

@@ -15,12 +15,12 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kMostFaults = 12;   // of one log
-constexpr std::size_t kMostTogether = 3;  // faults of which each alone leaves much
-constexpr std::size_t kFirsts = 3;        // that more are looked for beside,
-constexpr double kAsOne_s = 1.0;
-constexpr double kFirstShare = 0.3;      // with this share of the best one's evidence at least
-constexpr double kAlike = 0.4;           // share of each other that the sizes of two slips are
-constexpr double kOppositeWithin = 0.3;  // of a false reading's size
+constexpr std::size_t kMostTogether = 3;  // faults that are tried together where one alone leaves much
+constexpr std::size_t kFirsts = 3;        // named faults, at most, beside which further ones are looked for
+constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint that count as one
+constexpr double kFirstShare = 0.3;       // of the best one's evidence, that each of these has at least
+constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
+constexpr double kOppositeWithin = 0.3;   // of a false reading's size, by which its opposite may differ
 
 /// One step of the explanation: the faults that explain best what the known ones leave, best first.
 struct NextFault {

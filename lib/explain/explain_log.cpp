@@ -12,10 +12,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortest_s =
-    1.5;                           // from 50 Hz on: the lead in which no onset is looked for, and some moves
-constexpr int kFewestCoarse = 20;  // samples
-constexpr int kAtTheStart = 2;     // samples behind the earliest onset: a fault that begins with the log
+constexpr double kShortest_s = 1.5;  // of a log from 50 Hz on: the lead without onsets, and some moves
+constexpr int kFewestCoarse = 20;    // samples of a log below 50 Hz
+constexpr int kAtTheStart = 2;       // samples behind the earliest onset: a fault that begins with the log
 
 /// By joint: standard deviations that the healthy robot leaves of the log's readings.
 std::vector<double> loudness_of(const CoarseLog& log) {

@@ -23,7 +23,7 @@ struct ExplainModel {
   /// what a model lacks gives evidence in proportion to the rows.
   double window_s = kLongestWindow_s;
 
-  static constexpr double kShortestWindow_s = 20.0, kLongestWindow_s = 60.0;
+  static constexpr double kShortestWindow_s = 20.0, kLongestWindow_s = 60.0;  ///< bounds of window_s
 };
 
 /// The log as the rows of the robot take it: means of so many samples as the healthy logs were averaged over.

@@ -17,18 +17,17 @@ using Eigen::VectorXd;
 /// Velocities that a jump of the position reaches where the controller computes them from it: a difference
 /// and a filter.
 constexpr double kVelocityBefore_s = 0.02, kVelocityAfter_s = 0.1;
-constexpr double kReach = 1.5,
-                 kReachOfJump = 4.0;       // kernels beside onset and end within which rows say nothing
-constexpr double kLongestReach_s = 0.1;    // beside a stuck encoder
-constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity
-constexpr double kEdgeKernels = 4.0;       // kernels beside an onset or end that it reaches
-constexpr double kLossVariance = 0.25;
+constexpr double kReach = 1.5, kReachOfJump = 4.0;  // kernels beside onset and end: rows say nothing there
+constexpr double kLongestReach_s = 0.1;    // s: most that the jump of a stuck encoder reaches in the velocity
+constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity: less does not show
+constexpr double kEdgeKernels = 4.0;       // kernels on either side of an onset or end: rows that it reaches
+constexpr double kLossVariance = 0.25;     // of the share of the torque: a standard deviation of one half
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second
 constexpr double kPayloadVariance = 0.36;  // of the mass that the link carries, squared
-constexpr double kUnfelt = 1e-9;           // of the squares of a torque: rounding
+constexpr double kUnfelt = 1e-9;           // of the greatest square of a torque: rounding
 constexpr double kOffsetVariance = 0.36;   // of the joint's usual torque, squared
-constexpr double kLeastVariance = 1e-6;
+constexpr double kLeastVariance = 1e-6;    // (N m s)^2 or (N m)^2: friction may rise where the model has none
 
 /// Mass at the end of a link, kg, that the torque of its joint is like; of the joint before where that feels
 /// none of it. `unit`: torque of 1 kg there, rows x joints.

@@ -14,10 +14,10 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kAbsentShare = 0.7;    // of the evidence that an absent fault gives
-constexpr double kSurelyLasts_s = 5.0;  // at the beginning of a log, or behind the onset
-constexpr int kRestRows = 8;            // that show where a locked joint stands
-constexpr int kMovesRows = 3;           // in succession that show that it moves again
-constexpr double kTakenBack = 0.3;      // of a false reading by which the jump back may differ
+constexpr double kSurelyLasts_s = 5.0;  // s behind the onset or the log's start, in which the fault goes on
+constexpr int kRestRows = 8;            // rows that show where a locked joint stands
+constexpr int kMovesRows = 3;           // rows in succession that show that it moves again
+constexpr double kTakenBack = 0.3;      // of a false reading's size, by which the jump back may differ
 
 /// When a joint that is locked from `from_s` on moves again: with its spring or without, as the lock may be
 /// on either side of it.

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kRounds = 6;
+constexpr int kRounds = 6;  // of spans and size in turn, at most
 
 /// From when to when the fault is present.
 struct Span {

@@ -15,15 +15,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kImpossible = 1e9;    // nats that a size costs that no fault has
+constexpr double kImpossible = 1e9;    // nats: price of a size that no fault of the kind has
 constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
 constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
 constexpr int kReadingRounds = 3;      // of the size of a false reading
-constexpr double kSettled = 0.05;      // share of it that the last round changed
-constexpr double kHopeless = -5.0;     // nats of a false reading of which nothing was known
+constexpr double kSettled = 0.05;      // share of the size: a round that changes less is the last
+constexpr double kHopeless = -5.0;     // nats: below, a false reading without a known size is given up
 constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld; nats: it is rare
 constexpr double kLeastClip = 0.04;  // of the greatest torque: a joint that gets less swings freely
-constexpr double kSurely = 4.0;      // standard deviations
+constexpr double kSurely = 4.0;      // standard deviations within which friction left may be negative
 
 /// Nats that a size costs that this kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {

@@ -14,13 +14,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDroppedCost = 1.2;  // nats a row that an unknown force explains
-constexpr int kSamplesBefore = 20;
-constexpr double kComesToRest = 0.3;   // share of repeats before a joint stands that shows that it brakes
-constexpr double kJolt = 3.0;          // of the joint's usual torque: that of a halt
-constexpr double kRepeated = 0.98;     // share of the samples from which a code repeats
-constexpr double kRests = 0.02;        // of a joint's greatest healthy speed: it stands
-constexpr double kSettles_s = 0.02;    // after which a joint that was locked stands
+constexpr double kDroppedCost = 1.2;  // nats for each row that does not count: an unknown force explains it
+constexpr int kSamplesBefore = 20;    // before an onset, that show whether the joint comes to rest
+constexpr double kComesToRest = 0.3;  // share of them that repeat a code where the joint comes to rest
+constexpr double kJolt = 3.0;         // of the joint's usual torque: that of a halt
+constexpr double kRepeated = 0.98;    // share of samples that repeat a code, of a stuck encoder at least
+constexpr double kRests = 0.02;  // of the joint's greatest healthy speed (rms): a joint that stands is slower
+constexpr double kSettles_s = 0.02;    // s behind the onset, until a locked joint stands
 constexpr double kShakes = 0.05;       // share of its evidence that the shaking of a halt explains at most
 constexpr double kCoupled = 0.1;       // of a joint's usual torque: what another joint's motion gives
 constexpr double kStandingCost = 3.0;  // nats of a joint that does not move

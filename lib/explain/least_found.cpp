@@ -17,8 +17,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kOfTen = 1.2816;        // standard deviations of noise that nine of ten logs do not have
-constexpr double kNoInformation = 1e-9;  // share of the prior's precision
+constexpr double kOfTen = 1.2816;  // 90 % quantile of a standard normal variable: found nine times of ten
+constexpr double kNoInformation = 1e-9;  // share of the prior's precision: rows that tell less say nothing
 
 /// What the rows of a log say of the sizes of a hypothesis; empty where they cannot show it.
 struct SizeKnowledge {

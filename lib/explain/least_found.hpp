@@ -23,7 +23,7 @@ struct LeastFound {
 std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
                                     const std::vector<FaultLabel>& labels);
 
-inline constexpr double kUsualPush_s = 0.1;
+inline constexpr double kUsualPush_s = 0.1;  ///< length of the collision whose smallest size is given
 
 /// Size along `direction` from which on evidence passes `limit` (nats) nine of ten times, when the sizes of a
 /// hypothesis have a prior `variance` and, by the rows of a log, the posterior `covariance`. Infinite where

@@ -15,11 +15,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kForgotten = 1e-9;    // share of a velocity that is left of it
+constexpr double kForgotten = 1e-9;    // share of a change of a velocity: rows with less count as unchanged
 constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
-constexpr double kReadingDoubt = 0.1;  // of a false reading's size that is left when it is mended
-constexpr double kSizeDoubt = 0.05;    // share of the size of a fault that began before the log
-constexpr int kNoiseRounds = 3;
+constexpr double kReadingDoubt = 0.1;  // of a false reading's size: error left once it is mended (std)
+constexpr double kSizeDoubt = 0.05;    // the same of a fault that began before the log
+constexpr int kNoiseRounds = 3;        // of the log's own noise, at most
 
 /// What the size of a false reading that is mended still changes.
 FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {

@@ -12,12 +12,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e9;
-constexpr double kGravity = 9.81;
-constexpr int kBeforeRows = 5;             // effects before an onset are estimated anew for each so many rows
-constexpr int kTimeRounds = 4;             // of the times of the changes (Newton)
-constexpr double kSettledTime_rows = 0.1;  // a change that moves less is settled
-constexpr double kFarthest_rows = 1.5;     // from the middle between the rows of a change
+constexpr double kSaysNothing = 1e9;  // N m or N: standard deviation of a row that does not count
+constexpr double kGravity = 9.81;     // m/s^2: only for the scale of a work piece's weight
+constexpr int kBeforeRows = 5;        // rows of onsets that share one estimate of the effects before them
+constexpr int kTimeRounds = 4;        // Newton rounds for the times of the changes, at most
+constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
+constexpr double kFarthest_rows = 1.5;     // rows from the middle between the two rows of a change, at most
 
 /// X' X without some rows of X.
 MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const StackedMask& dropped) {

@@ -15,8 +15,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kModelShare = 0.004;  // of each model term: what a model of a machine lacks
-constexpr double kLeastLoud = 0.3, kMostLoud = 4.0;
+constexpr double kModelShare = 0.004;                // of each model term: what a model of a machine lacks
+constexpr double kLeastLoud = 0.3, kMostLoud = 4.0;  // bounds of the noise, times that of the healthy logs
 
 /// Squares of the terms of the model, each a column times its parameter, inertia, gravity and friction.
 MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, const VectorXd& theta) {
@@ -30,10 +30,10 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
 /// From the first motion of the log on, unless it changes before: rows that count in any case. A log at rest
 /// says nothing of its noise.
 constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
-constexpr double kJustBefore_s = 0.2;  // the first motion: the kernel reaches so far
+constexpr double kJustBefore_s = 0.2;  // s before the first motion: the kernels reach less far
 constexpr double kMoves = 0.05;        // of a joint's greatest healthy speed
 constexpr double kLost = 1e3;          // times the least standard deviation: a row that does not count
-constexpr double kMostRows = 0.8, kFarLouder = 3.0;  // share of the rows, and times the loudest of them
+constexpr double kMostRows = 0.8, kFarLouder = 3.0;  // quantile, and times it: a larger row is no noise
 
 /// Sums of products of rows that lie 0, 1, .. `order` apart.
 VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {

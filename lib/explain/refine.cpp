@@ -14,12 +14,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameFault_s = 0.3;
+constexpr double kSameFault_s = 0.3;    // s between two onsets of one kind and joint that are one fault
 constexpr double kLeastGain = 0.1;      // nats by which a move explains more
 constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
-constexpr int kMovesOfOnset = 40;
-constexpr double kFirstMove_s = 1.28;  // of an onset; halved until nothing is gained
-constexpr double kStillEnough = 0.5;   // of the evidence without an end that the one with it must have
+constexpr int kMovesOfOnset = 40;       // at most: a size that creeps could go on for ever
+constexpr double kFirstMove_s = 1.28;   // of an onset; halved until nothing is gained
+constexpr double kStillEnough = 0.5;    // of the evidence without an end that the one with it must have
 
 /// Whether the same fault is known from about this moment on, or a drift that goes on: it does not begin
 /// twice.

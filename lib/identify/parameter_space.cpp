@@ -16,8 +16,8 @@ namespace faultline {
 namespace {
 
 constexpr double kSpaceRounding = 1e-12;  // kg m^2 or kg
-constexpr int kSpaceProbes = 40;
-constexpr double kIndependent = 1e-7;  ///< share of a column that the columns before it must leave
+constexpr int kSpaceProbes = 40;          // random states: rows that far outnumber the 11 columns a joint
+constexpr double kIndependent = 1e-7;     ///< share of a column that the columns before it must leave
 
 JointVector<double> draw(Random& random, int n, double scale) {
   JointVector<double> v(n);

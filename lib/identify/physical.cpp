@@ -22,9 +22,9 @@ namespace {
 
 constexpr double kPhysicalRank = 1e-7;  ///< of the largest singular value of the relative Jacobian
 constexpr double kMoves = 1e-4;         ///< part of a parameter in a direction that changes no torque
-constexpr double kShortest_m = 0.02, kLongest_m = 10.0;
-constexpr int kStarts = 12;
-constexpr int kIterations = 200;
+constexpr double kShortest_m = 0.02, kLongest_m = 10.0;  // of a link: beyond, a guess is no length
+constexpr int kStarts = 12;       // at most, random but for the first: the cost may have several minima
+constexpr int kIterations = 200;  // of Levenberg and Marquardt from one start, at most
 
 /// Levenberg and Marquardt from one start; returns the cost.
 double descend(const PhysicalEquations& equations, Eigen::VectorXd& x) {

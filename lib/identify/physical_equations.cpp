@@ -120,7 +120,7 @@ Eigen::VectorXd PhysicalEquations::base(const Eigen::VectorXd& log_open, int gro
 }
 
 Eigen::MatrixXd PhysicalEquations::slopes(const Eigen::VectorXd& x, int group, double more) const {
-  constexpr double kStep = 1e-5;
+  constexpr double kStep = 1e-5;  // of a logarithm, for central differences: near the cube root of rounding
   Eigen::MatrixXd j(groups_[group].target.size(), x.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     Eigen::VectorXd up = x, down = x;

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kWidthDoubt = 1.15;        // of ln(width): a factor of about 3
 constexpr std::size_t kTrialExcerpts = 40;  // looked at first
-constexpr int kTrialRounds = 2;
-constexpr int kTrialIterations = 12;
-constexpr double kRegular = 0.7;  // correlation of neighbouring residuals that is no noise
-constexpr double kFarAboveNoise = 3.0;
-constexpr double kWorseTorque = 1.15;  // torque residual against that of the torque fit, and
-constexpr double kTorqueLost = 2e-4;   // of the mean square torque: less is not worth a word
-constexpr double kWork = 4e8;          // rows x joints^2 x (2 joints + free): some seconds
-constexpr int kFewestRows = 4000;
+constexpr int kTrialRounds = 2;             // with the noise measured anew: enough to show a regular error
+constexpr int kTrialIterations = 12;        // at most, of a solve in the trial
+constexpr double kRegular = 0.7;            // correlation of neighbouring residuals that is no noise
+constexpr double kFarAboveNoise = 3.0;      // times the log's noise: then what is regular is model error
+constexpr double kWorseTorque = 1.15;       // torque residual against that of the torque fit, and
+constexpr double kTorqueLost = 2e-4;        // of the mean square torque: less is not worth a word
+constexpr double kWork = 4e8;               // rows x joints^2 x (2 joints + free): some seconds
+constexpr int kFewestRows = 4000;           // of the excerpts, however many joints there are
 
 /// Facts with doubt about parameters of the space, and a wide one about every friction width.
 std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& robot) {

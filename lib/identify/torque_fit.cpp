@@ -16,8 +16,8 @@ namespace {
 constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
 constexpr double kClearlyThere = 4.0;     // standard deviations above zero that rotors and extra terms have
 constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
-constexpr int kTimingRounds = 3;
-constexpr double kTimingSlack = 0.05;  // samples by which a timing beyond is taken for noise
+constexpr int kTimingRounds = 3;          // at most, in which the timing gives whole samples to the delay
+constexpr double kTimingSlack = 0.05;     // samples by which a timing beyond is taken for noise
 
 /// Whether no robot has this parameter below zero.
 bool is_not_negative(const ParameterSpace& space, int p) {

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
 constexpr double kConverges = 2.0;  // largest rate times the step for which the Taylor series is good
-constexpr int kMostHalvings = 30;
+constexpr int kMostHalvings = 30;   // of a step: ends the loop where a derivative is infinite
 
 void stop_locked(const MotionLaw& law, VectorXd& state) {
   for (int j = 0; j < law.joints(); ++j)

@@ -10,10 +10,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kQuietForce = 1e-3;  // of a joint's usual torque: what a model of a machine lacks at rest
-constexpr double kModelLacks =
-    0.004;                          // of the torque and of each term of the model: what it lacks under load
-constexpr double kRestLacks = 0.3;  // of Coulomb friction: what a tanh of another width differs by
+constexpr double kQuietForce = 1e-3;     // of a joint's usual torque: what a model of a machine lacks at rest
+constexpr double kModelLacks = 0.004;    // of the torque and of each model term: what it lacks under load
+constexpr double kRestLacks = 0.3;       // of Coulomb friction: what a tanh of another width differs by
 constexpr double kUnknownTorque = 30.0;  // times the usual torque: where the torque was not logged
 
 }  // namespace

@@ -18,9 +18,10 @@ constexpr double kFormDoubt = 0.05;  // share of its effect that a known fault m
 constexpr int kSameSamples = 3;      // between two onsets that count as one
 /// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
 constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
-constexpr int kStepsForEach = 2;
-constexpr double kNearSize = 0.2;          // share of a size
+constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
+constexpr double kNearSize = 0.2;          // relative difference of sizes that can share their steps
 constexpr double kLeastDuration_s = 1e-3;  // that a fault lasts
+// Longest Newton step of an onset: share of a long sample; s where samples are short.
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
 
 /// Whether steps about one size stand for those about another one.

@@ -41,16 +41,16 @@ class CoarseBench {
   /// The best of each kind and joint, best first.
   std::vector<FaultHypothesis> ranked() const;
 
-  static constexpr int kCoarseRounds = 3;
+  static constexpr int kCoarseRounds = 3;  ///< of integration and regression in turn, at most
 
  private:
   JudgedGuess judge_and_keep(const CoarseGuess& guess, int rounds,
                              const std::shared_ptr<const CoarseSteps>& known);
 };
 
-inline constexpr double kLongSample_s = 0.05;   ///< a step of Newton is at most a share of a longer sample
-inline constexpr double kMuchLeft = 3.0;        ///< mean square from which an explanation may be none
-inline constexpr double kMayWinAtCoarse = 0.3;  ///< of the best evidence: another round may make it the best
+inline constexpr double kLongSample_s = 0.05;  ///< a step of Newton is at most a share of a longer sample
+inline constexpr double kMuchLeft = 3.0;  ///< mean square left: an explanation that leaves more may be wrong
+inline constexpr double kMayWinAtCoarse = 0.3;  ///< of the best evidence: what has less is not refined
 inline constexpr double kSettled_s = 2e-4;      ///< an onset that moves less is settled
 
 /// Whether a fault of the kind changes numbers that move the robot, and stays.

@@ -18,16 +18,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnknownForce = 30.0;    // of the usual torque: no bound for any force a robot meets
-constexpr double kOnsetNudge_s = 1e-4;    // of the derivative by the onset
-constexpr double kHolds = 4.0;            // mean square left up to which an explanation moves the trajectory,
-constexpr double kHoldsShare = 0.05;      // or of what the healthy robot leaves
-constexpr double kAbsurd = 1e6;           // derivative of a state by the one before: the integration diverged
-constexpr double kMostColumns = 4.0;      // prior standard deviations that a size may start from
+constexpr double kUnknownForce = 30.0;  // times the usual torque (std): bounds no force that a robot meets
+constexpr double kOnsetNudge_s = 1e-4;  // s, of the numeric derivative by the onset
+constexpr double kHolds = 4.0;        // mean square left, up to which the next round is about its trajectory,
+constexpr double kHoldsShare = 0.05;  // or share of the mean square that the healthy robot leaves
+constexpr double kAbsurd = 1e6;       // derivative of a state by the one before: the integration has diverged
+constexpr double kMostColumns = 4.0;  // prior standard deviations: bound of a size that a round starts from
 constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
-constexpr double kMostLoss = 1.05;
-constexpr double kSettled_nats = 0.05;  // a round that changes less is the last
-constexpr double kMostPayload = 2.5;    // of the mass that the link carries
+constexpr double kMostLoss = 1.05;        // share of the torque lost that a round starts from, at most
+constexpr double kSettled_nats = 0.05;    // nats: a round that changes less is the last
+constexpr double kMostPayload = 2.5;      // times the mass that the link carries: the same of a payload
 
 /// Values about which one round linearises a hypothesis, and steps that are known.
 struct Setup {

@@ -17,9 +17,9 @@ using Eigen::VectorXd;
 constexpr double kMuchDoubt = 1.0;      // of the usual torque and of the logged one: any of it may be missing
 constexpr int kSmoothings = 4;          // of the whole log: a force as large as the torque settles
 constexpr double kStillChanges = 30.0;  // standard deviations of a reading that the last round may change
-constexpr int kHealthyRounds = 2;
-constexpr double kFirstOnset_s = 0.5;
-constexpr int kFirstOnset = 6;          // samples
+constexpr int kHealthyRounds = 2;       // of integration and regression for the healthy robot
+constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is looked for,
+constexpr int kFirstOnset = 6;          // or samples, whichever is longer
 constexpr double kOutside = 0.05;       // of the healthy range by which a joint must be outside
 constexpr double kWasFast = 0.15;       // of its greatest healthy speed, before it halts
 constexpr double kHaltsIn_s = 0.06;     // within which it halts
@@ -29,7 +29,7 @@ constexpr double kStillShare = 0.02;    // of the joint's usual speed in this lo
 constexpr double kStillNoise = 1.5;     // standard deviations of a velocity's reading
 constexpr int kFewestRepeats = 3;       // samples: a position that repeats longer says nothing by it
 constexpr double kTellingNoise = 2e-5;  // rad or m: without noise a joint at rest repeats its code
-constexpr int kFewestSamples = 16;      // of a log that anything can be said of
+constexpr int kFewestSamples = 16;      // of a log: fewer say nothing
 
 /// First interval through which the robot cannot be integrated; their number where there is none.
 int first_wild(const LinearSteps& steps) {

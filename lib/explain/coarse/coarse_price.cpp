@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kNoSuchSize = 1e9;      // nats
+constexpr double kNoSuchSize = 1e9;      // nats of a size that no fault of the kind has
 constexpr double kAboveAll = 2e4;        // nats for each share of the torque lost beyond 1.2
 constexpr double kCodesMove = 1e12;      // nats of a stuck encoder whose codes do not repeat
 constexpr double kSilentJoint = 3.0;     // nats of a joint that does not move or does not read
@@ -18,7 +18,7 @@ constexpr double kUnreadSample = 0.7;    // nats a sample that a stuck encoder e
 constexpr double kForcedSample = 1.2;    // nats a sample that an unknown force explains
 constexpr double kRepeatedSample = 2.0;  // nats a repeated code of a joint that is said to be locked
 constexpr double kRepeats = 0.98;        // share of codes that repeat where an encoder is stuck
-constexpr int kMostRepeats = 500;        // samples that count
+constexpr int kMostRepeats = 500;        // repeated codes that count, at most
 
 /// Samples from `from` on that repeat the position before.
 int repeats_from(const CoarseLog& log, int j, int from) {

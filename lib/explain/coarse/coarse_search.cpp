@@ -21,14 +21,14 @@ constexpr double kOnsetStep_s = 0.05;                         // between two ons
 constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
 constexpr double kWindow_s = 6.0;                             // behind an onset, in which the search looks
 constexpr int kFewestWindow = 60;                             // samples of it
-constexpr double kStandsOut_nats = 8.0;                       // of an onset
+constexpr double kStandsOut_nats = 8.0;                       // nats from which an onset stands out
 constexpr double kRoughStep_s = 1.0;                          // between two onsets of the first look
-constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // of what some samples in a row leave
-constexpr int kFewestOfStrike = 4;                            // samples
-constexpr double kWorthASecond = 2.0;                         // nats
-constexpr double kStrikes = 10.0;  // mean square of one sample's innovations that no noise has
-constexpr std::size_t kOnsetsTried = 3;
-constexpr double kWrongWay = -9.0;  // nats of a loss or payload below 0
+constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // s; standard deviations of its misfit
+constexpr int kFewestOfStrike = 4;                            // samples of it, at least
+constexpr double kWorthASecond = 2.0;    // nats of a second onset of the same kind and joint
+constexpr double kStrikes = 10.0;        // mean square of one sample's innovations that no noise has
+constexpr std::size_t kOnsetsTried = 3;  // onsets of the best candidates that are kept
+constexpr double kWrongWay = -9.0;       // score in nats of a negative loss or payload, which cannot be
 
 /// Columns of one kind and joint.
 struct Group {

@@ -17,22 +17,23 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnexplained = 0.3;       // of what the log leaves without it: an explanation may be none
-constexpr std::size_t kJudged = 14;        // candidates
+constexpr double kUnexplained = 0.3;  // of the healthy robot's excess over noise: what leaves more is unknown
+constexpr std::size_t kJudged = 14;   // candidates of the search that are rated, best first
 constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
 constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
-constexpr std::size_t kOnsetsForAllKinds = 2;
-constexpr std::size_t kMoved = 4;     // hypotheses whose onset is refined
-constexpr double kWorthMoving = 5.0;  // nats
-constexpr int kMostMoves = 24;
-constexpr int kNewton = 6;  // steps of onset and size together
+constexpr std::size_t kOnsetsForAllKinds = 2;  // onsets at which every linear kind is tried
+constexpr std::size_t kMoved = 4;              // hypotheses whose onset is refined
+constexpr double kWorthMoving = 5.0;           // nats from which an onset is refined
+constexpr int kMostMoves = 24;                 // rounds of moves of an onset, at most
+constexpr int kNewton = 6;                     // steps of onset and size together
+// Moves of an onset: s of the first, at least; s and share of a sample down to which they are halved.
 constexpr double kLeastFirstMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
-constexpr double kFirstLeap_s = 1.2, kLastLeap_s = 0.3;
-constexpr int kMostLeaps = 12;
-constexpr double kStandsFor_s = 0.3;  // at the end of a log: where a locked joint stands
-constexpr double kStillWithin = 5.0;  // standard deviations of a reading
-constexpr double kStillRounding = 1e-6;
-constexpr int kFewestRepeated = 4;  // samples that repeat a code to the end
+constexpr double kFirstLeap_s = 1.2, kLastLeap_s = 0.3;  // s: first leap of an onset, halved down to the last
+constexpr int kMostLeaps = 12;                           // at most, for the time of computation
+constexpr double kStandsFor_s = 0.3;     // s at the end of a log that show where a locked joint stands
+constexpr double kStillWithin = 5.0;     // standard deviations of a reading: a joint that stands is nearer
+constexpr double kStillRounding = 1e-6;  // rad, m, rad/s or m/s: rounding of readings without noise
+constexpr int kFewestRepeated = 4;       // samples that repeat a code to the end
 
 bool more(const JudgedGuess& a, const JudgedGuess& b) { return a.gain > b.gain; }
 

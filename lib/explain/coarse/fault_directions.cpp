@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kUsualOffset = 0.6;  // of the usual torque, that a torque may be logged beside the true one
+constexpr double kUsualOffset = 0.6;  // of the usual torque: standard deviation of a torque sensor's offset
 
 }  // namespace
 

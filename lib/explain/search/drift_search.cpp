@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 
 constexpr double kShift = 1e-3;                                          // rad or m of a numeric derivative
 constexpr std::array kDrifts{.003, .006, .012, .02, .03, .04, .06, .1};  // rad/s
-constexpr double kSlideShare = 0.5;  // m/s of a slide for each rad/s of a revolute joint
-constexpr double kNoTorque = 1e-9;   // N m for each rad: the position of such a joint does not matter
-constexpr double kKernelReach = 4.0;
+constexpr double kSlideShare = 0.5;   // m/s of a slide for each rad/s of a revolute joint
+constexpr double kNoTorque = 1e-9;    // N m for each rad: the position of such a joint does not matter
+constexpr double kKernelReach = 4.0;  // standard deviations at which the kernel is cut
 
 /// The impulse that a jump of a joint's velocity by 1 rad/s gives the momentum, for each onset: its product
 /// with what is left over, and its own square.

@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kLeastStep = 6.0;  // standard deviations
-constexpr int kApart = 15;          // samples between two jumps
-constexpr int kMost = 6;            // jumps of one joint
-constexpr int kAround = 14;         // samples on each side that a step is measured over
-constexpr double kFewWaves = 0.3;   // decay of the fusion below which the velocity says nothing of steps
-constexpr double kHighRate_s = 0.005;
-constexpr double kMostOfJump = 50.0;  // nats: alone it names no fault, for one reading may be false
-constexpr std::size_t kMostRuns = 3;  // of repeated codes
-constexpr int kManyRepeats = 12;      // samples: a healthy position that repeats longer says nothing by it
+constexpr double kLeastStep = 6.0;     // standard deviations by which a jump is off the motion, at least
+constexpr int kApart = 15;             // samples between two jumps
+constexpr int kMost = 6;               // jumps of one joint
+constexpr int kAround = 14;            // samples on each side that a step is measured over
+constexpr double kFewWaves = 0.3;      // decay of the fusion: below, the velocity is too noisy to show steps
+constexpr double kHighRate_s = 0.005;  // s: below, a cubic of the time beside the step gives its size
+constexpr double kMostOfJump = 50.0;   // nats: alone it names no fault, for one reading may be false
+constexpr std::size_t kMostRuns = 3;   // of repeated codes
+constexpr int kManyRepeats = 12;       // samples: a healthy position that repeats longer says nothing by it
 
 /// Whether the velocity of joint `j` says nothing of steps of its position.
 bool is_from_positions(const LogFit& fit, int j) {

@@ -16,8 +16,8 @@ using Eigen::Ref;
 using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
-constexpr int kFirstOnsetRow = 6;  // rows
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr int kFirstOnsetRow = 6;  // rows: no onset is looked for before, where kLead_s has fewer
+constexpr double kNothing = -std::numeric_limits<double>::infinity();  // score of a row that is no onset
 
 /// Normal equations of some columns for an onset at each row.
 struct OnsetEquations {

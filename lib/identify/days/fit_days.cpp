@@ -15,13 +15,14 @@
 namespace faultline {
 namespace {
 
+// Kernel of the rows, standard deviation: the longer one for sample periods from kHighRate_s on.
 constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
 constexpr double kFinest_s = 0.002;   // between samples: the kernels see no difference to finer ones
 constexpr double kSlackOfRate = 0.1;  // samples: a period is known to some per cent
 constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
 // Rounds of the fit from which something more is looked for: what comes later needs what came before.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
-constexpr int kWidthsAt[] = {3, 6};
+constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
 
 /// Recorded samples that are averaged into one of the rows' samples.
 int samples_averaged(double period_s) {

@@ -12,6 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
+// Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
 constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
 
 }  // namespace

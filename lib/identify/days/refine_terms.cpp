@@ -14,6 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Of a friction width: tried in turn; a parabola through the best and its neighbours gives the width.
 constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
 constexpr double kClearSpring = 20.0;  // nats, of rows that are not quite independent
 constexpr double kWidthRidge = 1e-12;  // for joints that rest

@@ -10,8 +10,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeastExplained = 0.05;
-constexpr double kCut = 4.0;  // standard deviations
+constexpr double kLeastExplained = 0.05;  // of the squares left over: a ripple that explains less is none
+constexpr double kCut = 4.0;              // standard deviations
 
 /// What is left of one joint in the rows that count.
 struct Column {

@@ -12,17 +12,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kPieceRows = 20;  // over which a mass is estimated
-constexpr int kFewestWindows = 6;
+constexpr int kPieceRows = 20;       // over which a mass is estimated
+constexpr int kFewestWindows = 6;    // of a day: fewer are too few to tell two groups of masses apart
 constexpr double kPieceShare = 0.1;  // of the carried mass that a work piece has at least
 constexpr double kClearStep = 1.5;   // standard deviations of the masses within a group, between the groups
 constexpr double kAlikeDays = 0.5;   // of the step by which the steps of the days may differ
 constexpr double kWeight = 9.81;     // N of 1 kg
+// Standard deviation of the rows on a path: rough at first, then by the noise, kLeastPathShare at least.
 constexpr double kRoughShare = 0.25, kLeastPathShare = 0.02,
-                 kNoiseShare = 0.3;       // of the piece's weight, and of what is left
-constexpr double kNormalSpread = 1.4826;  // standard deviation over the median of |x|
-constexpr double kCountsForNothing = 1e9;
-constexpr double kNoSpread = 1e-12;
+                 kNoiseShare = 0.3;        // of the piece's weight, and of what is left
+constexpr double kNormalSpread = 1.4826;   // standard deviation over the median of |x|
+constexpr double kCountsForNothing = 1e9;  // N m or N: standard deviation of joints that carry no weight
+constexpr double kNoSpread = 1e-12;        // kg^2: the ratio stays finite where all masses are alike
 
 /// Two groups of masses, kg: median of the lighter one, step to the other, and the step over the spread
 /// within.

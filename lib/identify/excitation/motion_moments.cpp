@@ -10,8 +10,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kStep_s = 0.02;
-constexpr double kWindow_s = 0.16;
+constexpr double kStep_s = 0.02;       // between samples of a motion, whose fastest harmonic lasts 0.7 s
+constexpr double kWindow_s = 0.16;     // as long as the windows that judge the terms of logs (kYardstick_s)
 constexpr int kManyWindows = 1 << 20;  // none is dropped
 constexpr double kRank = 1e-13;        // of the largest eigenvalue
 

@@ -17,10 +17,11 @@ namespace {
 struct Modest {
   double range, speed, least_range, least_speed;
 };
+// rad and rad/s, m and m/s: logs that keep below a least value hardly move the joint.
 constexpr Modest kTurning = {1.0, 1.0, 0.3, 0.2}, kSliding = {0.1, 0.1, 0.03, 0.02};
 
-constexpr std::array<double, 4> kPeriods_s = {5.0, 8.0, 12.0, 20.0};
-constexpr int kFewestHarmonics = 3, kMoreHarmonics = 5;
+constexpr std::array<double, 4> kPeriods_s = {5.0, 8.0, 12.0, 20.0};  // each candidate draws one
+constexpr int kFewestHarmonics = 3, kMoreHarmonics = 5;               // each candidate draws 3 to 7
 constexpr double kLeast_s = 20.0;              // of the motion: whole periods, at least so long
 constexpr double kSlowestSample_s = 0.005;     // a log that slow or slower is suggested at this period
 constexpr double kLook_s = 0.01;               // steps at which speed and torque are looked at

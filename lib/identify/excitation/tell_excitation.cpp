@@ -10,13 +10,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kOneWay = 0.98;       // of the moving windows in one direction
-constexpr double kOneSpeed = 0.1;      // standard deviation over mean of the speed
-constexpr double kLeastScale = 0.03;   // of the largest torque scale of the same kind of axis
-constexpr double kNotShown = 1e-9;     // of the torque scale: such a column is zero
-constexpr double kShownMoving = 1e-6;  // of the squared column that moving joints must carry
-constexpr double kWorthNaming = 0.1;   // of the largest weight in the weakest mixture
-constexpr double kLeastEigenvalue = 1e-14;
+constexpr double kOneWay = 0.98;            // of the moving windows in one direction
+constexpr double kOneSpeed = 0.1;           // standard deviation over mean of the speed
+constexpr double kLeastScale = 0.03;        // of the largest torque scale of the same kind of axis
+constexpr double kNotShown = 1e-9;          // of the torque scale: such a column is zero
+constexpr double kShownMoving = 1e-6;       // of the squared column that moving joints must carry
+constexpr double kWorthNaming = 0.1;        // of the largest weight in the weakest mixture
+constexpr double kLeastEigenvalue = 1e-14;  // of the scaled moments: rounding; the inverse stays finite
 
 std::string what_lacks(const JointFit& fit, double forward, bool still) {
   if (still) return "it never moves";

@@ -20,7 +20,7 @@ bool belong_together(const ExtraTerm& a, const ExtraTerm& b) {
 }
 
 bool is_possible(ExtraKind kind, double value) {
-  constexpr double kMostLoad = 0.5;
+  constexpr double kMostLoad = 0.5;  // of the carried torque: load friction beyond is taken for a wrong fit
   if (is_ripple(kind)) return true;
   return value >= 0.0 && (kind != ExtraKind::load_friction || value < kMostLoad);
 }

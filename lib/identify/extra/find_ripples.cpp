@@ -13,14 +13,14 @@
 namespace faultline {
 namespace {
 
-constexpr int kRates = 1000;
-constexpr int kMostRipples = 3;
+constexpr int kRates = 1000;     // of the periodogram, a quarter of a period over the joint's range apart
+constexpr int kMostRipples = 3;  // looked for in one joint
 constexpr double kLeastPeriods = 3.0;   // over the range of the joint
 constexpr double kLeastTurnRate = 2.5;  // 1/rad: slower is gravity's
 constexpr double kStandsOut = 0.03;     // of the residual's variance, and
 constexpr double kAboveOthers = 10.0;   // times the median of all rates
-constexpr int kRefinements = 20;
-constexpr int kFewest = 50;  // windows
+constexpr int kRefinements = 20;        // steps of the golden section: they leave 7e-5 of the interval
+constexpr int kFewest = 50;             // windows
 
 /// Residual of one joint's shortest windows with where and how fast the joint was.
 struct Samples {
@@ -36,7 +36,7 @@ struct Samples {
 class WindowShare {
  public:
   WindowShare() {
-    constexpr int kPieces = 200;
+    constexpr int kPieces = 200;  // of a window, for the integral over it
     for (int i = 0; i < kSize; ++i)
       for (int k = 0; k < kPieces; ++k) {
         const double u = (k + 0.5) / kPieces;
@@ -50,8 +50,8 @@ class WindowShare {
   }
 
  private:
-  static constexpr int kSize = 500;
-  static constexpr double kStep = 0.1;
+  static constexpr int kSize = 500;     // entries, up to 50 rad: the window averages faster waves out
+  static constexpr double kStep = 0.1;  // rad between two entries
   double share_[kSize] = {};
 };
 

@@ -20,9 +20,9 @@ constexpr int kProbes = 64;             // configurations at which the inertia m
 constexpr double kDefinite = 1e-4;      // least eigenvalue of the inertia matrix scaled to a unit diagonal
 constexpr double kFrictionDoubt = 4.0;  // standard deviations below zero that are no doubt any more
 constexpr double kPrior = 0.01;  // worth of the robot's own bodies, against residuals in standard deviations
-constexpr double kLeastFriction = 1e-6;  // N m s/rad, N m, N s/m or N
-constexpr double kFeasibleLeastScale = 1e-4;
-constexpr double kRounding = 1e-9;  // kg or kg m^2: not negative
+constexpr double kLeastFriction = 1e-6;       // N m s/rad, N m, N s/m or N
+constexpr double kFeasibleLeastScale = 1e-4;  // of the robot file's bodies: they stay positive
+constexpr double kRounding = 1e-9;            // kg or kg m^2: not negative
 
 bool positive_definite(const Chain<double>& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   Random random(11);

@@ -15,7 +15,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kNoiseRows = 1000;
+constexpr int kNoiseRows = 1000;       // in the middle of a stretch: enough to estimate a joint's noise
 constexpr double kFewRepeats = 0.005;  // of the rows in motion: less changes nothing
 constexpr double kCaughtUp = 1.5;      // usual steps after a repeated row: the motion went on meanwhile
 

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kSmallestStretch = 4;
+constexpr int kSmallestStretch = 4;  // rows: fewer give neither a period nor third differences for the noise
 constexpr double kGap = 1.6;         // periods: in a longer step rows were lost
 constexpr double kBridged = 5.5;     // periods: up to here, and
 constexpr double kBridged_s = 0.05;  // s, lost rows are put in again, without a measurement; longer steps cut

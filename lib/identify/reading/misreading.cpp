@@ -23,14 +23,14 @@ namespace {
 constexpr int kRows = 3000;                   // of the beginning of a log
 constexpr std::size_t kLogs = 2;              // looked at
 constexpr double kMisreadingWindow_s = 0.16;  // long enough for any noise
-constexpr int kMisreadingWindows = 2000;
+constexpr int kMisreadingWindows = 2000;      // of one length at most: every reading costs a fit of them
 constexpr double kRight = 0.8;         // share of each joint's torque that the right reading must explain
 constexpr double kSurelyRight = 0.95;  // the same where what is read now fits no robot that can be
 constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, by joint in the mean
 
 /// Whether a reading makes of a motion one too small to be meant.
 bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& after, const Robot& robot) {
-  constexpr double kLeastMove_rad = 0.03, kLeastMove_m = 0.003;
+  constexpr double kLeastMove_rad = 0.03, kLeastMove_m = 0.003;  // range of a joint: less is no motion
   const auto range = [](const std::vector<Log>& logs, int j) {
     double widest = 0.0;
     for (const Log& log : logs) {

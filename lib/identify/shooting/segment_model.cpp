@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kDifference = 1e-5;  ///< rad or m, of the slopes with respect to position
-constexpr double kLongestStep_s = 0.01;
-constexpr double kTurns = 6.0;  ///< widths of the Coulomb friction: beyond, it is constant
+constexpr double kDifference = 1e-5;     ///< rad or m, of the slopes with respect to position
+constexpr double kLongestStep_s = 0.01;  ///< of an integration step where no Coulomb friction turns
+constexpr double kTurns = 6.0;           ///< widths of the Coulomb friction: beyond, it is constant
 
 Chain<double> direction_chain(const ParameterSpace& space, int base) {
   Chain<double> chain = space.chain;
@@ -213,6 +213,7 @@ void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
 
 void SegmentModel::step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
                         bool with_sensitivity, Workspace& w) const {
+  // Runge-Kutta of fourth order: places of its stages in the step, and their weights.
   constexpr double kAt[4] = {0.0, 0.5, 0.5, 1.0}, kShare[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   const int n = space_.joints();
   w.sum = w.x;

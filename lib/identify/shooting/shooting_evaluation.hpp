@@ -11,6 +11,7 @@
 
 namespace faultline {
 
+/// Standard deviations of the noise beyond which a sample's weight falls with the square of its residual.
 inline constexpr double kShootingOutlierStd = 4.0;
 
 /// What one excerpt adds to the problem, reduced to a triangular factor: same cost, gradient and Gauss-Newton

@@ -84,7 +84,7 @@ Matrix triangle_of(const Matrix& j) {
 
 /// Below it a diagonal entry of R tells that its column depends on those before it.
 double tolerance_of(const ceres::CRSMatrix& j) {
-  constexpr double kTimes = 20.0;
+  constexpr double kTimes = 20.0;  // times rows and columns, rounding and largest column, as in SuiteSparseQR
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(j.num_cols);
   for (std::size_t at = 0; at < j.values.size(); ++at) squares[j.cols[at]] += j.values[at] * j.values[at];
   return kTimes * (j.num_rows + j.num_cols) * std::numeric_limits<double>::epsilon() *

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestLogs = 3;
+constexpr int kFewestLogs = 3;      // of two that disagree neither is the odd one
 constexpr double kOdd = 4.0;        // times what other logs leave of their torque, in rms and as a share,
 constexpr double kOddShare = 0.01;  // and at least this share of its mean square: days of a robot differ too
 

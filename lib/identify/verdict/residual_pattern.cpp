@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kBins = 24;
+constexpr int kBins = 24;  // of as many windows each (8 at least), by position, speed or torque
 constexpr std::size_t kPatternFewest = 200;  // windows
 constexpr double kHalf_s = 2.0;              // stretches of time that take turns
 constexpr double kSameWindow = 1e-6;         // of a window's length

@@ -14,7 +14,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kFitsFewestLogs = 3;
+constexpr std::size_t kFitsFewestLogs = 3;  // two logs always lie on a line: its scatter needs a third
 
 /// One log's rows of the system, where its windows began, and the fit to them.
 struct SingleLog {

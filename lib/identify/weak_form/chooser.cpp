@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kScaleRounds = 4;
+constexpr int kScaleRounds = 4;              // in which the fit and the residual's scales follow each other
 constexpr double kChooserLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
 
 bool revolute(const ParameterSpace& space, int joint) {

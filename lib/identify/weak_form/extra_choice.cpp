@@ -12,17 +12,17 @@
 namespace faultline {
 namespace {
 
-constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};
-constexpr Worth kShared{.residual = 0.2, .torque = 1e-3};
+constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};    // load friction: one column
+constexpr Worth kShared{.residual = 0.2, .torque = 1e-3};  // drives that joints share: three columns
 // Play, and a spring in a neighbour, look a little like it.
 constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
 // What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain is a wrong mass.
 constexpr Worth kChoiceGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
-constexpr double kMostGain = 2.0;  // or half
-constexpr int kGainSteps = 14;     // between the two, at first
-constexpr int kGainRefinements = 12;
+constexpr double kMostGain = 2.0;     // or half
+constexpr int kGainSteps = 14;        // between the two, at first
+constexpr int kGainRefinements = 12;  // steps of the golden section: they leave 0.06 % of the gain
 
 /// Terms that are tried together.
 struct TermGroup {

@@ -74,6 +74,7 @@ void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& 
 }  // namespace
 
 double weak_width(const ParameterSpace& space, int joint, int k) {
+  // Of the robot's own width: a quarter of a decade apart near the usual widths, coarser beyond.
   constexpr double kFactor[kWidths] = {0.01, 0.1, 0.3, 0.56, 1.0, 1.8, 3.0, 5.6, 10.0, 30.0, 100.0, 300.0};
   return kFactor[k] * space.chain.friction[joint].width;
 }

@@ -12,8 +12,8 @@ namespace faultline {
 /// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth. The
 /// widest serve bent friction alone.
 inline constexpr int kWidths = 12;
-inline constexpr int kCoulombWidths = 9;
-inline constexpr int kOwnWidth = 4;  ///< the robot's own
+inline constexpr int kCoulombWidths = 9;  ///< of Coulomb friction: the first, up to 10 times the robot's own
+inline constexpr int kOwnWidth = 4;       ///< the robot's own
 double weak_width(const ParameterSpace& space, int joint, int k);
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample

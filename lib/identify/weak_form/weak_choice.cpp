@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-constexpr Worth kTerm;
+constexpr Worth kTerm;                                     // rotors and friction offsets
 constexpr Worth kShift{.residual = 0.005};                 // of all joints
 constexpr Worth kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs are late by one and the same
 constexpr Worth kWidth{.residual = 0.02};                  // for friction smoother than the windows can tell
@@ -22,7 +22,7 @@ constexpr Worth kRare{.residual = 0.1, .torque = 1e-3};
 constexpr double kWindowWorthIt = 0.01;  // less of the residual does not ask for a longer window
 constexpr double kWidthsApart = 1.0;  // standard errors by which held-out data tell two friction widths apart
 constexpr double kFarWidth = 4.0;     // times wider or sharper than the best is not in doubt
-constexpr int kShiftSweeps = 3;
+constexpr int kShiftSweeps = 3;       // over the joints at most, each with the delays of the others
 constexpr double kBendsApart = 10.0;  // times the width of the Coulomb friction
 
 /// The shift that suits all joints together best: most logs are late by one and the same.
@@ -188,7 +188,7 @@ void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldO
 
 /// Joints count alike; one that stands still leaves nothing.
 double left_in_all(const HeldOutError& error) {
-  constexpr double kNothing = 1e-12;
+  constexpr double kNothing = 1e-12;  // N m or N: far below any residual; the logarithm stays finite
   return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();
 }
 

@@ -12,8 +12,8 @@
 namespace faultline {
 namespace {
 
-constexpr int kRounds = 8;
-constexpr double kOutlierStd = 8.0;
+constexpr int kRounds = 8;             // of fits with new weights, at most
+constexpr double kOutlierStd = 8.0;    // robust standard deviations up to which a row has its full weight
 constexpr double kFormSettled = 1e-9;  // relative change of the residual's scales below which rounds end
 
 /// 1.4826 times the median absolute value of a joint's used rows; at least 1e-9 and rounding of its torque.

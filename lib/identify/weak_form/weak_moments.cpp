@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kFolds = 5;
+constexpr int kFolds = 5;              // parts of the logs' time, where there are too few logs
 constexpr int kLogsForFolds = 3;       // with as many, whole logs are held out,
 constexpr int kMostFolds = 10;         // each on its own up to here
 constexpr double kFoldBlock_s = 2.0;   // else blocks of a log in turn,

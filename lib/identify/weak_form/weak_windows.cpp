@@ -7,11 +7,11 @@
 namespace faultline {
 namespace {
 
-constexpr int kLengths = 4;      // each twice the one before
-constexpr int kMostShifts = 24;  // samples, but no more than
-constexpr double kLongestShift_s = 0.25;
-constexpr double kWindowsSlow_s = 0.02;  // at longer periods only the neighbouring samples are tried
-constexpr int kShapedSteps = 4;          // fewer samples are weighted alike
+constexpr int kLengths = 4;               // each twice the one before
+constexpr int kMostShifts = 24;           // samples, but no more than
+constexpr double kLongestShift_s = 0.25;  // by which the torque may act earlier or later
+constexpr double kWindowsSlow_s = 0.02;   // at longer periods only the neighbouring samples are tried
+constexpr int kShapedSteps = 4;           // fewer samples are weighted alike
 
 /// Smooth bump over (0, 1), zero with its slope at both ends.
 double bump(double x) {
