@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/evidence/size_scale.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/label_text.hpp"
 
@@ -45,7 +44,7 @@ double impulse_of(const FaultClaim& claim, int joint, int joints) {
 }
 
 std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,
-                                             std::span<const FaultLabel> labels, const MotionModel& model) {
+                                             std::span<const FaultLabel> labels, const UsualMotion& usual) {
   std::vector<LabelEvidence> out;
   for (const FaultLabel& label : labels) {
     LabelEvidence& entry = out.emplace_back(LabelEvidence{label, kNotJudged});
@@ -54,10 +53,10 @@ std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double
     if (score == fault.scores.end()) continue;
     entry.log_likelihood_ratio = std::max(kNotJudged, score->nats);
     entry.left = score->left;
-    const std::array<double, kMostSizes> sizes = sizes_of(score->claim, end_s, model.joints());
+    const std::array<double, kMostSizes> sizes = sizes_of(score->claim, end_s, usual.joints());
     const std::span<const FaultSize> described = describe(label.kind).sizes();
     for (std::size_t s = 0; s < described.size(); ++s)
-      entry.size[s] = sizes[s] / feature_scale(model, described[s].feature, label.joint - 1);
+      entry.size[s] = sizes[s] / feature_scale(usual, described[s].feature, label.joint - 1);
   }
   return out;
 }

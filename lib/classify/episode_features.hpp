@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/evidence/motion_model.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/identify/usual_motion.hpp"
 #include "lib/residual/residual_summary.hpp"
 
 namespace faultline {
@@ -25,7 +25,7 @@ struct LabelEvidence {
 /// One entry a label, in the order of `labels`. `end_s` is the last sample of the episode, up to which a
 /// fault that grows has grown.
 std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,
-                                             std::span<const FaultLabel> labels, const MotionModel& model);
+                                             std::span<const FaultLabel> labels, const UsualMotion& usual);
 
 /// Sizes of a fault in the units of the catalogue's features, as far as it has grown by `end_s`.
 std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, int joints);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/evidence/size_scale.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
@@ -39,16 +38,17 @@ double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
 }
 
 FeatureReading read_size(std::span<const EpisodeFeature> list, std::size_t which,
-                         std::span<const double> features, const MotionModel& model) {
+                         std::span<const double> features, const UsualMotion& usual,
+                         const Chain<double>& chain) {
   const FaultLabel& label = list[which].label;
   const int j = label.joint - 1, s = list[which].size;
   FeatureReading reading{"size of " + quoted(label), "", kNotTold};
-  if (j < 0 || j >= model.joints() || s >= describe(label.kind).size_count) return reading;
+  if (j < 0 || j >= usual.joints() || s >= describe(label.kind).size_count) return reading;
   const FaultSize& size = describe(label.kind).size[s];
-  const bool turns = model.chain.geometry[j].kind == AxisKind::revolute;
+  const bool turns = chain.geometry[j].kind == AxisKind::revolute;
   const bool is_share = size.feature == SizeMeasure::torque_share;
   reading.unit = is_share ? "%" : unit_of(size.feature, turns);
-  reading.value = unfaded_size(list, which, features) * feature_scale(model, size.feature, j) *
+  reading.value = unfaded_size(list, which, features) * feature_scale(usual, size.feature, j) *
                   (is_share ? kPercent : 1.0);
   return reading;
 }
@@ -56,13 +56,14 @@ FeatureReading read_size(std::span<const EpisodeFeature> list, std::size_t which
 }  // namespace
 
 FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
-                            std::span<const double> features, const MotionModel& model) {
+                            std::span<const double> features, const UsualMotion& usual,
+                            const Chain<double>& chain) {
   const double x = features[which];
   switch (list[which].role) {
     case FeatureRole::behind:
       return {quoted(list[which].label) + " behind the best explanation", "nats", nats_behind(x)};
     case FeatureRole::size:
-      return read_size(list, which, features, model);
+      return read_size(list, which, features, usual, chain);
     case FeatureRole::strength:
       return {"log likelihood of the fault over a healthy robot", "nats", elementary::exp(x) - 1.0};
     case FeatureRole::duration:

@@ -19,6 +19,7 @@ struct FeatureReading {
 /// Feature `which` of `features`, whose meaning is `list`. The size of a fault that stays far behind the
 /// likeliest is not told.
 FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
-                            std::span<const double> features, const MotionModel& model);
+                            std::span<const double> features, const UsualMotion& usual,
+                            const Chain<double>& chain);
 
 }  // namespace faultline

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
-#include "lib/evidence/size_scale.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {
@@ -23,7 +22,7 @@ double least_size_of(const FaultLabel& label, const FaultSize& size, const Model
 }
 
 std::string unit_at(const FaultLabel& label, const FaultSize& size, const Model& model) {
-  return unit_of(size.feature, model.motion.chain.geometry[label.joint - 1].kind == AxisKind::revolute);
+  return unit_of(size.feature, model.robot.chain.geometry[label.joint - 1].kind == AxisKind::revolute);
 }
 
 std::string amount_text(double size, const std::string& unit) {

@@ -37,9 +37,10 @@ std::vector<PrecedentFeature> told(const std::vector<FeatureMatch>& matches, con
   if (by.list.empty()) return out;
   for (const FeatureMatch& match : matches) {
     if (out.size() == kTold) break;
-    const FeatureReading here =
-        read_feature(by.list, match.feature, by.basis.episode.features, by.model.motion);
-    const FeatureReading there = read_feature(by.list, match.feature, c.episode.features, by.model.motion);
+    const FeatureReading here = read_feature(by.list, match.feature, by.basis.episode.features,
+                                             by.model.motion, by.model.robot.chain);
+    const FeatureReading there =
+        read_feature(by.list, match.feature, c.episode.features, by.model.motion, by.model.robot.chain);
     if (!std::isfinite(here.value) || !std::isfinite(there.value)) continue;
     out.push_back(
         {name_of(by.list[match.feature]), here.what, here.unit, here.value, there.value, match.difference});

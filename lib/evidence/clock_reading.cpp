@@ -23,7 +23,7 @@ double clock_ratio(const Log& rows, double sample_period_s) {
 
 std::vector<ColumnReading> clock_readings(double ratio, double sample_period_s) {
   if (ratio == 1.0) return {};
-  constexpr double kMilli = 1e-3, kNear = 0.05;
+  constexpr double kMilli = 1e-3, kNear = 0.05;  // s in a ms; relative error of a ratio that counts as ms
   const bool in_ms = std::abs(ratio * kMilli - 1.0) < kNear;
   ColumnReading reading;
   reading.what =
@@ -41,6 +41,7 @@ std::vector<ColumnReading> clock_readings(double ratio, double sample_period_s) 
 }
 
 std::vector<ColumnReading> delay_readings(const Log& rows) {
+  // Rows: the first delay tried; the next is a third longer each time, up to a quarter of the log.
   constexpr int kFirstStep = 2, kFiner = 3, kShortest = 4;
   const double period = period_of(rows);
   std::vector<ColumnReading> out;

@@ -19,8 +19,8 @@ constexpr double kChangeExplains = 0.35;  // of a joint's varying torque left in
 constexpr double kTimesWorse = 3.0;       // than before the change, or than with another reading
 constexpr double kMovesAtAll = 0.2;       // of the fastest velocity
 constexpr double kOneUnit = 1.4;          // ratio of two velocities up to which they have one unit
-constexpr std::size_t kFewestRatios = 20;
-constexpr double kNothingLeft = 0.02;  // below, all readings are as good
+constexpr std::size_t kFewestRatios = 20;  // moving rows: the median of fewer ratios says nothing of a joint
+constexpr double kNothingLeft = 0.02;      // below, all readings are as good
 
 struct Sides {
   Log before, behind;
@@ -43,13 +43,13 @@ Sides sides_of(LogSource& log, double onset_s) {
 }
 
 /// What is left of each joint's torque in the middle one of its blocks; NaN for a joint that says nothing.
-std::vector<double> left_of(const Log& rows, const MotionModel& model) {
-  std::vector<double> left(model.joints(), std::nan(""));
+std::vector<double> left_of(const Log& rows, const KnownRobot& robot) {
+  std::vector<double> left(robot.joints(), std::nan(""));
   if (rows.rows() == 0) return left;
-  const std::vector<JointBalance> balance = torque_balance(rows, model);
-  for (int j = 0; j < model.joints(); ++j) {
-    if (!(model.torque_scale[j] > 0.0) || balance[j].velocity_factor != 1.0) continue;
-    const std::vector<double> blocks = misfits(balance[j], model.torque_scale[j]);
+  const std::vector<JointBalance> balance = torque_balance(rows, robot);
+  for (int j = 0; j < robot.joints(); ++j) {
+    if (!(robot.usual.torque_scale[j] > 0.0) || balance[j].velocity_factor != 1.0) continue;
+    const std::vector<double> blocks = misfits(balance[j], robot.usual.torque_scale[j]);
     if (!blocks.empty()) left[j] = std::max(upper_median(blocks), kNothingLeft);
   }
   return left;
@@ -101,18 +101,18 @@ double sum_of_logs(const std::vector<double>& left) {
 
 }  // namespace
 
-std::optional<ReadingChange> question_change(LogSource& log, const MotionModel& model, double onset_s) {
+std::optional<ReadingChange> question_change(LogSource& log, const KnownRobot& robot, double onset_s) {
   const Sides sides = sides_of(log, onset_s);
   if (sides.before.rows() == 0 || sides.behind.rows() == 0 || sides.behind.tau.empty()) return {};
-  const std::vector<double> before = left_of(sides.before, model), plain = left_of(sides.behind, model);
-  std::vector<ColumnReading> readings = common_readings(model.chain);
-  for (ColumnReading& reading : column_readings(model.chain)) readings.push_back(std::move(reading));
+  const std::vector<double> before = left_of(sides.before, robot), plain = left_of(sides.behind, robot);
+  std::vector<ColumnReading> readings = common_readings(robot.chain());
+  for (ColumnReading& reading : column_readings(robot.chain())) readings.push_back(std::move(reading));
   std::optional<ReadingChange> best;
   double least = 0.0;
   for (const ColumnReading& reading : readings) {
     Log rows = sides.behind;
     reading.apply(rows);
-    const std::vector<double> left = left_of(rows, model);
+    const std::vector<double> left = left_of(rows, robot);
     const double sum = sum_of_logs(left);
     if (!explains(left, plain, before) || (best && sum >= least) || !velocity_fits_position(rows)) continue;
     least = sum;

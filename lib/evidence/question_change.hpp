@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/torque_balance.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -20,6 +20,6 @@ struct ReadingChange {
 /// swapped columns that explain the torque of every joint behind it as well as the plain columns explain it
 /// before, where the plain ones do not behind it. A fault of the robot is explained by none of them. Rewinds
 /// the log before and after.
-std::optional<ReadingChange> question_change(LogSource& log, const MotionModel& model, double onset_s);
+std::optional<ReadingChange> question_change(LogSource& log, const KnownRobot& robot, double onset_s);
 
 }  // namespace faultline

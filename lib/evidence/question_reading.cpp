@@ -26,9 +26,9 @@ constexpr double kReadingFits = 0.35;  // of a joint's varying torque left: as t
 constexpr double kExplains = 0.2;      // left in the best moments by a reading that is right
 constexpr double kFitsWell = 0.06;     // one such moment is enough
 constexpr double kNeverNear = 0.5;     // left in the best moments: another robot
-constexpr double kClearlyLess = 0.5;
-constexpr double kLeastRange = 0.05;  // of the healthy one: less motion is none
-constexpr double kOtherUnit = 1.5;    // times the torque needed, or that much less, at every joint
+constexpr double kClearlyLess = 0.5;   // of the rows' own mean misfit: a better reading leaves less
+constexpr double kLeastRange = 0.05;   // of the healthy one: less motion is none
+constexpr double kOtherUnit = 1.5;     // times the torque needed, or that much less, at every joint
 
 /// What an excerpt says of each joint under one reading.
 struct Fit {
@@ -44,11 +44,11 @@ struct Fit {
   }
 };
 
-Fit fit_of(const Log& log, const MotionModel& model) {
+Fit fit_of(const Log& log, const KnownRobot& robot) {
   Fit fit;
-  const std::vector<JointBalance> balance = torque_balance(log, model);
-  for (int j = 0; j < model.joints(); ++j) {
-    const double scale = model.torque_scale[j];
+  const std::vector<JointBalance> balance = torque_balance(log, robot);
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double scale = robot.usual.torque_scale[j];
     fit.misfits.push_back(scale > 0.0 ? misfits(balance[j], scale) : std::vector<double>{});
     fit.velocity_factor.push_back(balance[j].velocity_factor);
     fit.ratio.push_back(torque_ratio(balance[j], scale));
@@ -142,15 +142,15 @@ Log next_rows(LogSource& log, Log& rest) {
   return rows;
 }
 
-Beginning look_for_a_fit(LogSource& log, const MotionModel& model) {
+Beginning look_for_a_fit(LogSource& log, const KnownRobot& robot) {
   Beginning out;
-  out.ever.resize(model.joints());
-  out.velocity_fits.resize(model.joints(), true);
+  out.ever.resize(robot.joints());
+  out.velocity_fits.resize(robot.joints(), true);
   Log rest;
   for (int i = 0; i < kExcerpts; ++i) {
     Log rows = next_rows(log, rest);
     if (rows.rows() == 0) break;
-    Fit fit = fit_of(rows, model);
+    Fit fit = fit_of(rows, robot);
     take(fit, out);
     if (!out.fit.has_motion() && fit.has_motion()) {
       out.rows = std::move(rows);
@@ -162,11 +162,11 @@ Beginning look_for_a_fit(LogSource& log, const MotionModel& model) {
 }
 
 /// The first excerpt that moves: all that the question about the clock looks at.
-Beginning first_motion(LogSource& log, const MotionModel& model) {
+Beginning first_motion(LogSource& log, const KnownRobot& robot) {
   Beginning out;
   Log rest;
   for (int i = 0; i < kExcerpts && !out.fit.has_motion(); ++i)
-    if ((out.rows = next_rows(log, rest)).rows() > 0) out.fit = fit_of(out.rows, model);
+    if ((out.rows = next_rows(log, rest)).rows() > 0) out.fit = fit_of(out.rows, robot);
   return out;
 }
 
@@ -178,13 +178,13 @@ bool tells_as_much(const Fit& then, const Fit& now) {
 }
 
 /// Whether a reading makes of a joint's motion one far smaller than the healthy ones.
-bool shrinks_motion(const Log& rows, const Log& read, const MotionModel& model) {
+bool shrinks_motion(const Log& rows, const Log& read, const KnownRobot& robot) {
   const auto range = [](const std::vector<double>& q) {
     const auto [low, high] = std::minmax_element(q.begin(), q.end());
     return *high - *low;
   };
-  for (int j = 0; j < model.joints(); ++j) {
-    const double least = kLeastRange * (model.q_high[j] - model.q_low[j]);
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double least = kLeastRange * (robot.usual.q_high[j] - robot.usual.q_low[j]);
     if (range(read.q[j]) < least && range(rows.q[j]) >= least) return true;
   }
   return false;
@@ -203,13 +203,13 @@ Best clearly_better_than(const Beginning& beginning) {
 
 /// Takes those that explain every joint at moments (`usually`: as usual), and clearly more than the rows as
 /// they are.
-void try_readings(const Beginning& beginning, const MotionModel& model,
+void try_readings(const Beginning& beginning, const KnownRobot& robot,
                   const std::vector<ColumnReading>& readings, bool usually, Best& best) {
   for (const ColumnReading& reading : readings) {
     Log rows = beginning.rows;
     reading.apply(rows);
-    if (shrinks_motion(beginning.rows, rows, model)) continue;
-    const Fit fit = fit_of(rows, model);
+    if (shrinks_motion(beginning.rows, rows, robot)) continue;
+    const Fit fit = fit_of(rows, robot);
     const Score then = score_of(fit);
     if (!tells_as_much(fit, beginning.fit) || then.worst > kExplains ||
         (usually && then.usual > kReadingFits) || then.log_mean >= best.log_mean)
@@ -268,28 +268,28 @@ ReadingDoubt other_robot(const Beginning& beginning) {
 
 }  // namespace
 
-ReadingDoubt question_clock(LogSource& log, const MotionModel& model, double sample_period_s) {
+ReadingDoubt question_clock(LogSource& log, const KnownRobot& robot, double sample_period_s) {
   log.rewind();
-  const Beginning beginning = first_motion(log, model);
+  const Beginning beginning = first_motion(log, robot);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
   Best best = clearly_better_than(beginning);
   const double ratio = clock_ratio(beginning.rows, sample_period_s);
-  try_readings(beginning, model, clock_readings(ratio, sample_period_s), false, best);
+  try_readings(beginning, robot, clock_readings(ratio, sample_period_s), false, best);
   return best.doubt;
 }
 
-ReadingDoubt question_reading(LogSource& log, const MotionModel& model) {
+ReadingDoubt question_reading(LogSource& log, const KnownRobot& robot) {
   log.rewind();
-  const Beginning beginning = look_for_a_fit(log, model);
+  const Beginning beginning = look_for_a_fit(log, robot);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
   if (beginning.fitted || score_of(beginning.fit).worst < kReadingFits)
     return other_torque(beginning.fit, true);
   Best best = clearly_better_than(beginning);
-  try_readings(beginning, model, common_readings(model.chain), false, best);
-  try_readings(beginning, model, column_readings(model.chain), false, best);
-  if (best.doubt.is_empty()) try_readings(beginning, model, delay_readings(beginning.rows), true, best);
+  try_readings(beginning, robot, common_readings(robot.chain()), false, best);
+  try_readings(beginning, robot, column_readings(robot.chain()), false, best);
+  if (best.doubt.is_empty()) try_readings(beginning, robot, delay_readings(beginning.rows), true, best);
   for (const ReadingDoubt& doubt :
        {best.doubt, other_torque(beginning.fit, false), other_velocity(beginning.fit)})
     if (!doubt.is_empty()) return doubt;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/evidence/motion_model.hpp"
+#include "lib/evidence/torque_balance.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -23,11 +23,11 @@ struct ReadingDoubt {
 /// beginning; without one that explains it, two joints that never come near their torque are another robot. A
 /// fault that begins later, or on one joint, is no doubt. The log is at the rate of the model's logs. Rewinds
 /// it before and after.
-ReadingDoubt question_reading(LogSource& log, const MotionModel& model);
+ReadingDoubt question_reading(LogSource& log, const KnownRobot& robot);
 
 /// Asks whether a log at another rate than the model's logs, which have a row every `sample_period_s`, has
 /// stamps that run too fast or too slow: whether its motion is explained when its rows are so far apart.
 /// Rewinds the log before and after.
-ReadingDoubt question_clock(LogSource& log, const MotionModel& model, double sample_period_s);
+ReadingDoubt question_clock(LogSource& log, const KnownRobot& robot, double sample_period_s);
 
 }  // namespace faultline

@@ -16,16 +16,17 @@
 namespace faultline {
 namespace {
 
-constexpr double kWindow_s = 0.1;
+constexpr double kWindow_s = 0.1;  // s over which torques are averaged: less noise of the acceleration
 constexpr int kFewestSteps = 3;    // of a window
 constexpr std::size_t kBlock = 6;  // windows
-constexpr std::size_t kFewestOfBlock = 4;
-constexpr double kFastest = 3.0;  // times the root mean square of the healthy speed
+constexpr std::size_t kFewestOfBlock = 4;  // windows: fewer say nothing, two numbers are fitted to them
+constexpr double kFastest = 3.0;           // times the root mean square of the healthy speed
 constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // correlation and factor of two units
 constexpr double kMoves = 0.05;                                 // of the joint's largest speed
 constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque, over all windows
 constexpr double kLeastShare = 0.1;        // of the same, in a block: less says nothing
 constexpr double kLeastHeld = 0.3;         // of the same, of a torque that holds a weight
+// Times the friction of the model: bounds of what a block of windows may show.
 constexpr double kBalanceLeastFriction = 0.5, kMostFriction = 2.0;
 constexpr double kMostOffset = 0.3;  // of the largest healthy torque
 
@@ -55,17 +56,17 @@ double mean_of_steps(const Row& row, int first, int count, double share) {
   return (1.0 - share) * row.segment(first, count).mean() + share * row.segment(first + 1, count).mean();
 }
 
-void add_windows(const Stretch& s, const MotionModel& model, const Eigen::VectorXd& fastest,
+void add_windows(const Stretch& s, const KnownRobot& robot, const Eigen::VectorXd& fastest,
                  std::vector<JointBalance>& out) {
-  constexpr double kTrapezoid = 0.5;
-  const Rows needed = needed_in(s, model.chain);
+  constexpr double kTrapezoid = 0.5;  // share of each step's end in the mean: the trapezoidal rule
+  const Rows needed = needed_in(s, robot.chain());
   const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(kWindow_s / s.period_s)));
   for (int first = 0; first + steps < s.rows(); first += steps)
     for (int j = 0; j < s.joints(); ++j) {
       const double speed = s.dq_smooth.row(j).segment(first, steps).cwiseAbs().mean();
       if (!(speed > kMoves * fastest[j])) continue;
       out[j].time_s.push_back(s.time[first]);
-      out[j].logged.push_back(mean_of_steps(s.tau.row(j), first, steps, model.torque_phi));
+      out[j].logged.push_back(mean_of_steps(s.tau.row(j), first, steps, robot.torque_phi()));
       out[j].body.push_back(mean_of_steps(needed.body.row(j), first, steps, kTrapezoid));
       out[j].braking.push_back(mean_of_steps(needed.braking.row(j), first, steps, kTrapezoid));
     }
@@ -106,8 +107,8 @@ bool is_other_quantity(const DerivativeAgreement& velocity) {
 
 }  // namespace
 
-std::vector<JointBalance> torque_balance(const Log& log, const MotionModel& model) {
-  const Chain<double>& chain = model.chain;
+std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot) {
+  const Chain<double>& chain = robot.chain();
   std::vector<JointBalance> out(chain.joints());
   MemorySource source(log, "excerpt");
   try {
@@ -122,8 +123,8 @@ std::vector<JointBalance> torque_balance(const Log& log, const MotionModel& mode
     for (const Stretch& s : stretches)
       fastest = fastest.cwiseMax(s.dq_smooth.cwiseAbs().rowwise().maxCoeff());
     for (int j = 0; j < chain.joints(); ++j)
-      fastest[j] = std::min(fastest[j], kFastest * model.velocity_scale[j]);
-    for (const Stretch& s : stretches) add_windows(s, model, fastest, out);
+      fastest[j] = std::min(fastest[j], kFastest * robot.usual.velocity_scale[j]);
+    for (const Stretch& s : stretches) add_windows(s, robot, fastest, out);
   } catch (const Error&) {
     return std::vector<JointBalance>(chain.joints());  // nothing in it that could be held against a robot
   }

@@ -3,10 +3,21 @@
 
 #include <vector>
 
-#include "lib/evidence/motion_model.hpp"
+#include "lib/identify/usual_motion.hpp"
 #include "lib/log/log.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
+
+/// The identified robot that a log is held against, and its usual motion.
+struct KnownRobot {
+  const Robot& robot;
+  const UsualMotion& usual;
+
+  const Chain<double>& chain() const { return robot.chain; }
+  int joints() const { return robot.joints(); }
+  double torque_phi() const { return robot.torque_phi.value_or(0.0); }
+};
 
 /// The torque of one joint in means over windows of a tenth of a second or more in which the joint moves, in
 /// the order of time.
@@ -23,7 +34,7 @@ struct JointBalance {
 
 /// What the robot needs for a log's motion beside what was logged, by joint. Where the log tells no motion
 /// (too few rows, no torque), there are no windows.
-std::vector<JointBalance> torque_balance(const Log& log, const MotionModel& model);
+std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot);
 
 /// How far the torque of successive windows is from what the robot needs, a number for each block of them:
 /// the root mean square of what is left as a share of how much it varies. Another offset and half to twice

@@ -8,11 +8,11 @@
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_depth.hpp"
 #include "lib/core/json_values.hpp"
-#include "lib/evidence/motion_model_json.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/model/explain_model_json.hpp"
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
+#include "lib/model/usual_motion_json.hpp"
 #include "lib/model/validation_json.hpp"
 #include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/payload.hpp"
@@ -95,7 +95,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
                   "is a damaged model (it judges nothing: no relations); learn it again");
     return model;
   }
-  model.motion = motion_model_from_json(json.at("motion"), model.robot, where);
+  model.motion = usual_motion_from_json(json.at("motion"), model.robot.joints(), where);
   model.explain = explain_model_from_json(json.at("explain"), where);
   model.labels = labels_of(model.robot);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
@@ -108,14 +108,13 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
 }
 
 void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
-  nlohmann::json motion, residual, judges;
-  to_json(motion, model.motion);
+  nlohmann::json residual, judges;
   to_json(residual, model.residual);
   to_json(judges, model.episode_classifier);
   if (model.twin) json["twin"] = twin_to_json(*model.twin);
   json["validation"] = validation_to_json(model.validation);
   json["explain"] = explain_model_to_json(model.explain);
-  json["motion"] = motion;
+  json["motion"] = usual_motion_to_json(model.motion);
   json["residual"] = residual;
   json["judges"] = judges;
   json["confidence"] = calibration_to_json(model.confidence);

@@ -10,10 +10,10 @@
 #include "lib/classify/episode_classifier.hpp"
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/evidence/motion_model.hpp"
 #include "lib/explain/explain_log.hpp"
 #include "lib/fault/fault_labels.hpp"
 #include "lib/identify/identification.hpp"
+#include "lib/identify/usual_motion.hpp"
 #include "lib/residual/relation/signal_relation.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/robot/robot.hpp"
@@ -89,9 +89,9 @@ struct Model {
   /// How well, with intervals; without robot, estimate, covariance and logs. `not_run` in models of programs
   /// that did not keep it.
   Identification identification;
-  double sample_period_s = 0.0;  ///< usual one of the logs it was learned from
-  bool has_velocity = true;      ///< those logs have dq
-  MotionModel motion;
+  double sample_period_s = 0.0;    ///< usual one of the logs it was learned from
+  bool has_velocity = true;        ///< those logs have dq
+  UsualMotion motion;              ///< of its healthy logs
   ExplainModel explain;            ///< what explains its logs
   std::vector<FaultLabel> labels;  ///< what may be wrong with it; follows from the robot, not stored
   ResidualGenerator residual;

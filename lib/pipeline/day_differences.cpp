@@ -12,48 +12,42 @@ namespace {
 
 constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // of a torque that the model misses
 
-void add(std::vector<SlowState>& states, SlowKind kind, int joint, double variance) {
-  if (variance > 0.0) states.push_back({.kind = kind, .joint = joint, .day_std = std::sqrt(variance)});
-}
-
-/// The torque that the rows leave, as one that is forgotten within some time.
-void add_missed_torque(std::vector<SlowState>& states, const BalanceModel& m, int joint) {
+/// The torque that the rows of a joint leave, as one that is forgotten within some time.
+void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
   const Eigen::VectorXd covariance = autocovariance(m.noise.joint[joint]);
   const double variance = m.noise.joint[joint].base * covariance[0];
   if (!(variance > 0.0)) return;
   const double again = covariance.size() > 1 ? covariance[1] / covariance[0] : 0.0;
   const double memory_s = again > 0.0 ? -m.setting.row_s() / elementary::log(again) : kLeastMemory_s;
-  states.push_back({.kind = SlowKind::coloured_torque,
-                    .joint = joint,
-                    .day_std = std::sqrt(variance),
-                    .memory_s = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s)});
+  out.missed[joint] = std::sqrt(variance);
+  out.missed_memory_s[joint] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
 }
 
-struct DayDifferences {
-  std::vector<SlowState> operator()(const BalanceModel& m) const {
+struct Differences {
+  DayDifferences operator()(const BalanceModel& m) const {
     const DayLayout at = day_layout(m.rigid);
-    std::vector<SlowState> states;
+    DayDifferences out = DayDifferences::none(m.joints());
     for (int j = 0; j < m.joints(); ++j) {
-      add(states, SlowKind::torque_offset, j, m.day_variance[at.offset(j)]);
-      add(states, SlowKind::friction, j, m.day_variance[at.friction(j)]);
-      add(states, SlowKind::torque_gain, j, m.day_variance[at.gain(j)]);
-      add_missed_torque(states, m, j);
+      out.offset[j] = std::sqrt(m.day_variance[at.offset(j)]);
+      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
+      take_missed_torque(m, j, out);
     }
-    return states;
+    return out;
   }
-  std::vector<SlowState> operator()(const OneStepModel& m) const {
+  DayDifferences operator()(const OneStepModel& m) const {
     const StepDayLayout at = m.day_layout();
-    std::vector<SlowState> states;
+    DayDifferences out = DayDifferences::none(m.joints());
     for (int j = 0; j < m.joints(); ++j) {
-      add(states, SlowKind::torque_offset, j, m.day_variance[at.force(j)]);
-      add(states, SlowKind::friction, j, m.day_variance[at.friction(j)]);
-      add(states, SlowKind::torque_gain, j, m.day_variance[at.gain(j)]);
+      out.offset[j] = std::sqrt(m.day_variance[at.force(j)]);
+      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
     }
-    return states;
+    return out;
   }
 };
 
-double variance_of_range(double range) { return Eigen::numext::abs2(range / kStdsInRange); }
+double variance_of_range(double range) { return Eigen::numext::abs2(range / DayEffect::kStdsInRange); }
 
 struct Widen {
   const NormalRange& stated;
@@ -92,7 +86,7 @@ struct Widen {
 
 }  // namespace
 
-std::vector<SlowState> day_differences(const RobotRows& robot) { return std::visit(DayDifferences{}, robot); }
+DayDifferences day_differences(const RobotRows& robot) { return std::visit(Differences{}, robot); }
 
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale) {

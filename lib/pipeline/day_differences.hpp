@@ -3,15 +3,15 @@
 
 #include <vector>
 
-#include "lib/evidence/motion_model.hpp"
 #include "lib/explain/explain_log.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/robot/normal_range.hpp"
+#include "lib/twin/twin.hpp"
 
 namespace faultline {
 
 /// How far healthy days of a robot differ, and the torque that its model misses, as the twin draws them.
-std::vector<SlowState> day_differences(const RobotRows& robot);
+DayDifferences day_differences(const RobotRows& robot);
 
 /// The robot with at least the ranges that its file states, and the work piece that it states; ranges that
 /// stand at their defaults say nothing.

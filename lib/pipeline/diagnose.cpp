@@ -92,15 +92,16 @@ bool can_question(const Model& model) {
 LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, Issues& issues,
                       std::unique_ptr<LogSource>& kept) {
   if (!rate.is_models()) {
-    const ReadingDoubt clock =
-        can_question(model) ? question_clock(log, model.motion, model.sample_period_s) : ReadingDoubt{};
+    const ReadingDoubt clock = can_question(model)
+                                   ? question_clock(log, {model.robot, model.motion}, model.sample_period_s)
+                                   : ReadingDoubt{};
     if (!clock.is_empty()) note_doubt(clock, issues);
     if (!clock.is_empty() || !rate.can_be_resampled()) return log;
     issues.add(resampled_issue(rate, model));
   }
   LogSource& judged = judged_rows(log, model, issues, kept);
   if (!can_question(model)) return judged;
-  if (const ReadingDoubt doubt = question_reading(judged, model.motion); !doubt.is_empty())
+  if (const ReadingDoubt doubt = question_reading(judged, {model.robot, model.motion}); !doubt.is_empty())
     note_doubt(doubt, issues);
   return judged;
 }
@@ -143,7 +144,7 @@ void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
   double onset_s = std::numeric_limits<double>::infinity();
   for (const FaultFinding& fault : faults)
     if (fault.onset_s < onset_s) onset_s = fault.onset_s;
-  const std::optional<ReadingChange> change = question_change(judged, model.motion, onset_s);
+  const std::optional<ReadingChange> change = question_change(judged, {model.robot, model.motion}, onset_s);
   if (!change) return;
   const std::int64_t row = has_log_rows ? change->row : 0;
   issues.add(

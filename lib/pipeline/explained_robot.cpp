@@ -41,7 +41,6 @@ ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& ro
   Model& model = healthy.model;
   model.explain.robot = as_stated(std::move(model.explain.robot), model);
   model.labels = labels_of(model.robot);
-  model.motion.slow = day_differences(model.explain.robot);
   std::vector<UniformLog>& uniform = out.logs;
   for (LogSource* day : healthy.days) {
     day->rewind();

@@ -18,8 +18,8 @@ namespace faultline {
 namespace {
 
 constexpr double kFirst = 0.4;  // share of the work that is done when the robot was identified once
-constexpr double kFitted = 0.6, kSecond = 0.8;
-constexpr int kDaysOfOneLog = 3;  // that a single log is cut into
+constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
+constexpr int kDaysOfOneLog = 3;                // that a single log is cut into
 
 /// Model and logs of `identification`; the logs are those that agreed when all were given.
 HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& robot,
@@ -28,7 +28,7 @@ HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& 
   out.model = identified_model(identification);
   out.reading = reading_of(robot, out.model.robot);
   out.logs = in_time(logs, out.reading, given);
-  out.model.motion = usual_motion(pointers(out.logs), identified_motion(identification));
+  out.model.motion = usual_motion(pointers(out.logs), identification.robot.chain);
   out.identification = std::move(identification);
   out.given = std::move(given);
   return out;

@@ -34,15 +34,4 @@ Model identified_model(const Identification& identification) {
   return model;
 }
 
-IdentifiedMotion identified_motion(const Identification& identification) {
-  IdentifiedMotion motion;
-  motion.chain = identification.robot.chain;
-  motion.torque_phi = identification.robot.torque_phi.value_or(0.0);
-  motion.torque_is_held = identification.robot.log.torque_between_samples == TorqueTiming::held;
-  motion.q_std = identification.q_noise;
-  motion.dq_std = identification.dq_noise;
-  if (motion.dq_std.empty()) motion.dq_std.assign(motion.q_std.size(), 1.0);
-  return motion;
-}
-
 }  // namespace faultline

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/evidence/usual_motion.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
@@ -11,8 +10,5 @@ double identified_period_s(const Identification& identification);
 
 /// The beginning of a model: the identified robot and the usual sample period of its logs.
 Model identified_model(const Identification& identification);
-
-/// What the identification says of the motion.
-IdentifiedMotion identified_motion(const Identification& identification);
 
 }  // namespace faultline

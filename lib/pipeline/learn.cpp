@@ -117,7 +117,9 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
                      const Progress& progress) {
   Model& model = out.model;
   const Identification explained = with_explained_robot(out.identification, model.explain.robot);
-  const Twin twin{&explained, &model.motion, model.sample_period_s, model.has_velocity, options.twin};
+  const Twin twin{
+      &explained,         &model.motion, day_differences(model.explain.robot), model.sample_period_s,
+      model.has_velocity, options.twin};
   const std::uint64_t seed = options.seed * kSeedBlock;
   auto runs_of = [&](const std::vector<FaultLabel>& labels, std::uint64_t stream, const Progress& part,
                      TwinStudyOptions judged) {

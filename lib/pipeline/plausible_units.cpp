@@ -14,8 +14,7 @@ namespace faultline {
 namespace {
 
 constexpr std::int64_t kLookedAt = 50'000;  // rows of a log: a minute and more at 500 Hz, read in a moment
-constexpr double kHealthySpan =
-    13.0;  // rad: joints of arms turn by two turns; where none runs away, none by more
+constexpr double kHealthySpan = 13.0;  // rad, just above two turns: healthy joints of arms turn by no more
 
 /// Of a log of another number of joints none: that is said by itself.
 Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {

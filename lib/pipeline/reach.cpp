@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kSurely = 0.9;
+constexpr double kSurely = 0.9;  // share of the logs that must show a size
 
 /// Size of a label that nine of ten logs show; NaN where no log says, or too few show any.
 double size_shown(const FaultLabel& label, const std::vector<std::vector<LeastFound>>& by_log) {

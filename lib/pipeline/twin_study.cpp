@@ -16,7 +16,7 @@ namespace faultline {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr int kRowsAtATime = 64;
+constexpr int kRowsAtATime = 64;  // rows of a segment of a simulated log
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),

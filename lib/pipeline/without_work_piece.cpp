@@ -4,9 +4,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kFewestOfAll = 0.15;  // share of the rows
-constexpr std::int64_t kFewestRows = 1000;
-constexpr double kSpare_s = 0.05;  // beside a change
+constexpr double kFewestOfAll = 0.15;       // share of the rows
+constexpr std::int64_t kFewestRows = 1000;  // rows of all logs together: fewer do not identify a robot
+constexpr double kSpare_s = 0.05;           // beside a change
 
 /// Times at which the tip is empty.
 struct EmptyTimes {

@@ -229,8 +229,8 @@ class TorqueReplay {
 
 RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionItem>& condition) {
   const int n = model.robot.joints();
-  RobotOfTheDay robot{model.motion.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
-                      model.motion.torque_phi};
+  RobotOfTheDay robot{model.robot.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
+                      model.robot.torque_phi.value_or(0.0)};
   for (const ConditionItem& item : condition) {
     const auto is = [&](DayEffectKind kind) { return item.name.starts_with(to_string(kind)); };
     const int j = item.joint - 1;

@@ -11,15 +11,15 @@ namespace {
 
 // Streams of random numbers that never meet: of the attempts' draws, and of their simulations.
 constexpr std::uint64_t kDrawStream = 7;
-constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;
+constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;  // more than one learning uses
 
 // Of the way from one logged torque to the next (phi): less is nearer to a held torque, phi = 0, than to one
 // that changes many times on the way, phi = 1/2.
 constexpr double kNearlyHeld = 0.25;
 
 // Samples that a run must reach to be of use: a few after the onset, or nearly all of a healthy one.
-constexpr double kNeededAfterOnset = 3.0;
-constexpr double kSpareAtTheEnd = 2.0;
+constexpr double kNeededAfterOnset = 3.0;  // after the onset
+constexpr double kSpareAtTheEnd = 2.0;     // before the end of a healthy run
 
 /// Whether the logged torque acts until the next row rather than changing on the way.
 bool torque_is_held(const Robot& robot) {
@@ -51,13 +51,6 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
   return spec;
 }
 
-/// A joint whose dq is no measurement but the change of q since the row before has such a one here too.
-void differ_velocity(Log& log, const std::vector<char>& is_difference) {
-  for (std::size_t j = 0; j < is_difference.size(); ++j)
-    for (int k = log.rows() - 1; k > 0 && is_difference[j]; --k)
-      log.dq[j][k] = (log.q[j][k] - log.q[j][k - 1]) / (log.time[k] - log.time[k - 1]);
-}
-
 /// One try; the run may end early when the controller drawn does not hold this robot.
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
@@ -75,14 +68,16 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
     run.size = spec.faults.front().size;
   }
   run.log = simulate(robot, spec, seed + static_cast<std::uint64_t>(attempt) * kAttemptSeeds).log;
-  if (twin.has_velocity)
-    differ_velocity(run.log, twin.motion->dq_is_difference);
-  else
-    run.log.dq.clear();
+  if (!twin.has_velocity) run.log.dq.clear();
   return run;
 }
 
 }  // namespace
+
+DayDifferences DayDifferences::none(int joints) {
+  const std::vector<double> zero(static_cast<std::size_t>(joints), 0.0);
+  return {zero, zero, zero, zero, std::vector<double>(zero.size(), 1.0)};
+}
 
 double twin_run_length_s(const Twin& twin) {
   return std::max({twin.options.least_length_s, twin.options.least_length_moves * usual_move_s(twin),

@@ -5,17 +5,30 @@
 #include <limits>
 #include <vector>
 
-#include "lib/evidence/motion_model.hpp"
 #include "lib/identify/identification.hpp"
+#include "lib/identify/usual_motion.hpp"
 #include "lib/simulate/simulate.hpp"
 #include "lib/twin/twin_options.hpp"
 
 namespace faultline {
 
+/// How far healthy days of a robot differ (standard deviations), and the torque that its model misses for a
+/// while; one number a joint, 0 for none.
+struct DayDifferences {
+  std::vector<double> friction;         ///< share of viscous and Coulomb friction
+  std::vector<double> gain;             ///< share of the torque that the drive gives
+  std::vector<double> offset;           ///< N m or N that the drive gives beside what is logged
+  std::vector<double> missed;           ///< N m or N: ripple, springs, shape of friction
+  std::vector<double> missed_memory_s;  ///< after which a missed torque is another
+
+  static DayDifferences none(int joints);
+};
+
 /// What the twin needs of the robot to make runs that resemble its logs.
 struct Twin {
   const Identification* identification = nullptr;
-  const MotionModel* motion = nullptr;
+  const UsualMotion* motion = nullptr;
+  DayDifferences days{};
   double sample_period_s = 0.0;
   bool has_velocity = true;
   TwinOptions options{};

@@ -6,7 +6,6 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/evidence/size_scale.hpp"
 
 namespace faultline {
 namespace {
@@ -16,7 +15,7 @@ namespace {
 constexpr double kMoveShare = 0.4;
 constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the logs moves
 
-constexpr double kMostStds = 2.0;       // of a slow state on a day: its normal range
+constexpr double kMostStds = 2.0;       // of what differs on a day: the normal range
 constexpr double kLeastFriction = 0.3;  // there is always some
 constexpr double kLeastGain = -0.9;     // no drive turns round
 
@@ -27,9 +26,10 @@ std::vector<double> scaled(std::vector<double> values, double by) {
 
 double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
 
-/// What a slow state is on a day, within its normal range.
-double draw_change(const SlowState& slow, Random& random) {
-  const double most = kMostStds * slow.day_std, change = slow.day_std * random.normal();
+/// What differs on a day, within the normal range; nothing is drawn where days are alike.
+double draw_change(double std, Random& random) {
+  if (std == 0.0) return 0.0;
+  const double most = kMostStds * std, change = std * random.normal();
   return std::clamp(change, -most, most);
 }
 
@@ -62,7 +62,7 @@ SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onse
 
 /// A contact at the tip pushes another joint as well, less than its own.
 void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, Random& random) {
-  const MotionModel& motion = *twin.motion;
+  const UsualMotion& motion = *twin.motion;
   const int joints = motion.joints();
   if (joints < 2 || random.uniform() > twin.options.second_push_share) return;
   SimulatedFault other = faults.front();
@@ -78,7 +78,7 @@ void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, R
 }  // namespace
 
 double usual_move_s(const Twin& twin) {
-  const MotionModel& motion = *twin.motion;
+  const UsualMotion& motion = *twin.motion;
   std::vector<double> lengths;
   for (int j = 0; j < motion.joints(); ++j)
     if (motion.velocity_scale[j] > 0.0)
@@ -118,35 +118,31 @@ NoiseSpec draw_noise(const Twin& twin, Random& random) {
 }
 
 DriveSpec draw_drives(const Twin& twin, Random& random) {
+  const DayDifferences& days = twin.days;
   const auto joints = static_cast<std::size_t>(twin.motion->joints());
   DriveSpec drives;
-  drives.gain = drives.offset = drives.roughness = std::vector<double>(joints, 0.0);
-  drives.roughness_memory_s = std::vector<double>(joints, twin.sample_period_s);
-  for (const SlowState& slow : twin.motion->slow) {
-    if (slow.kind == SlowKind::torque_gain)
-      drives.gain[slow.joint] = std::max(draw_change(slow, random), kLeastGain);
-    if (slow.kind == SlowKind::torque_offset) drives.offset[slow.joint] = draw_change(slow, random);
-    if (slow.kind != SlowKind::coloured_torque) continue;
-    drives.roughness[slow.joint] = slow.day_std;
-    drives.roughness_memory_s[slow.joint] = slow.memory_s;
+  drives.roughness = days.missed;
+  drives.roughness_memory_s = days.missed_memory_s;
+  for (std::size_t j = 0; j < joints; ++j) {
+    drives.offset.push_back(draw_change(days.offset[j], random));
+    drives.gain.push_back(std::max(draw_change(days.gain[j], random), kLeastGain));
   }
   return drives;
 }
 
 void draw_day(const Twin& twin, Robot& robot, Random& random) {
-  for (const SlowState& slow : twin.motion->slow) {
-    if (slow.kind != SlowKind::friction) continue;
-    const double scale = std::max(1.0 + draw_change(slow, random), kLeastFriction);
-    robot.chain.friction[slow.joint].viscous *= scale;
-    robot.chain.friction[slow.joint].coulomb *= scale;
-    robot.chain.friction[slow.joint].load *= scale;
+  for (std::size_t j = 0; j < robot.chain.friction.size(); ++j) {
+    const double scale = std::max(1.0 + draw_change(twin.days.friction[j], random), kLeastFriction);
+    robot.chain.friction[j].viscous *= scale;
+    robot.chain.friction[j].coulomb *= scale;
+    robot.chain.friction[j].load *= scale;
   }
 }
 
 JointStops draw_stops(const Twin& twin, Random& random) {
   JointStops stops;
   if (random.uniform() >= twin.options.stop_share) return stops;
-  const MotionModel& motion = *twin.motion;
+  const UsualMotion& motion = *twin.motion;
   const DrawRange& distance = twin.options.stop_distance;
   for (int j = 0; j < motion.joints(); ++j) {
     const double range = motion.q_high[j] - motion.q_low[j];

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "lib/fault/fault_labels.hpp"
-#include "tests/support/hand_made_model.hpp"
+#include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The labels of an RRP robot and a fault that nothing explains yet, from 1 to 1.5 s.
 struct Example {
-  MotionModel model = hand_made_model(known_rrp());
+  UsualMotion model = hand_made_motion(known_rrp());
   std::vector<FaultLabel> labels = fault_labels(3, {2}, false);
   ExplainedFault fault;
 

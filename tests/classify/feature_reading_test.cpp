@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/evidence/size_scale.hpp"
 #include "tests/diagnosis/hand_made_episode.hpp"
 
 namespace faultline {
@@ -13,7 +12,8 @@ class FeatureReadingOf : public testing::Test {
  protected:
   FeatureReading read(const std::string& name) const {
     for (std::size_t i = 0; i < list_.size(); ++i)
-      if (name_of(list_[i]) == name) return read_feature(list_, i, features_, model_.motion);
+      if (name_of(list_[i]) == name)
+        return read_feature(list_, i, features_, model_.motion, model_.robot.chain);
     ADD_FAILURE() << "no feature " << name;
     return {};
   }

@@ -7,7 +7,7 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnosis/decide_episode.hpp"
 #include "lib/diagnosis/describe_episode.hpp"
-#include "tests/support/hand_made_model.hpp"
+#include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {
 
@@ -41,7 +41,7 @@ inline EpisodeClassifier classifier_that_says(const Opinion& mlp, const Opinion&
 inline Model hand_made_rrp() {
   Model model;
   model.robot = known_rrp();
-  model.motion = hand_made_model(model.robot);
+  model.motion = hand_made_motion(model.robot);
   model.labels = fault_labels(3, {2}, false);
   return model;
 }

@@ -15,11 +15,10 @@ namespace {
 Model slide(const std::string& more = "") {
   Model model;
   model.robot = robot_from_toml("name = \"slide\"\naxes = \"P\"\n" + more, "robot");
-  model.motion.chain = model.robot.chain;
-  model.motion.priors.bias = model.motion.priors.drift = {0.01};
-  model.motion.priors.viscous_increase = model.motion.priors.coulomb_increase = {1.0};
-  model.motion.priors.external_torque = {5.0};
-  model.motion.priors.payload = 1.0;
+  model.motion.sizes.bias = model.motion.sizes.drift = {0.01};
+  model.motion.sizes.viscous_increase = model.motion.sizes.coulomb_increase = {1.0};
+  model.motion.sizes.external_torque = {5.0};
+  model.motion.sizes.payload = 1.0;
   model.motion.q_low = {0.0};
   model.motion.q_high = {0.5};
   model.motion.torque_scale = {10.0};
@@ -29,7 +28,7 @@ Model slide(const std::string& more = "") {
 
 FaultExtent of_payload(double kg, const Model& model) {
   const FaultLabel label{FaultKind::payload_change, 1};
-  return extent_of(label, {{label, 50.0, {kg / model.motion.priors.payload, 0.0}}}, model);
+  return extent_of(label, {{label, 50.0, {kg / model.motion.sizes.payload, 0.0}}}, model);
 }
 
 TEST(LeastSize, IsAShareOfWhatTheRobotCarries) {

@@ -19,7 +19,8 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::optional<ReadingChange> change_of(const Log& log) {
   MemorySource source(log);
-  return question_change(source, rrp_motion_model(), kChange_s);
+  const Robot robot = known_rrp();
+  return question_change(source, {robot, rrp_usual_motion()}, kChange_s);
 }
 
 void scale_behind(std::vector<double>& values, double by) {

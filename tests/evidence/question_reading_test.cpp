@@ -18,8 +18,10 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 ReadingDoubt doubt_of(const Log& log) {
   MemorySource source(log);
-  const ReadingDoubt clock = question_clock(source, rrp_motion_model(), kPeriod_s);
-  return clock.is_empty() ? question_reading(source, rrp_motion_model()) : clock;
+  const Robot rrp = known_rrp();
+  const KnownRobot robot{rrp, rrp_usual_motion()};
+  const ReadingDoubt clock = question_clock(source, robot, kPeriod_s);
+  return clock.is_empty() ? question_reading(source, robot) : clock;
 }
 
 Log healthy(std::uint64_t seed = 71) { return simulate(known_rrp(), rrp_run(10.0), seed).log; }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/rrp_runs.hpp"
 
-#include "lib/evidence/usual_motion.hpp"
+#include <vector>
+
+#include "lib/log/memory_source.hpp"
 
 namespace faultline {
 
@@ -29,26 +31,14 @@ SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double si
   return spec;
 }
 
-std::vector<std::unique_ptr<MemorySource>> healthy_rrp_logs() {
-  std::vector<std::unique_ptr<MemorySource>> logs;
-  for (const std::uint64_t seed : {11, 12})
-    logs.push_back(std::make_unique<MemorySource>(simulate(known_rrp(), rrp_run(12.0), seed).log));
-  return logs;
-}
-
-const MotionModel& rrp_motion_model() {
-  static const MotionModel model = [] {
-    const auto owners = healthy_rrp_logs();
-    std::vector<LogSource*> logs;
-    for (const auto& log : owners) logs.push_back(log.get());
-    IdentifiedMotion identified;
-    identified.chain = known_rrp().chain;
-    identified.torque_is_held = true;
-    identified.q_std = {1e-4, 1e-4, 2e-5};
-    identified.dq_std = {5e-3, 5e-3, 1e-3};
-    return usual_motion(logs, identified);
+const UsualMotion& rrp_usual_motion() {
+  static const UsualMotion usual = [] {
+    std::vector<MemorySource> logs;
+    for (const std::uint64_t seed : {11, 12})
+      logs.emplace_back(simulate(known_rrp(), rrp_run(12.0), seed).log);
+    return usual_motion(std::vector<LogSource*>{&logs[0], &logs[1]}, known_rrp().chain);
   }();
-  return model;
+  return usual;
 }
 
 }  // namespace faultline

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "lib/evidence/motion_model.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/identify/usual_motion.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {
@@ -20,10 +16,7 @@ SimulationSpec rrp_run(double duration_s);
 SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double size = 0.0,
                             double length_s = 1e9);
 
-/// The robot with ranges and scales of healthy simulated runs of it; the same object every time.
-const MotionModel& rrp_motion_model();
-
-/// The healthy runs of rrp_motion_model().
-std::vector<std::unique_ptr<MemorySource>> healthy_rrp_logs();
+/// Its usual motion in two healthy simulated runs; the same object every time.
+const UsualMotion& rrp_usual_motion();
 
 }  // namespace faultline

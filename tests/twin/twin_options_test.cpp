@@ -14,14 +14,13 @@
 namespace faultline {
 namespace {
 
-MotionModel motion_of_two_joints() {
-  MotionModel motion;
-  motion.chain.geometry.resize(2);
+UsualMotion motion_of_two_joints() {
+  UsualMotion motion;
   motion.q_low = {-1.0, -2.0};
   motion.q_high = {1.0, 2.0};
   motion.velocity_scale = {0.8, 0.8};
   motion.torque_scale = {10.0, 4.0};
-  motion.priors = {{0.04, 0.08}, {0.04, 0.08}, {2.0, 3.0}, {4.0, 5.0}, {5.0, 2.0}, 1.5};
+  motion.sizes = {{0.04, 0.08}, {0.04, 0.08}, {2.0, 3.0}, {4.0, 5.0}, {5.0, 2.0}, 1.5};
   return motion;
 }
 
@@ -30,9 +29,9 @@ TwinFault& fault_of(TwinOptions& options, FaultKind kind) {
 }
 
 SimulatedFault drawn(const TwinOptions& options, FaultKind kind, std::uint64_t seed = 1) {
-  const MotionModel motion = motion_of_two_joints();
+  const UsualMotion motion = motion_of_two_joints();
   Random random(seed);
-  return draw_faults({nullptr, &motion, 0.001, true, options}, {kind, 2}, 3.0, random).front();
+  return draw_faults({nullptr, &motion, {}, 0.001, true, options}, {kind, 2}, 3.0, random).front();
 }
 
 void expect_refused(const TwinOptions& options, const std::string& key) {
@@ -110,7 +109,7 @@ TEST(TwinFaults, SizesAreSharesOfWhatIsUsualForTheJoint) {
 }
 
 TEST(TwinFaults, SizesStayInTheirRangesOnBothSidesOfZero) {
-  const MotionModel motion = motion_of_two_joints();
+  const UsualMotion motion = motion_of_two_joints();
   int negative = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const double bias = drawn({}, FaultKind::sensor_bias, seed).size / 4.0;

@@ -178,7 +178,7 @@ TEST(TwinSizes, APushLastsAtLeastASample) {
 
 TEST(TwinSizes, MoreLoadIsAShareOfWhatTheRobotCarries) {
   TwinWorld world;
-  world.motion.priors.payload = 1.0;  // half of what it carries
+  world.motion.sizes.payload = 1.0;  // half of what it carries
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const TwinRun run = world.run(FaultKind::payload_change, seed);
     const int from = row_at(run.log, run.onset_s) + 1;
@@ -209,15 +209,6 @@ TEST(TwinRun, ALogWithoutVelocityHasATwinWithout) {
   const TwinRun run = world.run(FaultKind::none, 1);
   EXPECT_TRUE(run.log.dq.empty());
   EXPECT_FALSE(run.log.q.empty());
-}
-
-TEST(TwinRun, AVelocityThatIsADifferenceOfPositionsIsOneInTheTwinToo) {
-  TwinWorld world;
-  world.motion.dq_is_difference = {1};
-  world.identification.q_noise = {1e-4};
-  const Log log = world.run(FaultKind::none, 1).log;
-  for (int k = 1; k < log.rows(); ++k)
-    EXPECT_DOUBLE_EQ(log.dq[0][k], (log.q[0][k] - log.q[0][k - 1]) / (log.time[k] - log.time[k - 1]));
 }
 
 TEST(TwinRunLength, IsAFewMovesAndEnoughSamples) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/twin/twin.hpp"
-#include "tests/support/hand_made_model.hpp"
+#include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {
 
@@ -41,12 +41,12 @@ inline Identification exact_identification(Robot robot) {
 /// A twin with all it points to.
 struct TwinWorld {
   Identification identification;
-  MotionModel motion;
+  UsualMotion motion;
   Twin twin;
 
   explicit TwinWorld(const Robot& robot = exact_slide(), double period_s = 0.01)
-      : identification(exact_identification(robot)), motion(hand_made_model(robot)) {
-    twin = {&identification, &motion, period_s, true};
+      : identification(exact_identification(robot)), motion(hand_made_motion(robot)) {
+    twin = {&identification, &motion, DayDifferences::none(robot.joints()), period_s, true};
   }
   TwinWorld(const TwinWorld&) = delete;
 
