@@ -13,10 +13,10 @@
 #include "lib/compare/comparison_text.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/html/comparison/comparison_page.hpp"
+#include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/log/derive.hpp"
 #include "lib/model/model.hpp"
-#include "lib/monitor/model_rate.hpp"
+#include "lib/report/html/comparison/comparison_page.hpp"
 
 namespace faultline {
 namespace {

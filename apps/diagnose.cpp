@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/pipeline/diagnose.hpp"
+#include "lib/diagnose/diagnose.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -20,10 +20,10 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/html/identification/identification_page.hpp"
 #include "lib/identify/excitation/suggest_motion.hpp"
 #include "lib/identify/identification_json.hpp"
-#include "lib/pipeline/plausible_units.hpp"
+#include "lib/plausibility/plausible_units.hpp"
+#include "lib/report/html/identification/identification_page.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/robot_file.hpp"
 

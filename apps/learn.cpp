@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 
 #include <fmt/format.h>
 
@@ -18,9 +18,9 @@
 #include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
+#include "lib/model/twin/twin_json.hpp"
+#include "lib/model/twin/twin_text.hpp"
 #include "lib/robot/robot_file.hpp"
-#include "lib/twin/twin_json.hpp"
-#include "lib/twin/twin_text.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/work/model_paths.hpp"
-#include "lib/diagnosis/diagnose_options.hpp"
+#include "lib/diagnose/diagnose_options.hpp"
 
 namespace CLI {
 class App;

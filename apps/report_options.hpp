@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/html/report_formats.hpp"
+#include "lib/report/html/report_formats.hpp"
 
 namespace CLI {
 class App;

@@ -11,11 +11,11 @@
 #include "apps/inspection/overview.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/progress.hpp"
-#include "lib/log/checkup/checkup.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/log/raw_reader.hpp"
+#include "lib/plausibility/checkup/checkup.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

@@ -10,7 +10,7 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/plot/line_plot.hpp"
+#include "lib/report/plot/line_plot.hpp"
 
 namespace faultline {
 namespace {

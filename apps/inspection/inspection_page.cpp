@@ -9,8 +9,8 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/html/elements.hpp"
-#include "lib/html/head.hpp"
+#include "lib/report/html/elements.hpp"
+#include "lib/report/html/head.hpp"
 
 namespace faultline {
 namespace {

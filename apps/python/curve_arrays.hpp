@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "lib/replay/run_curves.hpp"
+#include "lib/diagnose/curves/run_curves.hpp"
 
 namespace faultline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 #include <pybind11/stl.h>
 
@@ -10,9 +10,9 @@
 #include "apps/python/loaded_model.hpp"
 #include "apps/python/log_handle.hpp"
 #include "lib/core/error.hpp"
-#include "lib/html/report_formats.hpp"
+#include "lib/diagnose/diagnose.hpp"
 #include "lib/log/prefetch.hpp"
-#include "lib/pipeline/diagnose.hpp"
+#include "lib/report/html/report_formats.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

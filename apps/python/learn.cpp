@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 
 #include <pybind11/stl.h>
 

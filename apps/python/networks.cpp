@@ -17,9 +17,9 @@
 #include "apps/work/folder.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/diagnosis/describe_episode.hpp"
+#include "lib/diagnose/describe_episode.hpp"
+#include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/log/prefetch.hpp"
-#include "lib/monitor/monitor.hpp"
 
 namespace faultline {
 namespace {

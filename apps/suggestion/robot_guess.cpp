@@ -12,11 +12,11 @@
 #include "apps/suggestion/column_guess.hpp"
 #include "apps/suggestion/unit_guess.hpp"
 #include "lib/core/text.hpp"
-#include "lib/log/checkup/torque_relation.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
+#include "lib/plausibility/checkup/torque_relation.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {

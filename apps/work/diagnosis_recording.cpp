@@ -7,10 +7,10 @@
 #include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "formats/provenance.hpp"
+#include "lib/diagnose/curves/expected_joint.hpp"
+#include "lib/diagnose/curves/required_torque.hpp"
+#include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/fault/label_text.hpp"
-#include "lib/monitor/model_rate.hpp"
-#include "lib/replay/expected_joint.hpp"
-#include "lib/replay/required_torque.hpp"
 #include "lib/report/json.hpp"
 
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/model/model.hpp"
 

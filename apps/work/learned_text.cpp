@@ -11,7 +11,7 @@
 #include "apps/work/carried_cases.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/diagnosis/blind_spots.hpp"
+#include "lib/diagnose/blind_spots.hpp"
 #include "lib/fault/label_text.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/report/model_facts.hpp"

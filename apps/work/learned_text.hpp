@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lib/cases/carry_over.hpp"
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 
 namespace faultline {
 

@@ -9,7 +9,7 @@
 #include "apps/work/labels.hpp"
 #include "apps/work/model_paths.hpp"
 #include "lib/cases/carry_over.hpp"
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 
 namespace faultline {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 namespace faultline {
 

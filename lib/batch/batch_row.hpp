@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
-#include "lib/diagnosis/fault_event.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/identify/parameter_value.hpp"
 
 namespace faultline {

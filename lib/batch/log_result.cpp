@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "lib/core/hash.hpp"
-#include "lib/html/html_report.hpp"
-#include "lib/html/report_details.hpp"
 #include "lib/identify/identify.hpp"
+#include "lib/report/html/html_report.hpp"
+#include "lib/report/html/report_details.hpp"
 #include "lib/report/json.hpp"
 
 namespace faultline {

@@ -8,8 +8,8 @@
 
 #include "lib/batch/batch_summary.hpp"
 #include "lib/batch/find_logs.hpp"
+#include "lib/diagnose/diagnose.hpp"
 #include "lib/model/model_files.hpp"
-#include "lib/pipeline/diagnose.hpp"
 
 namespace faultline {
 

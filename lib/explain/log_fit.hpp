@@ -77,7 +77,6 @@ class LogFit {
   /// The same, whitened and stacked.
   const StackedColumns& white_effects() const { return effect_white_; }
   const Eigen::VectorXd& effect_variance() const { return effect_variance_; }
-  const Eigen::MatrixXd& tip_torque() const { return tip_; }
   const Explanation& healthy() const { return healthy_; }
   /// Path of the work piece before anything was known of the day.
   const PiecePath& first_path() const { return first_path_; }

@@ -49,14 +49,9 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "hot or weak motor, or a slipping belt lose torque.",
         .size_words = "about {percent:.0f} % of the torque is lost",
         .acts_on = FaultActsOn::motion,
-        .creeps = true,
         .hidden_by_measured_torque = true,
         .size = {{{
             .measure = SizeMeasure::torque_share,
-            .prior_mean = 0.5,
-            .prior_std = 0.3,
-            .low = 0.0,
-            .high = 1.0,
             .twin = {.low = 0.2, .high = 0.9},  // less is wear, more is free-swinging
         }}},
         .size_count = 1,
@@ -97,7 +92,6 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "slipping encoder coupling, lost counts or a warm sensor.",
         .size_words = "the position drifts by {first:+.3g} {length}/s",
         .acts_on = FaultActsOn::sensor,
-        .creeps = true,
         .shows_in_each_sample = false,  // nor does a drift: from one sample to the next it is next to nothing
         .size = {{{.measure = SizeMeasure::length_per_s, .twin = kShareOfRange}}},
         .size_count = 1,
@@ -114,18 +108,13 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .size_words =
             "dry friction changed by {second:+.3g} {torque}, viscous friction by {first:+.3g} {torque} s/{length}",
         .acts_on = FaultActsOn::motion,
-        .creeps = true,
         .size = {{{
                       .measure = SizeMeasure::viscous_friction,
-                      .prior_mean = 1.0,
-                      .low = 0.0,
                       .twin = {.low = 0.0, .high = 3.0},  // dry friction may rise alone
                   },
                   {
                       .measure = SizeMeasure::coulomb_friction,
                       .feature_name = "coulomb",
-                      .prior_mean = 1.0,
-                      .low = 0.0,
                       .twin = {.low = 0.4, .high = 3.0, .spread = Spread::log_uniform},
                   }}},
         .size_count = 2,
@@ -142,10 +131,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .size_words = "the load at the end of link {joint} changed by {first:+.3g} kg",
         .acts_on = FaultActsOn::motion,
         .place = FaultPlace::link,
-        .creeps = true,
         .size = {{{
             .measure = SizeMeasure::mass,
-            .low = -1.8,  // of half the mass carried: the tip keeps a tenth
             .twin = {.low = 0.15, .high = 1.2, .spread = Spread::log_uniform},
         }}},
         .size_count = 1,
@@ -162,7 +149,6 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .size_words = "the push had an impulse of {first:+.3g} {torque} s",
         .acts_on = FaultActsOn::motion,
         .passes = true,
-        .course = SizeCourse::pulse,
         .size = {{{
             .measure = SizeMeasure::torque,
             .feature = SizeMeasure::impulse,
@@ -185,7 +171,6 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .acts_on = FaultActsOn::motion,  // a drive that misreads its current gives another torque
         .size = {{{
             .measure = SizeMeasure::torque,
-            .prior_std = 0.6,
             .twin = {.low = 0.1, .high = 0.6, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
@@ -201,8 +186,6 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "when the cause is found, record it with `faultline cases add`, so that it is known the next "
             "time.",
         .acts_on = FaultActsOn::motion,
-        .creeps = true,
-        .course = SizeCourse::wanders,
         .size = {{{.measure = SizeMeasure::torque}}},
         .size_count = 1,
     },

@@ -22,18 +22,11 @@ enum class FaultPlace {
   link,   ///< the end of any link; the joint that moves the link stands for it
 };
 
-/// How the sizes go on after the onset.
-enum class SizeCourse {
-  stays,
-  pulse,    ///< any shape, and over after a short time
-  wanders,  ///< a random walk
-};
-
 inline constexpr int kMostSizes = 2;
 
-/// All that is to be known of a kind of fault, but for its dynamics: what it does to the joint is said in
-/// fault_load.hpp (lib/evidence) for the filters and, apart from it on purpose, in fault_event.cpp
-/// (lib/simulate) for the plant.
+/// All that is to be known of a kind of fault, but for what it does to the joint: its columns stand in
+/// lib/explain/fault_columns and, apart from them on purpose, the simulated fault in
+/// lib/simulate/fault_event.
 struct FaultDescription {
   FaultKind kind = FaultKind::none;
   const char* name = "";        ///< in labels, JSON and reports; never changes
@@ -46,15 +39,12 @@ struct FaultDescription {
 
   FaultActsOn acts_on = FaultActsOn::nothing;
   FaultPlace place = FaultPlace::joint;
-  bool creeps = false;  ///< it can have begun long before it is noticed: onsets far back are tried
   bool passes = false;  ///< it is over by itself, so that each time it is a fault of its own
   /// Residuals show it for as long as it lasts, so that it can be told sample by sample.
   bool shows_in_each_sample = true;
   bool hidden_by_measured_torque = false;  ///< a torque measured behind the drive holds it
 
-  SizeCourse course = SizeCourse::stays;
-  /// In the order of the filter's state. The last one is SimulatedFault::size (lib/simulate), the first of
-  /// two its `viscous`.
+  /// The last one is SimulatedFault::size (lib/simulate), the first of two its `viscous`.
   std::array<FaultSize, kMostSizes> size{};
   int size_count = 0;
   /// Smaller ones are no fault to act on: share of usual_of() the measure that stands for each size among the

@@ -43,13 +43,6 @@ struct FaultSize {
   /// passes.
   SizeMeasure feature = measure;
   const char* feature_name = "size";  ///< before the label in the feature's name
-  /// What is thought of the size before anything is seen: normal, in units of the size's prior scale
-  /// (size_scale.hpp in lib/evidence).
-  double prior_mean = 0.0;
-  double prior_std = 1.0;
-  /// Beyond these the size has no meaning; in the same units.
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
   DrawRange twin{};  ///< what a technician would call a fault, as a share of usual_of(measure)
 };
 

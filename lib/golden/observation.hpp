@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/diagnosis/fault_event.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/golden/trace.hpp"
 #include "lib/identify/parameter_value.hpp"
 

@@ -9,11 +9,11 @@
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
+#include "lib/diagnose/diagnose.hpp"
 #include "lib/golden/model_values.hpp"
 #include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/model/model_files.hpp"
-#include "lib/pipeline/diagnose.hpp"
 
 namespace faultline {
 namespace {

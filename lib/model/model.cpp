@@ -12,12 +12,12 @@
 #include "lib/model/explain_model_json.hpp"
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
+#include "lib/model/twin/twin_json.hpp"
 #include "lib/model/usual_motion_json.hpp"
 #include "lib/model/validation_json.hpp"
 #include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/payload.hpp"
 #include "lib/robot/robot_file.hpp"
-#include "lib/twin/twin_json.hpp"
 
 namespace faultline {
 namespace {

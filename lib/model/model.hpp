@@ -14,10 +14,10 @@
 #include "lib/fault/fault_labels.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/usual_motion.hpp"
+#include "lib/model/twin/twin_options.hpp"
 #include "lib/residual/relation/signal_relation.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/robot/robot.hpp"
-#include "lib/twin/twin_options.hpp"
 
 namespace faultline {
 

@@ -8,7 +8,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/diagnosis/least_size.hpp"
+#include "lib/diagnose/least_size.hpp"
 
 namespace faultline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 /// Sentences that every report for people uses, so that none of them says something else.
 namespace faultline {

@@ -9,7 +9,7 @@
 
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
-#include "lib/diagnosis/fault_event.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 /// Similar cases in words, the same in every report for people.
 namespace faultline {

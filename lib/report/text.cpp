@@ -10,7 +10,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
-#include "lib/diagnosis/fault_event.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"

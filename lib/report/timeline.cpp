@@ -9,7 +9,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
-#include "lib/plot/plot_axis.hpp"
+#include "lib/report/plot/plot_axis.hpp"
 
 namespace faultline {
 namespace {

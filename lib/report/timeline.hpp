@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lib/diagnosis/diagnosis.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 namespace faultline {
 

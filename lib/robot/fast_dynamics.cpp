@@ -14,8 +14,8 @@ double fast_tanh(double x) { return 1.0 - 2.0 / (elementary::exp(2.0 * x) + 1.0)
 
 }  // namespace
 
-void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, const Bodies& bodies,
-                                           double* inertia, double* bias) const {
+void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, double* inertia,
+                                           double* bias) const {
   const int n = joints_;
   for (int i = 0; i < n * n; ++i) inertia[i] = 0.0;
   PerJoint<PerJoint<double>> a;  // A_ij
@@ -26,11 +26,11 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, co
     w += sign_[joint] * dq[joint];
     rate[i] = w;
     torque[i] = 0.0;
-    a[i][i] = bodies.diagonal[i];
+    a[i][i] = bodies_.diagonal[i];
     if (gravity_in_plane_) {
       theta += sign_[joint] * q[joint];
       const auto [up, along] = elementary::sin_cos(theta);
-      torque[i] = bodies.gravity[i].alpha * along + bodies.gravity[i].beta * up;
+      torque[i] = bodies_.gravity[i].alpha * along + bodies_.gravity[i].beta * up;
     }
     if (i == 0) continue;
     const double angle = sign_[joint] * q[joint];
@@ -38,7 +38,7 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, co
     cosine[i] = c;
     sine[i] = s;
     for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
-      const Pair& pair = bodies.pairs[k][i];
+      const Pair& pair = bodies_.pairs[k][i];
       a[k][i] = pair.alpha * c + pair.beta * s;
       const double slope = pair.beta * c - pair.alpha * s;
       torque[k] += slope * rate[i] * rate[i];
@@ -65,18 +65,18 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, co
       inertia[joint * n + other] = inertia[other * n + joint] = sign_[joint] * sign_[other] * sum;
     }
   }
-  add_prismatic(bodies, inertia, bias);
-  for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies.rotor_inertia[i];
+  add_prismatic(inertia, bias);
+  for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies_.rotor_inertia[i];
 }
 
-void FastDynamics::add_prismatic(const Bodies& bodies, double* inertia, double* bias) const {
+void FastDynamics::add_prismatic(double* inertia, double* bias) const {
   for (int i = 0; i < prismatic_; ++i) {
     const int joint = prismatic_joint_[i];
-    bias[joint] = bodies.weight[joint];
+    bias[joint] = bodies_.weight[joint];
     for (int k = 0; k <= i; ++k) {
       const int other = prismatic_joint_[k];
       inertia[joint * joints_ + other] = inertia[other * joints_ + joint] =
-          sign_[joint] * sign_[other] * bodies.carried_mass[joint];
+          sign_[joint] * sign_[other] * bodies_.carried_mass[joint];
     }
   }
 }
@@ -139,19 +139,12 @@ void FastDynamics::momentum_and_force(const JointVector<double>& q, const JointV
 void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
                                     JointMatrix<double>& inertia, JointVector<double>& bias) const {
   if (planar_) {
-    inertia_and_bias(q, dq, bodies_, inertia, bias);
+    inertia.resize(joints_, joints_);
+    bias.resize(joints_);
+    planar_inertia_and_bias(q.data(), dq.data(), inertia.data(), bias.data());
   } else {
     spatial_.inertia_and_bias(q, dq, inertia, bias);
-    if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
   }
-}
-
-void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
-                                    const Bodies& bodies, JointMatrix<double>& inertia,
-                                    JointVector<double>& bias) const {
-  inertia.resize(joints_, joints_);
-  bias.resize(joints_);
-  planar_inertia_and_bias(q.data(), dq.data(), bodies, inertia.data(), bias.data());
   if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
 }
 
@@ -162,35 +155,6 @@ JointVector<double> FastDynamics::body_torque(const JointVector<double>& q, cons
   inertia_and_bias(q, dq, inertia, bias);
   bias.noalias() += inertia.lazyProduct(ddq);
   return bias;
-}
-
-template <typename Mix>
-void FastDynamics::mix_bodies(const Bodies& others, const Mix& mix, Bodies& out) const {
-  auto mix_pair = [&](const Pair& mine, const Pair& theirs) {
-    return Pair{mix(mine.alpha, theirs.alpha), mix(mine.beta, theirs.beta)};
-  };
-  for (int j = 0; j < revolute_; ++j) {
-    out.diagonal[j] = mix(bodies_.diagonal[j], others.diagonal[j]);
-    out.gravity[j] = mix_pair(bodies_.gravity[j], others.gravity[j]);
-    for (int i = 0; i < j; ++i) out.pairs[i][j] = mix_pair(bodies_.pairs[i][j], others.pairs[i][j]);
-  }
-  for (int j = 0; j < joints_; ++j) {
-    out.carried_mass[j] = mix(bodies_.carried_mass[j], others.carried_mass[j]);
-    out.weight[j] = mix(bodies_.weight[j], others.weight[j]);
-    out.rotor_inertia[j] = mix(bodies_.rotor_inertia[j], others.rotor_inertia[j]);
-  }
-}
-
-FastDynamics::Bodies FastDynamics::bodies_more_in(const FastDynamics& other) const {
-  Bodies out{};
-  mix_bodies(
-      other.bodies_, [](double mine, double theirs) { return theirs - mine; }, out);
-  return out;
-}
-
-void FastDynamics::add_bodies(const Bodies& more, double share, Bodies& out) const {
-  mix_bodies(
-      more, [share](double mine, double theirs) { return mine + share * theirs; }, out);
 }
 
 void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& torque) const {

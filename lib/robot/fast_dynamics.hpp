@@ -16,22 +16,6 @@ namespace faultline {
 /// construction; safe to share between threads.
 class FastDynamics {
  public:
-  template <typename T>
-  using PerJoint = std::array<T, kMaxJoints>;
-  struct Pair {
-    double alpha, beta;
-  };
-  /// What of the fast path depends on the masses, linear in masses, first moments and inertias; only the
-  /// entries of the chain's joints are set.
-  struct Bodies {
-    PerJoint<double> diagonal;       ///< A_ii of each revolute body
-    PerJoint<PerJoint<Pair>> pairs;  ///< A_ij, i < j
-    PerJoint<Pair> gravity;  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
-    PerJoint<double> carried_mass;  ///< of the joint's link and all beyond
-    PerJoint<double> weight;        ///< gravity force on a prismatic joint
-    PerJoint<double> rotor_inertia;
-  };
-
   explicit FastDynamics(const Chain<double>& chain);
 
   int joints() const { return joints_; }
@@ -56,13 +40,6 @@ class FastDynamics {
   /// joints share.
   void momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
                           JointVector<double>& momentum, JointVector<double>& force) const;
-  /// M and h + G of the chain with other bodies; for planar() only.
-  void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq, const Bodies& bodies,
-                        JointMatrix<double>& inertia, JointVector<double>& bias) const;
-  /// What the bodies of `other`, the same chain but for its masses, have more than those of this chain.
-  Bodies bodies_more_in(const FastDynamics& other) const;
-  /// This chain's bodies and `share` times `more`.
-  void add_bodies(const Bodies& more, double share, Bodies& out) const;
   /// F(dq).
   void friction(const JointVector<double>& dq, JointVector<double>& torque) const;
   /// All that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
@@ -74,12 +51,25 @@ class FastDynamics {
                     const JointVector<double>& tau, JointVector<double>& ddq, unsigned locked = 0) const;
 
  private:
-  template <typename Mix>
-  void mix_bodies(const Bodies& others, const Mix& mix, Bodies& out) const;
+  template <typename T>
+  using PerJoint = std::array<T, kMaxJoints>;
+  struct Pair {
+    double alpha, beta;
+  };
+  /// What of the fast path depends on the masses, linear in masses, first moments and inertias; only the
+  /// entries of the chain's joints are set.
+  struct Bodies {
+    PerJoint<double> diagonal;       ///< A_ii of each revolute body
+    PerJoint<PerJoint<Pair>> pairs;  ///< A_ij, i < j
+    PerJoint<Pair> gravity;  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
+    PerJoint<double> carried_mass;  ///< of the joint's link and all beyond
+    PerJoint<double> weight;        ///< gravity force on a prismatic joint
+    PerJoint<double> rotor_inertia;
+  };
+
   void set_up_planar(const Eigen::Vector3d& normal);
-  void planar_inertia_and_bias(const double* q, const double* dq, const Bodies& bodies, double* inertia,
-                               double* bias) const;
-  void add_prismatic(const Bodies& bodies, double* inertia, double* bias) const;
+  void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
+  void add_prismatic(double* inertia, double* bias) const;
 
   Chain<double> chain_;
   int joints_ = 0;

@@ -9,7 +9,7 @@
 #include "formats/write_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "tests/pipeline/small_robot.hpp"
+#include "tests/learn/small_robot.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {

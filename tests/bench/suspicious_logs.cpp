@@ -8,9 +8,9 @@
 
 #include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
+#include "lib/learn/model_doubts.hpp"
+#include "lib/learn/trusted_robot.hpp"
 #include "lib/log/remembered_source.hpp"
-#include "lib/pipeline/model_doubts.hpp"
-#include "lib/pipeline/trusted_robot.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {

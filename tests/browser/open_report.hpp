@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/html/html_report.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/skip_unless_installed.hpp"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "lib/core/atomic_file.hpp"
-#include "lib/html/html_report.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/run_program.hpp"

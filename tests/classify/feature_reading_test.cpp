@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/diagnosis/hand_made_episode.hpp"
+#include "tests/diagnose/hand_made_episode.hpp"
 
 namespace faultline {
 namespace {

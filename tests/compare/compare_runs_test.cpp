@@ -8,8 +8,8 @@
 
 #include "lib/compare/comparison_text.hpp"
 #include "lib/core/error.hpp"
-#include "lib/html/comparison/comparison_page.hpp"
-#include "tests/pipeline/small_robot.hpp"
+#include "lib/report/html/comparison/comparison_page.hpp"
+#include "tests/learn/small_robot.hpp"
 
 namespace faultline {
 namespace {

@@ -10,7 +10,7 @@
 #include "lib/model/model_files.hpp"
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
-#include "tests/pipeline/small_robot.hpp"
+#include "tests/learn/small_robot.hpp"
 #include "tests/support/resealed_model.hpp"
 
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lib/html/report_details.hpp"
+#include "lib/report/html/report_details.hpp"
 #include "tests/report/example_diagnosis.hpp"
 
 namespace faultline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/diagnosis/merge_faults.hpp"
+#include "lib/diagnose/merge_faults.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {

@@ -8,10 +8,10 @@
 #include <regex>
 #include <sstream>
 
-#include "lib/html/html_report.hpp"
-#include "lib/replay/run_curves.hpp"
+#include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/markdown.hpp"

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "lib/core/number_text.hpp"
-#include "lib/html/html_report.hpp"
 #include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
 #include "lib/report/markdown.hpp"

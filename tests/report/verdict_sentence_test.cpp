@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "lib/html/html_report.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_diagnosis.hpp"

@@ -114,33 +114,5 @@ TEST(FastDynamics, LockedJointStaysAndTheRestObeysTheirOwnEquations) {
   EXPECT_GT(std::abs(needed[1] - tau[1]), 1e-3);  // the lock holds what is missing
 }
 
-TEST(FastDynamics, BodiesBetweenTwoChainsAreThoseOfTheChainBetween) {
-  Random random(11);
-  for (const char* axes : {"RRP", "PRRR", "RRPR"}) {
-    const Robot robot = preset_robot(axes);
-    Chain<double> light = robot.chain, heavy = light, between = light;
-    const int last = light.joints() - 1;
-    const LinkInertia<double> more = general_body(1.3, {0.1, 0.05, -0.2}, 0.01 * Eigen::Matrix3d::Identity());
-    auto add = [&](Chain<double>& chain, double share) {
-      chain.links[last].mass += share * more.mass;
-      chain.links[last].first_moment += share * more.first_moment;
-      chain.links[last].inertia += share * more.inertia;
-    };
-    add(heavy, 1.0);
-    add(between, 0.3);
-    const FastDynamics fast(light), loaded(heavy);
-    FastDynamics::Bodies bodies{};
-    fast.add_bodies(fast.bodies_more_in(loaded), 0.3, bodies);
-    const int n = light.joints();
-    const JointVector<double> q = draw(random, n, 2.0), dq = draw(random, n, 2.0);
-    JointMatrix<double> inertia, expected_inertia;
-    JointVector<double> bias, expected_bias;
-    fast.inertia_and_bias(q, dq, bodies, inertia, bias);
-    FastDynamics(between).inertia_and_bias(q, dq, expected_inertia, expected_bias);
-    EXPECT_LT((inertia - expected_inertia).norm(), 1e-12) << axes;
-    EXPECT_LT((bias - expected_bias).norm(), 1e-12) << axes;
-  }
-}
-
 }  // namespace
 }  // namespace faultline

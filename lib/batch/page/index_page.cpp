@@ -10,8 +10,8 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/html/elements.hpp"
-#include "lib/html/source_hash.hpp"
+#include "lib/report/html/elements.hpp"
+#include "lib/report/html/source_hash.hpp"
 
 namespace faultline {
 namespace {

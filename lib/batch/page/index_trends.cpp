@@ -11,7 +11,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
 #include "lib/explain/day_effects.hpp"
-#include "lib/plot/line_plot.hpp"
+#include "lib/report/plot/line_plot.hpp"
 
 namespace faultline {
 namespace {

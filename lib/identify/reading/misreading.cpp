@@ -12,10 +12,10 @@
 #include "lib/core/error.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/gathered.hpp"
-#include "lib/identify/reading/column_reading.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/log/memory_source.hpp"
+#include "lib/plausibility/column_reading.hpp"
 
 namespace faultline {
 namespace {

@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kEnoughRows = 10;            // to know what is usual
+constexpr int kEnoughOfJumps = 10;            // to know what is usual
 constexpr double kUsualForgetting = 0.02;  // share of a new row in what is usual
 constexpr double kTimesUsual = 20.0;       // further off than usual: no noise and no rounding
 constexpr double kLeastJump = 1e-3;        // rad or m
@@ -33,9 +33,9 @@ void PositionJumps::learn(int j) {
   const double way = 0.5 * (last_.dq(j) + now_.dq(j)) * (now_.t - last_.t);
   const double off = std::abs(now_.q(j) - last_.q(j) - way);
   if (!std::isfinite(off)) return;
-  learned_[j] = std::min(learned_[j] + 1, kEnoughRows);
+  learned_[j] = std::min(learned_[j] + 1, kEnoughOfJumps);
   const double share = std::max(kUsualForgetting, 1.0 / learned_[j]);
-  usual_[j] += learned_[j] < kEnoughRows ? (off - usual_[j]) / learned_[j] : share * (off - usual_[j]);
+  usual_[j] += learned_[j] < kEnoughOfJumps ? (off - usual_[j]) / learned_[j] : share * (off - usual_[j]);
 }
 
 const std::vector<int>& PositionJumps::take(const MeasuredRow& row, double usual_step_s) {
@@ -50,7 +50,7 @@ const std::vector<int>& PositionJumps::take(const MeasuredRow& row, double usual
   shortest_s_ = std::min(step, usual_step_s);
   longest_s_ = std::max(step, usual_step_s);
   for (int j = 0; j < row.joints && follows; ++j) {
-    if (learned_[j] == kEnoughRows && jumps(j, j))
+    if (learned_[j] == kEnoughOfJumps && jumps(j, j))
       jumped_.push_back(j);
     else
       learn(j);

@@ -37,7 +37,7 @@ class EmptyRowsSource : public LogSource {
   std::int64_t off_grid_ = 0;  ///< steps so far that are no whole number of periods
 };
 
-/// After more rows without a measurement the filters start anew (lib/evidence/filter).
+/// After more rows without a measurement they are a gap.
 inline constexpr int kMostEmptyRows = 4;
 
 }  // namespace faultline

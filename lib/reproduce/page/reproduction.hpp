@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/plot/line_plot.hpp"
+#include "lib/report/plot/line_plot.hpp"
 #include "lib/reproduce/page/result_table.hpp"
 #include "lib/reproduce/protocol/reproduce_options.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "lib/diagnosis/decision.hpp"
+#include "lib/diagnose/decision.hpp"
 
 namespace faultline {
 namespace {

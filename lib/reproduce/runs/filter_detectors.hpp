@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 #include "lib/reproduce/runs/free_joint_filter.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
 

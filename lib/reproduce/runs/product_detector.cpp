@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "lib/classify/episode_features.hpp"
-#include "lib/diagnosis/decide_episode.hpp"
-#include "lib/diagnosis/describe_episode.hpp"
+#include "lib/diagnose/decide_episode.hpp"
+#include "lib/diagnose/describe_episode.hpp"
+#include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/log/memory_source.hpp"
-#include "lib/monitor/monitor.hpp"
 
 namespace faultline {
 namespace {

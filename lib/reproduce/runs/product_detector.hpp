@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "lib/balance/one_step/one_step_model.hpp"
-#include "lib/pipeline/learn.hpp"
+#include "lib/learn/learn.hpp"
 #include "lib/reproduce/runs/alarm_score.hpp"
 
 namespace faultline {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <faultline/formats/open_log.hpp>
 #include <faultline/lib/core/error.hpp>
+#include <faultline/lib/diagnose/diagnose.hpp>
 #include <faultline/lib/model/model_files.hpp>
-#include <faultline/lib/pipeline/diagnose.hpp>
 #include <iostream>
 
 // Usage: diagnose_example LOG MODEL

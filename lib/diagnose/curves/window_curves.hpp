@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/classify/sample_classifier.hpp"
+#include "lib/diagnose/curves/envelope_builder.hpp"
+#include "lib/diagnose/curves/required_torque.hpp"
+#include "lib/log/log.hpp"
+#include "lib/model/model.hpp"
+#include "lib/residual/residuals.hpp"
+
+namespace faultline {
+
+/// Gathers the curves of one stretch of a log as segments stream by, in order; where segments end changes
+/// nothing.
+class WindowCurves {
+ public:
+  /// `labels`: what the networks are asked about in this window; none for a window that does not show them.
+  WindowCurves(const CurveWindow& window, const Model& model, const std::vector<FaultLabel>& labels);
+
+  /// The rows of `segment`, the predictions that end in it, and the torque required at its rows (empty where
+  /// none is known).
+  void take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque);
+  CurveWindow curves() const;
+
+ private:
+  struct Joint {
+    EnvelopeBuilder q, q_predicted, dq, dq_predicted, tau, tau_required, residual;
+  };
+  struct Network {
+    FaultLabel label;
+    Eigen::Index output;
+    EnvelopeBuilder mlp, rbfn;
+  };
+
+  /// Where predictions were put last. One stands for the bins since the one before it, too.
+  struct Reached {
+    int bin = -1;
+    double time_s = 0.0;
+  };
+
+  int bin_of(double time_s) const;
+  int first_bin_of(int bin, double time_s, const Reached& last) const;
+  void take_rows(const Log& segment);
+  void take_torque(const Log& segment, const RequiredTorque& torque);
+  void take_references(const Log& segment);
+  void take_predictions(const Log& segment, const Residuals& residuals);
+  void take_prediction(const Log& segment, int row, const Residuals& residuals, int i, int bin);
+  void take_outputs(const Residuals& residuals);
+
+  CurveWindow window_;
+  const Model& model_;
+  double bins_per_s_;
+  double held_s_;  ///< longest time between two predictions without a gap in the log
+  Reached predicted_, classified_;
+  std::vector<Joint> joints_;
+  std::vector<Network> networks_;
+};
+
+}  // namespace faultline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/decide_episode.hpp"
+
+#include "lib/diagnose/decision.hpp"
+#include "lib/diagnose/describe_episode.hpp"
+#include "lib/diagnose/finding.hpp"
+#include "lib/diagnose/precedents.hpp"
+
+namespace faultline {
+namespace {
+
+/// An unknown fault is nothing that the runs held it against had.
+double calibrated(const Decision& decision, const ConfidenceCalibration& calibration) {
+  if (decision.label.kind == FaultKind::unknown) return decision.confidence;
+  return calibration.of(confidence_source(decision.decided_by), decision.confidence);
+}
+
+}  // namespace
+
+FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
+  DescribedEpisode described = describe_episode(observed, model);
+  DecisionBasis basis{observed.fault.label(),
+                      observed.fault.could_also_be,
+                      std::move(described.evidence),
+                      std::move(described.episode),
+                      {},
+                      observed.fault.limit};
+  basis.votes = votes_on(basis.episode, cases);
+  Decision decision = decide(basis);
+  decision.confidence = calibrated(decision, model.confidence);
+  FaultFinding finding = finding_of({observed, basis, decision}, model);
+  finding.precedents = precedents_of(basis, cases, model);
+  return finding;
+}
+
+}  // namespace faultline

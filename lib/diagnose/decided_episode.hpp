@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lib/diagnose/decision.hpp"
+#include "lib/diagnose/monitored_episode.hpp"
+
+namespace faultline {
+
+/// An episode with its decision: what a finding is written from. Views of what outlives it.
+struct DecidedEpisode {
+  const MonitoredEpisode& observed;
+  const DecisionBasis& basis;
+  Decision decision;
+};
+
+}  // namespace faultline

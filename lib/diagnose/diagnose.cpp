@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lib/core/make_issue.hpp"
+#include "lib/core/version.hpp"
+#include "lib/diagnose/blind_spots.hpp"
+#include "lib/diagnose/decide_episode.hpp"
+#include "lib/diagnose/finding.hpp"
+#include "lib/diagnose/least_size.hpp"
+#include "lib/diagnose/monitor/model_rate.hpp"
+#include "lib/diagnose/monitor/monitor.hpp"
+#include "lib/diagnose/question/question_change.hpp"
+#include "lib/diagnose/question/question_reading.hpp"
+#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/diagnose/relation/tracking_findings.hpp"
+#include "lib/diagnose/verdict.hpp"
+#include "lib/log/recorder/mended_source.hpp"
+#include "lib/model/model_files.hpp"
+
+namespace faultline {
+
+namespace {
+
+constexpr double kLittleLeft = 0.02;  // of the excess over the noise: no other reading is asked for
+
+/// Those of joints in which no fault was found.
+void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
+  const std::vector<FaultFinding> named = faults;
+  for (const LastingFriction& friction : lasting_friction(run.day, run.log.start_s, run.log.end_s))
+    if (std::none_of(named.begin(), named.end(),
+                     [&](const FaultFinding& other) { return other.label.joint == friction.effect.joint; }))
+      faults.push_back(finding_of(friction, model.robot.chain));
+}
+
+std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
+  if (run.log.is_tracked) return tracking_findings(run.relation_episodes, model.robot.chain);
+  std::vector<FaultFinding> faults;
+  for (const MonitoredEpisode& episode : run.episodes)
+    faults.push_back(decide_episode(episode, model, cases));
+  for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
+  add_lasting_friction(run, model, faults);
+  faults = with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
+  for (FaultFinding& fault : faults)
+    if (fault.decided_by == DecidedBy::actuator && fault.label.kind == FaultKind::torque_loss)
+      fault.extent = extent_of_torque_loss(fault.extent.size, model);
+  return faults;
+}
+
+std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
+  std::vector<std::string> spots = unjudged_spots(run.log);
+  if (run.log.is_tracked) {
+    for (std::string& spot : tracking_spots(model, run.relations_judged_s)) spots.push_back(std::move(spot));
+    return spots;
+  }
+  for (auto& more : {resting_spots(run.log), blind_spots(model.robot.log.torque, run.log.has_velocity),
+                     relation_spots(model.relations, run.relations_judged_s),
+                     drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
+                     weak_spots(model.validation), rough_spots(run.roughness),
+                     reach_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
+    spots.insert(spots.end(), more.begin(), more.end());
+  return spots;
+}
+
+void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
+  const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
+  issues.add(make_issue(
+      kMisreadLog, Severity::severe,
+      fmt::format("the log does not fit this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
+                  is_of_columns
+                      ? " of a robot file for this log and convert it: faultline convert LOG OUT --robot"
+                      : "")));
+}
+
+/// Whether a log that does not fit the model's robot contradicts the log: not where that robot did not even
+/// explain the logs that it was learned from.
+bool can_question(const Model& model) {
+  return model.has_mechanics() && model.identification.status != IdentificationStatus::unexplained;
+}
+
+/// The rows to judge: those of the log, or the log at the model's rate, which `kept` holds. What the log
+/// means is asked once its rate is settled; a log that was never what the model takes it for gets an issue
+/// that says what it is more likely to be.
+LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, Issues& issues,
+                      std::unique_ptr<LogSource>& kept) {
+  if (!rate.is_models()) {
+    const ReadingDoubt clock = can_question(model)
+                                   ? question_clock(log, {model.robot, model.motion}, model.sample_period_s)
+                                   : ReadingDoubt{};
+    if (!clock.is_empty()) note_doubt(clock, issues);
+    if (!clock.is_empty() || !rate.can_be_resampled()) return log;
+    issues.add(resampled_issue(rate, model));
+  }
+  LogSource& judged = judged_rows(log, model, issues, kept);
+  if (!can_question(model)) return judged;
+  if (const ReadingDoubt doubt = question_reading(judged, {model.robot, model.motion}); !doubt.is_empty())
+    note_doubt(doubt, issues);
+  return judged;
+}
+
+/// Where the log has several runs: the one that each fault began in.
+void name_runs(Diagnosis& diagnosis) {
+  if (diagnosis.log.runs.size() < 2) return;
+  for (FaultFinding& fault : diagnosis.faults)
+    for (const LogRun& run : diagnosis.log.runs)
+      if (run.is_read && (fault.run == 0 || run.start_s <= fault.onset_s)) {
+        fault.run = run.run;
+        fault.clock_offset_s = run.clock_offset_s;
+      }
+}
+
+/// What was found in a run is known of that run alone: where the next one shows it, it is found there again.
+void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& faults) {
+  for (FaultFinding& fault : faults)
+    for (const LogRun& run : runs)
+      if (run.is_read && run.start_s <= fault.onset_s && fault.onset_s <= run.end_s)
+        fault.end_s = std::min(fault.end_s, run.end_s);
+}
+
+/// Whether known kinds explain all but little of what the faults of a log change. Columns that change are
+/// like no kind but a joint that swings freely, which a torque in a smaller unit looks like.
+bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
+  return !episodes.empty() &&
+         std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {
+           const FaultKind kind = episode.fault.claim.kind;
+           return kind != FaultKind::unknown && kind != FaultKind::free_swinging &&
+                  episode.fault.left_share < kLittleLeft;
+         });
+}
+
+/// What looks like a fault may be a change of the log's columns. `has_log_rows`: the rows of `judged` are
+/// those of the log, not at another rate.
+void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
+                     const std::vector<FaultFinding>& faults, Issues& issues) {
+  if (faults.empty() || issues.find(kMisreadLog)) return;
+  double onset_s = std::numeric_limits<double>::infinity();
+  for (const FaultFinding& fault : faults)
+    if (fault.onset_s < onset_s) onset_s = fault.onset_s;
+  const std::optional<ReadingChange> change = question_change(judged, {model.robot, model.motion}, onset_s);
+  if (!change) return;
+  const std::int64_t row = has_log_rows ? change->row : 0;
+  issues.add(
+      {kChangedColumns, "", Severity::severe,
+       fmt::format("{}from about {:.4g} s on the log looks as if {}, and before it does not; cut the log "
+                   "there, or mend the columns",
+                   row > 0 ? fmt::format("row {}: ", row) : "", change->at_s, change->what),
+       row, change->at_s, 1});
+}
+
+/// A joint that was not judged may be anything.
+void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
+  if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
+  diagnosis.verdict = Verdict::inconclusive;
+  diagnosis.verdict_reason = fmt::format(
+      "joint {} could not be held against a reference in this log; the others follow theirs", joints.front());
+}
+
+}  // namespace
+
+Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
+                   const DiagnoseOptions& options) {
+  Issues doubts;
+  std::unique_ptr<LogSource> kept;
+  const LogRate rate = log_rate(log, model);
+  LogSource& judged = settle_log(log, rate, model, doubts, kept);
+  const bool can_be_judged = rate.is_models() || doubts.find(kResampled);
+  const MonitoredLog run = can_be_judged ? monitor(judged, model, options) : read_unjudged(log, model);
+  std::vector<FaultFinding> faults = found_in(run, model, cases);
+  if (can_question(model) && !run.log.is_tracked && !are_explained(run.episodes))
+    question_faults(judged, &judged == &log, model, faults, doubts);
+  end_with_run(run.log.runs, faults);
+  Diagnosis diagnosis;
+  diagnosis.log = run.log;
+  diagnosis.log.issues.merge(doubts);
+  if (run.log.is_tracked)
+    diagnosis.log.judgeable_rows =
+        std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
+  diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model), model.grave_doubts};
+  diagnosis.program_version = program_version();
+  diagnosis.residuals = run.residuals;
+  diagnosis.condition = condition_of(run.day, model.robot.chain);
+  diagnosis.roughness = run.roughness;
+  diagnosis.judged_share = run.judged_share;
+  diagnosis.cannot_see = unseen_by(run, model);
+  settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
+  if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
+  name_runs(diagnosis);
+  if (run.log.is_tracked)
+    doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
+  return diagnosis;
+}
+
+}  // namespace faultline

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/cases/case_origin.hpp"
+#include "lib/core/issue.hpp"
+#include "lib/diagnose/condition.hpp"
+#include "lib/diagnose/decided_by.hpp"
+#include "lib/explain/evidence_course.hpp"
+#include "lib/fault/opinion.hpp"
+#include "lib/log/log_run.hpp"
+#include "lib/residual/residual_summary.hpp"
+
+/// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
+namespace faultline {
+
+enum class Verdict {
+  not_run,
+  healthy,
+  faulty,
+  inconclusive,  ///< too little of the log could be judged; `verdict_reason` says why
+};
+const char* to_string(Verdict verdict);
+
+/// One thing in which a case and an episode agree or differ.
+struct PrecedentFeature {
+  std::string name;  ///< of the feature, as in EpisodeFacts
+  std::string what;  ///< in words
+  std::string unit;
+  double here = std::numeric_limits<double>::quiet_NaN();   ///< in the episode
+  double there = std::numeric_limits<double>::quiet_NaN();  ///< in the case
+  double difference = 0.0;  ///< in units of what cases of the same fault commonly differ by
+};
+
+/// A case of the case base that resembles an episode.
+struct Precedent {
+  std::int64_t case_id = 0;
+  FaultLabel label{};
+  double similarity = 0.0;  ///< 0 to 1
+  std::string what_was_done{};
+  CaseOrigin origin = CaseOrigin::simulated;
+  std::string origin_text{};  ///< in words; who says what it was, and when
+  std::string log{};          ///< that it was seen in; empty where that is not known, as the next three
+  std::string robot{};
+  std::string person{};
+  std::string date{};
+  bool voted = true;                      ///< false: too far behind for a vote, but near and not simulated
+  std::vector<PrecedentFeature> alike{};  ///< a few, those that tell most first
+  std::vector<PrecedentFeature> unlike{};
+};
+
+struct Alternative {
+  FaultLabel label;
+  std::string why;
+};
+
+/// A number that speaks for a finding.
+struct EvidenceItem {
+  std::string name;  ///< stable identifier, such as "log_likelihood_ratio"
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string unit;
+  std::string text;  ///< one line for a person
+};
+
+/// What the case base compares, so that a finding can be added to it as a case later.
+struct EpisodeFacts {
+  double evidence = std::numeric_limits<double>::quiet_NaN();  ///< log likelihood ratio (Episode::evidence)
+  std::vector<std::pair<std::string, double>> features;  ///< by CaseBase::feature_names(); NaN = not measured
+};
+
+/// How large a fault is, by the size that describes its kind.
+struct FaultExtent {
+  double size = std::numeric_limits<double>::quiet_NaN();
+  double least_size = std::numeric_limits<double>::quiet_NaN();  ///< from which on it is reported as a fault
+  std::string unit;                                              ///< "1" for a share of the torque
+  /// Every size of the kind over the least one of it, the largest of them: below 1 it is too small to act on.
+  /// NaN where no size is known.
+  double times_least = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct FaultFinding {
+  int id = 0;  ///< from 1, in the order of onset
+  FaultLabel label;
+  FaultExtent extent;
+  double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< estimated start of the fault
+  double alarm_s =
+      std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
+  double end_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that shows it
+  int run = 0;                  ///< of a log with several, from 1: the one it began in; 0 where there is one
+  double clock_offset_s = 0.0;  ///< of that run: its own clock shows so much less
+  double confidence = 0.0;      ///< 0 to 1
+  Opinion mlp;
+  Opinion rbfn;
+  DecidedBy decided_by = DecidedBy::evidence;
+  std::vector<Precedent> precedents;  ///< by origin, then the most similar first
+  std::vector<Alternative> could_also_be;
+  std::vector<EvidenceItem> evidence;
+  std::string next_check;  ///< what a technician should look at next
+  EpisodeFacts episode;
+  EvidenceTrace trace;  ///< empty where no hypotheses were followed
+};
+
+/// Code of the severe issue of a log that is not what the model takes it for.
+inline constexpr const char* kMisreadLog = "misread_log";
+
+/// A stretch of a log in which a joint could not be judged for longer than a moment (judged_moment_s()), at
+/// its end judged_moment_at_end_s(), or in which it was not judged in more than a quarter of ten moments.
+struct UnjudgedStretch {
+  int joint = 0;         ///< from 1; 0: all, rows are missing
+  double start_s = 0.0;  ///< last row before it that was judged, or the first row
+  double end_s = 0.0;    ///< first row after it that was judged, or the last row
+  bool lacks_position = false, lacks_torque = false;
+  bool is_last = false;  ///< it lasts to the end of its run
+  double share = 1.0;    ///< of it that was not judged: less where it was judged now and then
+};
+
+struct LogFacts {
+  std::string path;  ///< as given, without leading folders that name a machine
+  std::string sha256;
+  std::string format;
+  std::int64_t rows_read = 0;
+  std::int64_t rows_used = 0;
+  std::int64_t judgeable_rows = 0;  ///< of those used: with position and torque of every joint, or tracked
+  double start_s = std::numeric_limits<double>::quiet_NaN();
+  double end_s = std::numeric_limits<double>::quiet_NaN();
+  double sample_period_s = std::numeric_limits<double>::quiet_NaN();
+  int joints = 0;
+  bool has_velocity = false;
+  bool is_tracked = false;                ///< without torque: held against references only
+  std::vector<LogRun> runs;               ///< of its clock; one where it never restarts, or none for no file
+  std::vector<UnjudgedStretch> unjudged;  ///< by start
+  std::vector<int> resting;               ///< joints, from 1, that hardly moved beside the healthy logs
+  std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
+  bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
+  Issues issues;
+};
+
+struct ModelFacts {
+  std::string name;
+  std::string sha256;
+  std::string cases_sha256;
+  std::vector<std::string> notes{};         ///< what its reader must know of the model, a sentence each
+  std::vector<std::string> grave_doubts{};  ///< Model::grave_doubts
+};
+
+struct Diagnosis {
+  LogFacts log;
+  ModelFacts model;
+  std::string program_version;
+  Verdict verdict = Verdict::not_run;
+  std::string verdict_reason;
+  std::vector<JointResidual> residuals;     ///< of the MLP over the whole log, a joint each
+  std::vector<FaultFinding> faults;         ///< by onset
+  std::vector<FaultFinding> small_changes;  ///< below the least size of their kind: no faults, by onset
+  std::vector<ConditionItem> condition;     ///< what differs from day to day; empty where it was not followed
+  /// By joint: torque that the model misses, times that in the learned logs; empty where that is as usual.
+  std::vector<double> roughness;
+  double judged_share = 1.0;  ///< of the log, whose rows the regression could use; 1 where it has no part
+  std::vector<std::string>
+      cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
+};
+
+}  // namespace faultline

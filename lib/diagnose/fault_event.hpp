@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/core/number_text.hpp"
+#include "lib/diagnose/diagnosis.hpp"
+
+namespace faultline {
+
+/// A finding as an event of a log: what an index of many logs and a golden log hold of it.
+struct FaultEvent {
+  FaultLabel label;
+  double onset_s = std::numeric_limits<double>::quiet_NaN();
+  double alarm_s = std::numeric_limits<double>::quiet_NaN();
+  double end_s = std::numeric_limits<double>::quiet_NaN();
+  double confidence = 0.0;      ///< 0 to 1
+  int run = 0;                  ///< as FaultFinding::run
+  double clock_offset_s = 0.0;  ///< as FaultFinding::clock_offset_s
+};
+
+/// A time of a fault: "12.345 s", of a log with several runs "12.345 s (1.234 s on its clock)". `Fault` is a
+/// FaultEvent or a FaultFinding.
+template <typename Fault>
+std::string clock_words(const Fault& fault, double time_s, double sample_period_s) {
+  const std::string time = time_text(time_s, sample_period_s);
+  if (fault.run == 0 || !std::isfinite(time_s)) return time;
+  return time + " (" + time_text(time_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
+}
+
+/// "12.345 s", of a log with several runs "12.345 s (run 2, 1.234 s on its clock)". `Fault` is a FaultEvent
+/// or a FaultFinding.
+template <typename Fault>
+std::string onset_words(const Fault& fault, double sample_period_s) {
+  const std::string onset = time_text(fault.onset_s, sample_period_s);
+  if (fault.run == 0) return onset;
+  return onset + " (run " + std::to_string(fault.run) + ", " +
+         time_text(fault.onset_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
+}
+
+FaultEvent event_of(const FaultFinding& finding);
+/// In the order of the findings.
+std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings);
+
+/// With null for a number that is not finite and for the joint of a fault that belongs to none.
+nlohmann::ordered_json to_json(const FaultEvent& event);
+/// Throws nlohmann::json::exception when a key is missing or of another type, Error for an unknown kind.
+FaultEvent fault_event_from_json(const nlohmann::ordered_json& json);
+
+}  // namespace faultline

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/monitor/explain_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/log/memory_source.hpp"
+#include "lib/log/time_axis.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kOverlap = 1.0 / 3.0;  // of a window and the next; the middle parts what each decides
+constexpr double kLongestGap_s = 2.0;   // that a window spans
+constexpr double kFasterBetween = 2.0;  // times the velocity at both ends, between two rows
+constexpr double kLeastJump = 0.01;     // rad or m
+constexpr double kRowsMissing = 3.0;    // periods between two rows: some were left out
+constexpr int kFewestJumps = 2;         // joints: the sensor of one of them may be faulty
+constexpr int kFewestRows = 20;         // with position and torque of every joint
+
+/// A row of a log.
+struct RowOf {
+  const Log& log;
+  int row = 0;
+
+  double t() const { return log.time[row]; }
+};
+
+/// Whether rows are missing between two rows, and the positions of several joints change further than the
+/// velocities of both allow: the log was cut there, or repeats itself.
+bool is_break(const RowOf& before, const RowOf& after, double period_s) {
+  const double step = after.t() - before.t();
+  if (before.log.dq.empty() || step < kRowsMissing * period_s) return false;
+  int jumps = 0;
+  for (int j = 0; j < before.log.joints(); ++j) {
+    const double from = before.log.dq[j][before.row], to = after.log.dq[j][after.row];
+    const double farthest = kFasterBetween * std::max(std::abs(from), std::abs(to)) * step + kLeastJump;
+    jumps += std::abs(after.log.q[j][after.row] - before.log.q[j][before.row]) > farthest ? 1 : 0;
+  }
+  return jumps >= kFewestJumps;
+}
+
+/// By which a healthy day may differ as the robot file says, or by default.
+double stated_range(const DayEffect& effect, const Model& model) {
+  const NormalRange& normal = model.robot.normal;
+  switch (effect.kind) {
+    case DayEffectKind::friction:
+      return normal.friction;
+    case DayEffectKind::torque_gain:
+      return normal.torque_constant;
+    case DayEffectKind::torque_offset:
+      return normal.torque_offset * model.motion.torque_scale[effect.joint - 1];
+  }
+  return 0.0;
+}
+
+/// Rows with position and torque of every joint.
+int complete_rows(const Log& log) {
+  int out = 0;
+  for (int k = 0; k < log.rows(); ++k) {
+    const auto has = [k](const JointSignals& signals) {
+      return std::all_of(signals.begin(), signals.end(),
+                         [k](const std::vector<double>& joint) { return std::isfinite(joint[k]); });
+    };
+    out += has(log.q) && has(log.tau);
+  }
+  return out;
+}
+
+}  // namespace
+
+void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
+  if (residuals.count() > 0) residuals_.push_back(std::move(residuals));
+  int begin = 0;
+  for (int k = 0; k < segment.rows(); ++k) {
+    const double t = segment.time[k];
+    bool is_new_run = false;
+    while (run_ + 1 < runs.size() && runs[run_ + 1].is_read && t >= runs[run_ + 1].start_s) {
+      ++run_;
+      is_new_run = true;
+    }
+    const RowOf now{segment, k}, last = k > begin            ? RowOf{segment, k - 1}
+                                        : window_.rows() > 0 ? RowOf{window_, window_.rows() - 1}
+                                                             : now;
+    const double first_s = window_.rows() > 0 ? window_.time.front() : segment.time[begin];
+    const bool is_gap =
+        is_new_run || t - last.t() > kLongestGap_s || is_break(last, now, model_.sample_period_s);
+    if (!is_gap && t - first_s < model_.explain.window_s) continue;
+    take_rows(segment, begin, k);
+    explain_window(!is_gap);
+    begin = k;
+  }
+  take_rows(segment, begin, segment.rows());
+}
+
+void ExplainMonitor::take_rows(const Log& segment, int begin, int end) {
+  if (begin == end) return;
+  if (window_.rows() == 0)
+    window_ = slice(segment, begin, end);
+  else
+    append(window_, slice(segment, begin, end));
+}
+
+void ExplainMonitor::finish() { explain_window(false); }
+
+/// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
+void ExplainMonitor::explain_window(bool is_followed) {
+  if (window_.rows() == 0) return;
+  const double overlap_s = kOverlap * model_.explain.window_s;
+  const double end_s = window_.time.back(), kept_s = end_s - overlap_s;
+  const double until_s = is_followed ? end_s - 0.5 * overlap_s : end_s;
+  const ExplainedLog explained = explained_window();
+  const std::vector<Lasting> unfollowed = follow(explained.followed);
+  for (const ExplainedFault& fault : explained.faults)
+    if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
+  add_day(explained.day);
+  judged_s_ += explained.judged_s;
+  read_s_ += end_s - window_.time.front();
+  loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
+  for (std::size_t j = 0; j < explained.loudness.size(); ++j)
+    loudness_[j] = std::max(loudness_[j], explained.loudness[j]);
+  if (is_followed) {
+    std::erase_if(lasting_, [&](const Lasting& l) { return l.claim.end_s <= kept_s; });
+    decided_s_ = until_s;
+    keep_from(kept_s);
+  } else {
+    lasting_.clear();
+    decided_s_.reset();
+    window_ = {};
+    residuals_.clear();
+  }
+}
+
+/// What the rows of the window say beside the faults that reach into it; nothing where they are too few.
+ExplainedLog ExplainMonitor::explained_window() const {
+  std::vector<FaultClaim> lasting;
+  for (const Lasting& l : lasting_)
+    if (l.is_handed_on()) lasting.push_back(l.claim);
+  if (complete_rows(window_) >= kFewestRows) {
+    MemorySource source(window_);
+    const UniformLog log = uniform_log(source, median_step(window_.time));
+    if (can_explain(log, model_.explain.robot)) return explain_whole_log(log, model_.explain, lasting);
+  }
+  ExplainedLog out;
+  out.followed = std::move(lasting);
+  return out;
+}
+
+/// Takes what a window says of the faults that were handed on to it; returns the others.
+std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<FaultClaim>& followed) {
+  std::vector<Lasting> unfollowed;
+  std::erase_if(lasting_, [&](const Lasting& l) {
+    if (!l.is_handed_on()) unfollowed.push_back(l);
+    return !l.is_handed_on();
+  });
+  for (std::size_t k = 0; k < lasting_.size(); ++k) {
+    lasting_[k].claim = followed[k];
+    episodes_[lasting_[k].episode].end_s = std::min(followed[k].end_s, window_.time.back());
+  }
+  return unfollowed;
+}
+
+/// A fault of the window: a further one, or an unknown one that goes on from the window before.
+void ExplainMonitor::report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed) {
+  const double end_s = std::min(fault.claim.end_s, window_.time.back());
+  if (!unfollowed.empty() && decided_s_ && fault.claim.onset_s < *decided_s_) {
+    Lasting goes_on = unfollowed.front();
+    goes_on.claim.end_s = fault.claim.end_s;
+    episodes_[goes_on.episode].end_s = end_s;
+    lasting_.push_back(goes_on);
+    return;
+  }
+  lasting_.push_back({fault.claim, episodes_.size()});
+  episodes_.push_back(
+      {fault, end_s, residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
+}
+
+/// Begins the next window with the rows from `time_s` on.
+void ExplainMonitor::keep_from(double time_s) {
+  const auto first = std::lower_bound(window_.time.begin(), window_.time.end(), time_s);
+  window_ = slice(window_, static_cast<int>(first - window_.time.begin()), window_.rows());
+  while (!residuals_.empty() && residuals_.front().time[residuals_.front().count() - 1] < time_s)
+    residuals_.pop_front();
+}
+
+void ExplainMonitor::add_day(const std::vector<DayEffect>& day) {
+  if (day_.empty()) {
+    day_ = day;
+    for (DayEffect& sum : day_) sum.value = sum.std = 0.0;
+  }
+  for (std::size_t i = 0; i < day.size(); ++i) {
+    const double weight = 1.0 / (day[i].std * day[i].std);
+    day_[i].value += weight * day[i].value;
+    day_[i].std += weight;
+  }
+}
+
+std::vector<DayEffect> ExplainMonitor::day() const {
+  std::vector<DayEffect> out = day_;
+  for (DayEffect& effect : out) {
+    effect.value /= effect.std;
+    effect.std = 1.0 / std::sqrt(effect.std);
+    effect.day_std = std::max(effect.day_std, stated_range(effect, model_) / DayEffect::kStdsInRange);
+  }
+  return out;
+}
+
+std::vector<JointResidual> ExplainMonitor::residuals_between(double from_s, double to_s) const {
+  ResidualSummary summary(from_s, to_s);
+  for (const Residuals& residuals : residuals_) summary.add(residuals);
+  return summary.joints();
+}
+
+}  // namespace faultline

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "lib/diagnose/monitored_episode.hpp"
+#include "lib/log/log.hpp"
+#include "lib/log/log_run.hpp"
+#include "lib/model/model.hpp"
+#include "lib/residual/residuals.hpp"
+
+namespace faultline {
+
+/// From an onset on, over which the residuals of an episode are told.
+inline constexpr double kEpisodeResiduals_s = 3.0;
+
+/// Gathers the rows of a log in windows (ExplainModel::window_s) and explains each of them. Windows overlap,
+/// so that an onset has rows before and behind it; a gap or a restart of the clock ends a window. A fault
+/// that lasts is known to the next window. Where segments end changes nothing, and memory does not grow with
+/// the log.
+class ExplainMonitor {
+ public:
+  /// The model outlives this.
+  explicit ExplainMonitor(const Model& model) : model_(model) {}
+
+  /// The next rows with their residuals; `runs` are those known so far.
+  void take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs);
+  /// After the last segment.
+  void finish();
+
+  /// By onset.
+  const std::vector<MonitoredEpisode>& episodes() const { return episodes_; }
+  /// What the log tells of the effects of its day; empty where nothing could be explained.
+  std::vector<DayEffect> day() const;
+  /// Share of the log whose rows count for the regression; 0 where no window could be explained.
+  double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
+  /// By joint: the noise of the rows, times that of the healthy logs, in the loudest window.
+  const std::vector<double>& loudness() const { return loudness_; }
+
+ private:
+  void take_rows(const Log& segment, int begin, int end);
+  void explain_window(bool is_followed);
+  ExplainedLog explained_window() const;
+  void keep_from(double time_s);
+  void add_day(const std::vector<DayEffect>& day);
+  std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
+
+  /// A fault that reaches into the next window.
+  struct Lasting {
+    FaultClaim claim;
+    std::size_t episode = 0;
+
+    /// The rows of an unknown fault that lasts say nothing: the next window looks at them anew.
+    bool is_handed_on() const { return claim.kind != FaultKind::unknown || claim.end_s < kNeverEnds; }
+  };
+
+  std::vector<Lasting> follow(const std::vector<FaultClaim>& followed);
+  void report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed);
+
+  const Model& model_;
+  Log window_;
+  std::deque<Residuals> residuals_;  ///< of the window
+  std::optional<double> decided_s_;  ///< up to which the windows before have decided
+  std::size_t run_ = 0;
+  std::vector<Lasting> lasting_;
+  std::vector<MonitoredEpisode> episodes_;
+  std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
+  std::vector<double> loudness_;
+  double judged_s_ = 0.0, read_s_ = 0.0;  ///< over all windows
+};
+
+}  // namespace faultline

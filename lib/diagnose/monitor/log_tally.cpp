@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/monitor/log_tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+#include "lib/log/channel_names.hpp"
+#include "lib/log/columns/joint_count.hpp"
+#include "lib/robot/axis_units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kHardly = 0.01;  // of the range of the healthy logs
+
+bool can_track(const Log& segment, const Model& model) {
+  return std::any_of(model.relations.begin(), model.relations.end(), [&](const SignalRelation& relation) {
+    return relation.kind == RelationKind::tracking && has_signals(segment, relation);
+  });
+}
+
+std::string why_not_judged(const Model& model) {
+  const std::string references =
+      "has no references (q_ref1.. or dq_ref1..) of joints that the model knows to follow them";
+  if (!model.has_mechanics())
+    return references + ", and the model \"" + model.name +
+           "\" was learned from logs without torque; map the columns in [log.columns] of the robot file";
+  return "has no torque (tau1..tau" + std::to_string(model.robot.joints()) +
+         "), without which this model can judge no fault, and " + references +
+         "; map the columns in [log.columns] of the robot file";
+}
+
+void check_channels(const Log& segment, const LogSource& log, const Model& model) {
+  check_joints(segment, log, model);
+  const int joints = model.robot.joints();
+  const bool has_torque = static_cast<int>(segment.tau.size()) == joints && model.has_mechanics();
+  if (!has_torque && !can_track(segment, model))
+    throw Error(ErrorCode::input, log.identity().path, why_not_judged(model));
+}
+
+/// The path as given when it is relative, else its file name: no name of a machine's folders in a report.
+std::string shown_path(const std::string& path) {
+  const std::filesystem::path given(path);
+  return given.is_absolute() ? given.filename().string() : given.generic_string();
+}
+
+/// What a note counts was no row of the joint log.
+std::int64_t rows_lost(const Issues& issues) {
+  std::int64_t rows = 0;
+  for (const Issue& issue : issues.all()) rows += issue.severity == Severity::note ? 0 : issue.rows_dropped;
+  return rows;
+}
+
+}  // namespace
+
+void check_joints(const Log& segment, const LogSource& log, const Model& model) {
+  const int joints = model.robot.joints();
+  if (segment.joints() != joints)
+    throw Error(
+        ErrorCode::input, log.identity().path,
+        joint_count_sentence(log.issues(), segment.joints(), "the model \"" + model.name + "\"", joints));
+}
+
+void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
+  check_channels(segment, log, model);
+  assess(segment, quality);
+  stretches.take(segment, log.identity().runs);
+  if (rows == 0 && segment.rows() > 0) start_s = segment.time.front();
+  if (segment.rows() > 0) end_s = segment.time.back();
+  rows += segment.rows();
+  has_velocity = !segment.dq.empty();
+  for (int k = 0; k < segment.rows(); ++k) {
+    bool complete = true;
+    for (int j = 0; j < segment.joints(); ++j)
+      complete = complete && std::isfinite(segment.q[j][k]) &&
+                 (segment.tau.empty() || std::isfinite(segment.tau[j][k]));
+    judgeable_rows += complete;
+  }
+}
+
+/// Joints, from 1, that move less than a small part of what the healthy logs hold.
+std::vector<int> resting_joints(const LogTally& tally, const Model& model) {
+  std::vector<int> out;
+  if (!model.has_mechanics()) return out;
+  const auto [low, high] =
+      std::visit([](const auto& robot) { return std::pair(robot.q_low, robot.q_high); }, model.explain.robot);
+  for (int j = 0; j < low.size(); ++j) {
+    const auto q = std::find_if(
+        tally.quality.channels.begin(), tally.quality.channels.end(), [&](const ChannelSummary& channel) {
+          return channel.canonical && channel.name == to_string(Channel{Quantity::q, j + 1});
+        });
+    if (q != tally.quality.channels.end() && q->max - q->min < kHardly * (high[j] - low[j]))
+      out.push_back(j + 1);
+  }
+  return out;
+}
+
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model) {
+  QualityOptions options;
+  options.slides = sliding_joints(model.robot.chain);
+  options.runs = log.identity().runs;
+  const LogQuality quality = quality_of(tally.quality, options);
+  LogFacts facts;
+  facts.path = shown_path(log.identity().path);
+  facts.sha256 = log.identity().sha256;
+  facts.format = log.identity().format;
+  facts.rows_read = log.identity().rows_read;
+  facts.rows_used = tally.rows;
+  facts.judgeable_rows = tally.judgeable_rows;
+  facts.start_s = tally.start_s;
+  facts.end_s = tally.end_s;
+  facts.sample_period_s = quality.time.period_s;
+  facts.joints = model.robot.joints();
+  facts.has_velocity = tally.has_velocity;
+  facts.issues = log.issues();
+  facts.runs = log.identity().runs;
+  facts.resting = resting_joints(tally, model);
+  facts.unjudged = tally.stretches.longer_than_a_moment(quality.time.period_s);
+  for (const UnjudgedStretch& thin : tally.thin.stretches()) facts.unjudged.push_back(thin);
+  std::stable_sort(facts.unjudged.begin(), facts.unjudged.end(),
+                   [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
+  facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
+  facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;
+  facts.issues.merge(quality.issues);
+  return facts;
+}
+
+}  // namespace faultline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "lib/diagnose/diagnosis.hpp"
+#include "lib/diagnose/monitor/judged_stretches.hpp"
+#include "lib/diagnose/monitor/thin_stretches.hpp"
+#include "lib/log/log_source.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// Throws Error(input) when the log has other joints than the model's robot.
+void check_joints(const Log& segment, const LogSource& log, const Model& model);
+
+/// What was read of a log, whatever is made of it.
+struct LogTally {
+  std::int64_t rows = 0;
+  double start_s = std::numeric_limits<double>::quiet_NaN();
+  double end_s = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
+  bool has_velocity = false;
+  JudgedStretches stretches;
+  ThinStretches thin;    ///< of the log with its lost rows as empty ones
+  QualityState quality;  ///< gaps, missing values, implausible units and the like
+
+  /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither
+  /// torque nor, with a model that can do with them, references.
+  void take(const Log& segment, const LogSource& log, const Model& model);
+};
+
+/// The facts of a log that was read to its end.
+LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model);
+
+}  // namespace faultline

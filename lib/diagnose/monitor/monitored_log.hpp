@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "lib/diagnose/diagnosis.hpp"
+#include "lib/diagnose/monitored_episode.hpp"
+#include "lib/diagnose/sample_alarm.hpp"
+#include "lib/explain/day_effects.hpp"
+#include "lib/residual/relation/relation_watch.hpp"
+
+namespace faultline {
+
+/// What one pass over a log gives before anything is decided.
+struct MonitoredLog {
+  LogFacts log;
+  std::vector<JointResidual> residuals;            ///< of the MLP, over the whole log
+  std::vector<MonitoredEpisode> episodes;          ///< found by the regression
+  std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
+  std::vector<DayEffect> day;                      ///< empty where nothing was explained
+  std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
+  std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
+  std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged
+  std::vector<double> roughness;           ///< Diagnosis::roughness
+  double judged_share = 1.0;               ///< Diagnosis::judged_share
+};
+
+}  // namespace faultline

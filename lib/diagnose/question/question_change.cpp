@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/question/question_change.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/diagnose/question/torque_balance.hpp"
+#include "lib/plausibility/column_reading.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kChangeRows = 4000;         // that are looked at before and behind
+constexpr double kAtOnset_s = 0.1;        // behind the onset, which is an estimate: left out
+constexpr double kChangeExplains = 0.35;  // of a joint's varying torque left in half of its blocks: explained
+constexpr double kTimesWorse = 3.0;       // than before the change, or than with another reading
+constexpr double kMovesAtAll = 0.2;       // of the fastest velocity
+constexpr double kOneUnit = 1.4;          // ratio of two velocities up to which they have one unit
+constexpr std::size_t kFewestRatios = 20;  // moving rows: the median of fewer ratios says nothing of a joint
+constexpr double kNothingLeft = 0.02;      // below, all readings are as good
+
+struct Sides {
+  Log before, behind;
+};
+
+Sides sides_of(LogSource& log, double onset_s) {
+  Sides out;
+  log.rewind();
+  for (Log segment; out.behind.rows() < kChangeRows && log.next(segment);) {
+    const auto onset = std::lower_bound(segment.time.begin(), segment.time.end(), onset_s);
+    const auto first = std::upper_bound(onset, segment.time.end(), onset_s + kAtOnset_s);
+    append(out.before, slice(segment, 0, static_cast<int>(onset - segment.time.begin())));
+    append(out.behind, slice(segment, static_cast<int>(first - segment.time.begin()), segment.rows()));
+    if (out.before.rows() > kChangeRows)
+      out.before = slice(out.before, out.before.rows() - kChangeRows, out.before.rows());
+  }
+  log.rewind();
+  if (out.behind.rows() > kChangeRows) out.behind = slice(out.behind, 0, kChangeRows);
+  return out;
+}
+
+/// What is left of each joint's torque in the middle one of its blocks; NaN for a joint that says nothing.
+std::vector<double> left_of(const Log& rows, const KnownRobot& robot) {
+  std::vector<double> left(robot.joints(), std::nan(""));
+  if (rows.rows() == 0) return left;
+  const std::vector<JointBalance> balance = torque_balance(rows, robot);
+  for (int j = 0; j < robot.joints(); ++j) {
+    if (!(robot.usual.torque_scale[j] > 0.0) || balance[j].velocity_factor != 1.0) continue;
+    const std::vector<double> blocks = misfits(balance[j], robot.usual.torque_scale[j]);
+    if (!blocks.empty()) left[j] = std::max(upper_median(blocks), kNothingLeft);
+  }
+  return left;
+}
+
+/// Whether the velocity of each joint is the derivative of its position, as the median of their ratios says:
+/// single jumps of a position do not count.
+bool velocity_fits_position(const Log& rows) {
+  for (std::size_t j = 0; j < rows.dq.size(); ++j) {
+    const std::vector<double>&q = rows.q[j], &dq = rows.dq[j];
+    double fastest = 0.0;
+    for (const double v : dq)
+      if (std::isfinite(v)) fastest = std::max(fastest, std::abs(v));
+    std::vector<double> ratio;
+    for (int k = 1; k + 1 < rows.rows(); ++k) {
+      const double slope = (q[k + 1] - q[k - 1]) / (rows.time[k + 1] - rows.time[k - 1]);
+      if (std::isfinite(slope) && slope != 0.0 && std::abs(dq[k]) > kMovesAtAll * fastest)
+        ratio.push_back(dq[k] / slope);
+    }
+    if (ratio.size() < kFewestRatios) continue;
+    const double median = upper_median(ratio);
+    if (median < 1.0 / kOneUnit || median > kOneUnit) return false;
+  }
+  return true;
+}
+
+/// Whether the reading explains every joint that the rows before the change explain, and one of them by far
+/// better than the plain columns do.
+bool explains(const std::vector<double>& reading, const std::vector<double>& plain,
+              const std::vector<double>& before) {
+  bool better = false, any = false;
+  for (std::size_t j = 0; j < reading.size(); ++j) {
+    if (!std::isfinite(before[j]) || before[j] > kChangeExplains) continue;
+    const bool told = std::isfinite(reading[j]);
+    if (told && reading[j] > std::min(kChangeExplains, kTimesWorse * before[j])) return false;
+    if (!told && std::isfinite(plain[j])) return false;
+    any = any || told;
+    better = better || (told && (!std::isfinite(plain[j]) || plain[j] > kTimesWorse * reading[j]));
+  }
+  return any && better;
+}
+
+double sum_of_logs(const std::vector<double>& left) {
+  double sum = 0.0;
+  for (const double one : left)
+    if (std::isfinite(one)) sum += elementary::log(one);
+  return sum;
+}
+
+}  // namespace
+
+std::optional<ReadingChange> question_change(LogSource& log, const KnownRobot& robot, double onset_s) {
+  const Sides sides = sides_of(log, onset_s);
+  if (sides.before.rows() == 0 || sides.behind.rows() == 0 || sides.behind.tau.empty()) return {};
+  const std::vector<double> before = left_of(sides.before, robot), plain = left_of(sides.behind, robot);
+  std::vector<ColumnReading> readings = common_readings(robot.chain());
+  for (ColumnReading& reading : column_readings(robot.chain())) readings.push_back(std::move(reading));
+  std::optional<ReadingChange> best;
+  double least = 0.0;
+  for (const ColumnReading& reading : readings) {
+    Log rows = sides.behind;
+    reading.apply(rows);
+    const std::vector<double> left = left_of(rows, robot);
+    const double sum = sum_of_logs(left);
+    if (!explains(left, plain, before) || (best && sum >= least) || !velocity_fits_position(rows)) continue;
+    least = sum;
+    best = {sides.before.first_row + sides.before.rows() + 1, onset_s, reading.what};
+  }
+  return best;
+}
+
+}  // namespace faultline

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/question/question_reading.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/diagnose/question/clock_reading.hpp"
+#include "lib/diagnose/question/torque_balance.hpp"
+#include "lib/plausibility/column_reading.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kRows = 4000;            // of an excerpt
+constexpr int kExcerpts = 25;          // looked at for a moment that fits
+constexpr int kFewExcerpts = 3;        // after which a joint that never moved is passed over
+constexpr double kReadingFits = 0.35;  // of a joint's varying torque left: as the model means it
+constexpr double kExplains = 0.2;      // left in the best moments by a reading that is right
+constexpr double kFitsWell = 0.06;     // one such moment is enough
+constexpr double kNeverNear = 0.5;     // left in the best moments: another robot
+constexpr double kClearlyLess = 0.5;   // of the rows' own mean misfit: a better reading leaves less
+constexpr double kLeastRange = 0.05;   // of the healthy one: less motion is none
+constexpr double kOtherUnit = 1.5;     // times the torque needed, or that much less, at every joint
+
+/// What an excerpt says of each joint under one reading.
+struct Fit {
+  std::vector<std::vector<double>> misfits;  // of its blocks, by joint
+  std::vector<double> velocity_factor;
+  std::vector<TorqueRatio> ratio;
+
+  int joints() const { return static_cast<int>(misfits.size()); }
+  bool is_told(int j) const { return !misfits[j].empty(); }
+  bool has_motion() const {
+    return std::any_of(misfits.begin(), misfits.end(),
+                       [](const auto& of_joint) { return !of_joint.empty(); });
+  }
+};
+
+Fit fit_of(const Log& log, const KnownRobot& robot) {
+  Fit fit;
+  const std::vector<JointBalance> balance = torque_balance(log, robot);
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double scale = robot.usual.torque_scale[j];
+    fit.misfits.push_back(scale > 0.0 ? misfits(balance[j], scale) : std::vector<double>{});
+    fit.velocity_factor.push_back(balance[j].velocity_factor);
+    fit.ratio.push_back(torque_ratio(balance[j], scale));
+  }
+  return fit;
+}
+
+/// The misfit that `count` blocks stay below; with fewer blocks, the largest. 0 without any.
+double best_blocks(std::vector<double> of_joint, std::size_t count) {
+  if (of_joint.empty()) return 0.0;
+  const std::size_t last = std::min(count, of_joint.size()) - 1;
+  std::nth_element(of_joint.begin(), of_joint.begin() + static_cast<std::ptrdiff_t>(last), of_joint.end());
+  return of_joint[last];
+}
+
+/// The misfit in the best moment of a joint: of a block that fits well, else of two that follow each other;
+/// one may fit by chance.
+double best_misfit(const std::vector<double>& of_joint) {
+  const double best = best_blocks(of_joint, 1);
+  if (best < kFitsWell || of_joint.size() < 2) return best;
+  double pair = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < of_joint.size(); ++i)
+    pair = std::min(pair, std::max(of_joint[i - 1], of_joint[i]));
+  return pair;
+}
+
+/// The misfit that a third of the blocks stay below: a fault may come soon.
+double usual_misfit(const std::vector<double>& of_joint) {
+  return best_blocks(of_joint, std::max((of_joint.size() + 2) / 3, std::size_t{2}));
+}
+
+/// How a whole reading fits: the worst joint in its best moments, and as usual, and the mean logarithm of
+/// both.
+struct Score {
+  double worst = 0.0, usual = 0.0, log_mean = 0.0;
+};
+
+Score score_of(const Fit& fit) {
+  constexpr double kLeast = 1e-2;  // below, all readings are right
+  Score out;
+  int told = 0;
+  for (int j = 0; j < fit.joints(); ++j) {
+    if (!fit.is_told(j)) continue;
+    const double apart = fit.velocity_factor[j] == 1.0 ? 0.0 : 2.0 * kNeverNear;
+    const double best = std::max(best_misfit(fit.misfits[j]), apart);
+    const double usual = std::max(usual_misfit(fit.misfits[j]), apart);
+    out.worst = std::max(out.worst, best);
+    out.usual = std::max(out.usual, usual);
+    out.log_mean +=
+        0.5 * (elementary::log(std::max(best, kLeast)) + elementary::log(std::max(usual, kLeast)));
+    ++told;
+  }
+  if (told > 0) out.log_mean /= told;
+  return out;
+}
+
+/// The beginning of a log that moves, and what all of it that was read says.
+struct Beginning {
+  Log rows;
+  Fit fit;                                // of `rows`
+  std::vector<std::vector<double>> ever;  // misfits of all blocks that were read, by joint
+  std::vector<bool> velocity_fits;        // by joint, where it first moved
+  bool fitted = false;                    // every joint that moves had its moments
+
+  bool is_told(int j) const { return !ever[j].empty(); }
+  bool has_every_joint() const {
+    return std::none_of(ever.begin(), ever.end(), [](const auto& of_joint) { return of_joint.empty(); });
+  }
+};
+
+void take(const Fit& now, Beginning& beginning) {
+  bool any = false, all = true;
+  for (int j = 0; j < now.joints(); ++j) {
+    if (!beginning.is_told(j) && now.is_told(j)) beginning.velocity_fits[j] = now.velocity_factor[j] == 1.0;
+    std::vector<double>& ever = beginning.ever[j];
+    ever.insert(ever.end(), now.misfits[j].begin(), now.misfits[j].end());
+    if (ever.empty()) continue;
+    any = true;
+    all = all && beginning.velocity_fits[j] && best_misfit(ever) < kReadingFits;
+  }
+  beginning.fitted = any && all;
+}
+
+Log next_rows(LogSource& log, Log& rest) {
+  Log rows = std::exchange(rest, {});
+  for (Log segment; rows.rows() < kRows && log.next(segment);) append(rows, segment);
+  if (rows.rows() > kRows) {
+    rest = slice(rows, kRows, rows.rows());
+    rows = slice(rows, 0, kRows);
+  }
+  return rows;
+}
+
+Beginning look_for_a_fit(LogSource& log, const KnownRobot& robot) {
+  Beginning out;
+  out.ever.resize(robot.joints());
+  out.velocity_fits.resize(robot.joints(), true);
+  Log rest;
+  for (int i = 0; i < kExcerpts; ++i) {
+    Log rows = next_rows(log, rest);
+    if (rows.rows() == 0) break;
+    Fit fit = fit_of(rows, robot);
+    take(fit, out);
+    if (!out.fit.has_motion() && fit.has_motion()) {
+      out.rows = std::move(rows);
+      out.fit = std::move(fit);
+    }
+    if (out.fitted && (out.has_every_joint() || i + 1 >= kFewExcerpts)) break;
+  }
+  return out;
+}
+
+/// The first excerpt that moves: all that the question about the clock looks at.
+Beginning first_motion(LogSource& log, const KnownRobot& robot) {
+  Beginning out;
+  Log rest;
+  for (int i = 0; i < kExcerpts && !out.fit.has_motion(); ++i)
+    if ((out.rows = next_rows(log, rest)).rows() > 0) out.fit = fit_of(out.rows, robot);
+  return out;
+}
+
+/// Whether all joints that are told as the rows are read now are told by another reading, too.
+bool tells_as_much(const Fit& then, const Fit& now) {
+  for (int j = 0; j < now.joints(); ++j)
+    if (now.is_told(j) && !then.is_told(j)) return false;
+  return true;
+}
+
+/// Whether a reading makes of a joint's motion one far smaller than the healthy ones.
+bool shrinks_motion(const Log& rows, const Log& read, const KnownRobot& robot) {
+  const auto range = [](const std::vector<double>& q) {
+    const auto [low, high] = std::minmax_element(q.begin(), q.end());
+    return *high - *low;
+  };
+  for (int j = 0; j < robot.joints(); ++j) {
+    const double least = kLeastRange * (robot.usual.q_high[j] - robot.usual.q_low[j]);
+    if (range(read.q[j]) < least && range(rows.q[j]) >= least) return true;
+  }
+  return false;
+}
+
+/// The best reading of the rows so far.
+struct Best {
+  ReadingDoubt doubt;  ///< empty while the rows as they are come next to the best
+  double log_mean = 0.0;
+};
+
+/// What a reading must come to, to be better than the rows as they are.
+Best clearly_better_than(const Beginning& beginning) {
+  return {{}, score_of(beginning.fit).log_mean + elementary::log(kClearlyLess)};
+}
+
+/// Takes those that explain every joint at moments (`usually`: as usual), and clearly more than the rows as
+/// they are.
+void try_readings(const Beginning& beginning, const KnownRobot& robot,
+                  const std::vector<ColumnReading>& readings, bool usually, Best& best) {
+  for (const ColumnReading& reading : readings) {
+    Log rows = beginning.rows;
+    reading.apply(rows);
+    if (shrinks_motion(beginning.rows, rows, robot)) continue;
+    const Fit fit = fit_of(rows, robot);
+    const Score then = score_of(fit);
+    if (!tells_as_much(fit, beginning.fit) || then.worst > kExplains ||
+        (usually && then.usual > kReadingFits) || then.log_mean >= best.log_mean)
+      continue;
+    best = {{reading.what, reading.cure}, then.log_mean};
+  }
+}
+
+/// Whether the torques are the ones needed but for factors far from 1: those of every joint where `all` are
+/// asked for, else of most.
+ReadingDoubt other_torque(const Fit& fit, bool all) {
+  std::vector<std::string> ratios;
+  int told = 0, poor = 0, other = 0;
+  for (int j = 0; j < fit.joints(); ++j) {
+    const TorqueRatio& torque = fit.ratio[j];
+    if (!fit.is_told(j) || torque.ratio == 0.0) continue;
+    ++told;
+    if (torque.left > kReadingFits || torque.ratio < 0.0) {
+      ++poor;
+      continue;
+    }
+    other += torque.ratio > kOtherUnit || torque.ratio < 1.0 / kOtherUnit;
+    ratios.push_back(fmt::format("tau{} {:.3g}", j + 1, torque.ratio));
+  }
+  const bool enough = all ? other == told : poor <= (told > 2 ? 1 : 0) && 2 * other >= told;
+  if (!enough || other < std::min(fit.joints(), 2)) return {};
+  return {fmt::format("the torques are another quantity or unit, such as a current, or a gear ratio is "
+                      "missing: they are {} times what this robot needs for its motion",
+                      fmt::join(ratios, ", ")),
+          "write unit or scale (torque of one logged unit) of each tau into [log.columns]"};
+}
+
+ReadingDoubt other_velocity(const Fit& fit) {
+  std::vector<std::string> factors;
+  for (int j = 0; j < fit.joints(); ++j)
+    if (fit.is_told(j) && fit.velocity_factor[j] != 1.0)
+      factors.push_back(
+          fmt::format("dq{0} is {1:.4g} times the derivative of q{0}", j + 1, fit.velocity_factor[j]));
+  if (factors.empty()) return {};
+  return {fmt::format("position, velocity and time do not belong together: {}", fmt::join(factors, ", ")),
+          "write their units into [log.columns], or mend the clock of the log"};
+}
+
+ReadingDoubt other_robot(const Beginning& beginning) {
+  std::vector<int> far;
+  const int joints = static_cast<int>(beginning.ever.size());
+  for (int j = 0; j < joints; ++j)
+    if (beginning.is_told(j) && best_misfit(beginning.ever[j]) > kNeverNear) far.push_back(j + 1);
+  if (far.empty() || static_cast<int>(far.size()) < std::min(joints, 2)) return {};
+  return {
+      fmt::format("its torques are at no moment those that this robot needs for its motion (joints {}), nor "
+                  "with other units, signs or columns: another robot, tool or recording",
+                  fmt::join(far, ", ")),
+      "take the model and the robot file of the robot that was recorded"};
+}
+
+}  // namespace
+
+ReadingDoubt question_clock(LogSource& log, const KnownRobot& robot, double sample_period_s) {
+  log.rewind();
+  const Beginning beginning = first_motion(log, robot);
+  log.rewind();
+  if (!beginning.fit.has_motion()) return {};
+  Best best = clearly_better_than(beginning);
+  const double ratio = clock_ratio(beginning.rows, sample_period_s);
+  try_readings(beginning, robot, clock_readings(ratio, sample_period_s), false, best);
+  return best.doubt;
+}
+
+ReadingDoubt question_reading(LogSource& log, const KnownRobot& robot) {
+  log.rewind();
+  const Beginning beginning = look_for_a_fit(log, robot);
+  log.rewind();
+  if (!beginning.fit.has_motion()) return {};
+  if (beginning.fitted || score_of(beginning.fit).worst < kReadingFits)
+    return other_torque(beginning.fit, true);
+  Best best = clearly_better_than(beginning);
+  try_readings(beginning, robot, common_readings(robot.chain()), false, best);
+  try_readings(beginning, robot, column_readings(robot.chain()), false, best);
+  if (best.doubt.is_empty()) try_readings(beginning, robot, delay_readings(beginning.rows), true, best);
+  for (const ReadingDoubt& doubt :
+       {best.doubt, other_torque(beginning.fit, false), other_velocity(beginning.fit)})
+    if (!doubt.is_empty()) return doubt;
+  return other_robot(beginning);
+}
+
+}  // namespace faultline

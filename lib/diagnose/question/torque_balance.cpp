@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/question/torque_balance.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/error.hpp"
+#include "lib/identify/motion/stretch.hpp"
+#include "lib/log/memory_source.hpp"
+#include "lib/robot/dynamics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kWindow_s = 0.1;  // s over which torques are averaged: less noise of the acceleration
+constexpr int kFewestSteps = 3;    // of a window
+constexpr std::size_t kBlock = 6;  // windows
+constexpr std::size_t kFewestOfBlock = 4;  // windows: fewer say nothing, two numbers are fitted to them
+constexpr double kFastest = 3.0;           // times the root mean square of the healthy speed
+constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // correlation and factor of two units
+constexpr double kMoves = 0.05;                                 // of the joint's largest speed
+constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque, over all windows
+constexpr double kLeastShare = 0.1;        // of the same, in a block: less says nothing
+constexpr double kLeastHeld = 0.3;         // of the same, of a torque that holds a weight
+// Times the friction of the model: bounds of what a block of windows may show.
+constexpr double kBalanceLeastFriction = 0.5, kMostFriction = 2.0;
+constexpr double kMostOffset = 0.3;  // of the largest healthy torque
+
+/// Rows of a stretch with what the robot needs in each.
+struct Rows {
+  Eigen::MatrixXd body, braking;  // joints x rows
+};
+
+Rows needed_in(const Stretch& s, const Chain<double>& chain) {
+  const int n = s.joints(), rows = s.rows();
+  Rows out{Eigen::MatrixXd(n, rows), Eigen::MatrixXd(n, rows)};
+  for (int k = 0; k < rows; ++k) {
+    const int before = std::max(k - 1, 0), after = std::min(k + 1, rows - 1);
+    const JointVector<double> q = s.q_smooth.col(k), dq = s.dq_smooth.col(k);
+    const JointVector<double> ddq =
+        (s.dq_smooth.col(after) - s.dq_smooth.col(before)) / (s.time[after] - s.time[before]);
+    const JointVector<double> body = rigid_body_torque(chain, q, dq, ddq, chain.gravity);
+    out.body.col(k) = body;
+    out.braking.col(k) = inverse_dynamics(chain, q, dq, ddq) - body;
+  }
+  return out;
+}
+
+/// Mean over the steps between `count` + 1 rows; `share` of each step's end counts, the rest of its start.
+template <typename Row>
+double mean_of_steps(const Row& row, int first, int count, double share) {
+  return (1.0 - share) * row.segment(first, count).mean() + share * row.segment(first + 1, count).mean();
+}
+
+void add_windows(const Stretch& s, const KnownRobot& robot, const Eigen::VectorXd& fastest,
+                 std::vector<JointBalance>& out) {
+  constexpr double kTrapezoid = 0.5;  // share of each step's end in the mean: the trapezoidal rule
+  const Rows needed = needed_in(s, robot.chain());
+  const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(kWindow_s / s.period_s)));
+  for (int first = 0; first + steps < s.rows(); first += steps)
+    for (int j = 0; j < s.joints(); ++j) {
+      const double speed = s.dq_smooth.row(j).segment(first, steps).cwiseAbs().mean();
+      if (!(speed > kMoves * fastest[j])) continue;
+      out[j].time_s.push_back(s.time[first]);
+      out[j].logged.push_back(mean_of_steps(s.tau.row(j), first, steps, robot.torque_phi()));
+      out[j].body.push_back(mean_of_steps(needed.body.row(j), first, steps, kTrapezoid));
+      out[j].braking.push_back(mean_of_steps(needed.braking.row(j), first, steps, kTrapezoid));
+    }
+}
+
+Eigen::Map<const Eigen::ArrayXd> part(const std::vector<double>& values, std::size_t first,
+                                      std::size_t count) {
+  return {values.data() + first, static_cast<Eigen::Index>(count)};
+}
+
+double variation(const Eigen::ArrayXd& values) { return std::sqrt((values - values.mean()).square().mean()); }
+
+/// What is left of a block of windows with the offset and the friction that suit it best; NaN where too
+/// little varies.
+double misfit(const JointBalance& b, std::size_t first, std::size_t count, double torque_scale) {
+  const Eigen::ArrayXd logged = part(b.logged, first, count), body = part(b.body, first, count),
+                       braking = part(b.braking, first, count);
+  const Eigen::ArrayXd rest = logged - body, varying = braking - braking.mean();
+  const double spread = varying.square().sum();
+  const double friction =
+      spread > 0.0 ? std::clamp((rest * varying).sum() / spread, kBalanceLeastFriction, kMostFriction) : 1.0;
+  const Eigen::ArrayXd left = rest - friction * braking;
+  const double most = kMostOffset * torque_scale;
+  const double varies = std::max(variation(logged), variation(body + braking));
+  if (varies > kLeastShare * torque_scale)
+    return std::sqrt((left - std::clamp(left.mean(), -most, most)).square().mean()) / varies;
+  const double held = std::max(std::abs(logged.mean()), std::abs((body + braking).mean()));
+  return held > kLeastHeld * torque_scale ? std::sqrt(left.square().mean()) / held
+                                          : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A position that jumps (a sensor's bias) makes of both what is nearly one quantity.
+bool is_other_quantity(const DerivativeAgreement& velocity) {
+  return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
+         (velocity.factor < 0.0 ||
+          std::abs(elementary::log(velocity.factor)) > elementary::log(kBalanceOtherUnit));
+}
+
+}  // namespace
+
+std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot) {
+  const Chain<double>& chain = robot.chain();
+  std::vector<JointBalance> out(chain.joints());
+  MemorySource source(log, "excerpt");
+  try {
+    const LogSurvey survey = survey_log(source, chain.joints());
+    for (int j = 0; j < chain.joints(); ++j)
+      if (is_other_quantity(survey.velocity[j])) out[j].velocity_factor = survey.velocity[j].factor;
+    std::vector<Stretch> stretches;
+    source.rewind();
+    for_each_stretch(source, 0, chain.joints(), survey, 1,
+                     [&](const Stretch& stretch) { stretches.push_back(stretch); });
+    Eigen::VectorXd fastest = Eigen::VectorXd::Zero(chain.joints());  // but no faster than healthy ones
+    for (const Stretch& s : stretches)
+      fastest = fastest.cwiseMax(s.dq_smooth.cwiseAbs().rowwise().maxCoeff());
+    for (int j = 0; j < chain.joints(); ++j)
+      fastest[j] = std::min(fastest[j], kFastest * robot.usual.velocity_scale[j]);
+    for (const Stretch& s : stretches) add_windows(s, robot, fastest, out);
+  } catch (const Error&) {
+    return std::vector<JointBalance>(chain.joints());  // nothing in it that could be held against a robot
+  }
+  return out;
+}
+
+std::vector<double> misfits(const JointBalance& balance, double torque_scale) {
+  std::vector<double> out;
+  for (std::size_t first = 0; first + kFewestOfBlock <= balance.windows(); first += kBlock) {
+    const double left = misfit(balance, first, std::min(kBlock, balance.windows() - first), torque_scale);
+    if (std::isfinite(left)) out.push_back(left);
+  }
+  return out;
+}
+
+TorqueRatio torque_ratio(const JointBalance& b, double torque_scale) {
+  const std::size_t count = b.windows();
+  if (count < kFewestOfBlock) return {};
+  const Eigen::ArrayXd logged = part(b.logged, 0, count),
+                       needed = part(b.body, 0, count) + part(b.braking, 0, count);
+  const Eigen::ArrayXd varying = needed - needed.mean();
+  const double spread = varying.square().mean();
+  if (!(std::sqrt(spread) > kLeastRatioShare * torque_scale)) return {};
+  const double ratio = ((logged - logged.mean()) * varying).mean() / spread;
+  const Eigen::ArrayXd left = logged - logged.mean() - ratio * varying;
+  return {ratio, std::sqrt(left.square().mean() / std::max(variation(logged) * variation(logged), 1e-300))};
+}
+
+}  // namespace faultline

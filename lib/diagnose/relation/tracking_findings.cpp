@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/relation/tracking_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/number_text.hpp"
+#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/robot/axis_units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kStill = 0.2;               // of the motion that should be there, or less
+constexpr double kAsked = 0.5;               // of the motion that was expected, or more
+constexpr double kTrackingExplains = 0.5;    // of the residual, by a velocity that is missing
+constexpr double kFindingsSameTime_s = 0.1;  // position and velocity show one thing so far apart
+
+/// Of an episode or a relation.
+template <typename Tracked>
+const char* what_strayed(const Tracked& tracked) {
+  return tracked.target == Quantity::q ? "position" : "velocity";
+}
+
+template <typename Tracked>
+const char* unit_of(const Tracked& tracked, const Chain<double>& chain) {
+  const AxisKind axis = chain.geometry[tracked.joint].kind;
+  return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
+}
+
+/// Whether what was expected of the joint when it began is what its reference asked for, and no constant that
+/// was learned while it moved.
+bool reference_moves(const RelationEpisode& episode) {
+  if (episode.target == Quantity::dq)
+    return episode.first_reference_rms > kAsked * episode.first_predicted_rms;
+  return episode.first_reference_span > kAsked * episode.first_predicted_span;
+}
+
+/// Hardly anything moved that should have when it began; later the joint may catch up.
+bool stands_still(const RelationEpisode& episode) {
+  if (!reference_moves(episode)) return false;
+  if (episode.target == Quantity::dq)
+    return episode.first_share_explains > kTrackingExplains && std::abs(episode.first_share - 1.0) < kStill;
+  return episode.first_span < kStill * episode.first_predicted_span;
+}
+
+/// A joint at rest whose reference is at rest does what it is asked for, whatever was learned of motion.
+bool rests_as_asked(const RelationEpisode& episode) {
+  return episode.target == Quantity::dq && !reference_moves(episode) &&
+         episode.first_rms < kStill * episode.first_predicted_rms;
+}
+
+EvidenceItem difference(const RelationEpisode& episode, const Chain<double>& chain) {
+  return {fmt::format("{}_difference", what_strayed(episode)), episode.strongest, unit_of(episode, chain),
+          fmt::format("difference of the {} where it is clearest", what_strayed(episode))};
+}
+
+std::string next_check_of(int joint) {
+  return fmt::format(
+      "Look at motor, brake, transmission and encoder of joint {}: it stalled, lost steps, was held or slipped. "
+      "Home it before it moves on.",
+      joint);
+}
+
+FaultFinding tracking_finding(const RelationEpisode& episode, const Chain<double>& chain) {
+  const bool still = stands_still(episode);
+  FaultFinding finding;
+  finding.label = {still ? FaultKind::locked : FaultKind::unknown, episode.joint + 1};
+  finding.onset_s = episode.onset_s;
+  finding.alarm_s = episode.alarm_s;
+  finding.end_s = episode.end_s;
+  finding.confidence = confidence_of(episode);
+  finding.decided_by = DecidedBy::tracking;
+  finding.evidence.push_back(
+      {"decision", std::nan(""), "",
+       fmt::format("joint {} {}: the {} is up to {} {} off", episode.joint + 1,
+                   still ? "stands still while its reference moves" : "does not follow its reference",
+                   what_strayed(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
+  finding.evidence.push_back(difference(episode, chain));
+  for (EvidenceItem& item : limit_evidence(episode)) finding.evidence.push_back(std::move(item));
+  finding.next_check = next_check_of(finding.label.joint);
+  return finding;
+}
+
+bool is_same(const FaultFinding& finding, const RelationEpisode& episode) {
+  return finding.label.joint == episode.joint + 1 && finding.onset_s <= episode.end_s + kFindingsSameTime_s &&
+         finding.end_s >= episode.onset_s - kFindingsSameTime_s;
+}
+
+/// The one that names a kind keeps its words.
+void join(FaultFinding& finding, FaultFinding more, const EvidenceItem& of_more) {
+  const double onset_s = std::min(finding.onset_s, more.onset_s);
+  const double alarm_s = std::min(finding.alarm_s, more.alarm_s);
+  const double end_s = std::max(finding.end_s, more.end_s);
+  EvidenceItem other = of_more;
+  if (finding.label.kind == FaultKind::unknown && more.label.kind != FaultKind::unknown) {
+    other = finding.evidence[1];
+    finding = std::move(more);
+  }
+  finding.onset_s = onset_s, finding.alarm_s = alarm_s, finding.end_s = end_s;
+  finding.evidence.push_back(std::move(other));
+}
+
+/// What the model and a log tell of how one joint follows its reference.
+struct JointTracking {
+  bool is_known = false;
+  std::vector<const SignalRelation*> judged{};
+};
+
+JointTracking tracking_of(int joint, const Model& model, const std::vector<double>& judged_s) {
+  JointTracking out;
+  for (std::size_t i = 0; i < model.relations.size(); ++i) {
+    const SignalRelation& relation = model.relations[i];
+    if (relation.kind != RelationKind::tracking || relation.joint != joint) continue;
+    out.is_known = true;
+    if (judged_s[i] > 0.0) out.judged.push_back(&relation);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes,
+                                            const Chain<double>& chain) {
+  std::vector<FaultFinding> found;
+  for (const RelationEpisode& episode : episodes) {
+    if (rests_as_asked(episode)) continue;
+    const auto same =
+        std::find_if(found.begin(), found.end(), [&](const auto& f) { return is_same(f, episode); });
+    if (same == found.end())
+      found.push_back(tracking_finding(episode, chain));
+    else
+      join(*same, tracking_finding(episode, chain), difference(episode, chain));
+  }
+  return found;
+}
+
+std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_s) {
+  double longest_s = 0.0;
+  for (const double judged : judged_s) longest_s = std::max(longest_s, judged);
+  return static_cast<std::int64_t>(longest_s / model.sample_period_s + 0.5);
+}
+
+std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s) {
+  std::vector<int> joints;
+  for (int j = 0; j < model.robot.joints(); ++j) {
+    const JointTracking joint = tracking_of(j, model, judged_s);
+    if (joint.is_known && joint.judged.empty()) joints.push_back(j + 1);
+  }
+  return joints;
+}
+
+std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s) {
+  std::vector<std::string> spots{
+      "Without torque only one thing is judged: whether each joint follows its reference as in the healthy "
+      "logs. Lost torque, friction, loads, pushes and sensor faults that the controller makes up for cannot be "
+      "seen."};
+  for (int j = 0; j < model.robot.joints(); ++j) {
+    const JointTracking joint = tracking_of(j, model, judged_s);
+    for (const SignalRelation* relation : joint.judged) {
+      const WindowLimit& window = relation->windows[relation->windows.size() / 2];
+      spots.push_back(fmt::format(
+          "Joint {}: {} errors below {:.2g} {} over {:g} s are not told from healthy.", j + 1,
+          what_strayed(*relation), window.limit, unit_of(*relation, model.robot.chain), window.window_s));
+    }
+    if (!joint.is_known)
+      spots.push_back(fmt::format(
+          "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
+    else if (joint.judged.empty())
+      spots.push_back(fmt::format(
+          "Joint {} is not judged: its reference is missing or never changes in this log, or is nowhere like "
+          "those of the healthy logs, or too few complete rows follow each other.",
+          j + 1));
+  }
+  return spots;
+}
+
+}  // namespace faultline

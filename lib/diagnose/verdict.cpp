@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "lib/diagnose/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/text.hpp"
+#include "lib/diagnose/blind_spots.hpp"
+#include "lib/diagnose/least_size.hpp"
+#include "lib/diagnose/merge_faults.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/runs/judged_moment.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
+constexpr double kLeastPower =
+    0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
+constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
+constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
+constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
+constexpr double kVerdictPercent = 100.0;
+constexpr std::int64_t kFewestRows = 20;
+constexpr double kFewestJudged = 0.75;    // of the log, likewise
+constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
+
+/// Where the model misses so much more torque than in the learned logs that what was learned of its power is
+/// not true of this log; empty if nowhere.
+std::string why_too_rough(const std::vector<double>& roughness) {
+  const auto worst = std::max_element(roughness.begin(), roughness.end());
+  if (worst == roughness.end() || *worst < kRough) return "";
+  return fmt::format(
+      "no fault was found, but the model misses {:.2g} times as much torque at joint {} as in the learned logs, "
+      "so that a fault may hide there; where the robot is so on purpose, learn a model with such logs",
+      *worst, worst - roughness.begin() + 1);
+}
+
+/// Where the motion was so far from a fault-free one that something happened there, though no fault explains
+/// it; empty if nowhere.
+std::string why_too_wild(const std::vector<JointResidual>& residuals) {
+  const auto worst = std::max_element(residuals.begin(), residuals.end(), [](const auto& a, const auto& b) {
+    return !(a.velocity_peak >= b.velocity_peak);
+  });
+  if (worst == residuals.end() || !(worst->velocity_peak > kWild)) return "";
+  return fmt::format(
+      "no fault explains the log, but joint {} moved at {:.3f} s as no fault-free robot does ({:.3g} times the "
+      "healthy residual); look at that moment: a reading that jumped or stood still, or rows that are missing",
+      worst->joint, worst->velocity_peak_s, worst->velocity_peak);
+}
+
+/// What is so wrong with the log that no calm verdict can rest on it; empty if nothing.
+std::string why_too_damaged(const Issues& issues) {
+  for (const Issue& issue : issues.all())
+    if (issue.severity == Severity::severe)
+      return fmt::format("no fault was found, but the log is not sound: {}", issue.message);
+  return "";
+}
+
+/// Why the model cannot call any log healthy; empty when it can.
+std::string why_too_doubtful(const ModelFacts& model) {
+  if (model.grave_doubts.empty()) return "";
+  return fmt::format(
+      "no fault was found, but this model cannot call a log healthy: {}; learn one from logs that are surely "
+      "healthy",
+      model.grave_doubts.front());
+}
+
+/// Which joint could not be judged for longer than a moment; empty if none. Of several the longest stretch.
+std::string why_not_judged(const LogFacts& log) {
+  const auto longest = std::max_element(
+      log.unjudged.begin(), log.unjudged.end(),
+      [](const auto& a, const auto& b) { return a.end_s - a.start_s < b.end_s - b.start_s; });
+  if (longest == log.unjudged.end()) return "";
+  const std::size_t others = log.unjudged.size() - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format(" (and {} other stretch{})", others, others == 1 ? "" : "es");
+  return fmt::format(
+      "no fault was found where the log could be judged, but {}{}; a fault may hide where a joint is not judged "
+      "for longer than {:.2g} s, in more than a quarter of {:.2g} s, or at the end",
+      unjudged_words(*longest, log), more, judged_moment_s(log.sample_period_s),
+      judged_window_s(log.sample_period_s));
+}
+
+/// Why too little of the log could be explained; empty if it was enough.
+std::string why_too_thin(double judged_share) {
+  if (judged_share >= kFewestJudged) return "";
+  return fmt::format(
+      "no fault was found, but the regression could use only {:.0f} % of the log: it needs some seconds of "
+      "complete rows in succession, and rows or cells are missing too often, or the log is too short",
+      kVerdictPercent * judged_share);
+}
+
+/// Why a log that shows no motion says nothing; empty where a joint moves.
+std::string why_at_rest(const LogFacts& log) {
+  if (log.resting.empty() || std::ssize(log.resting) < log.joints) return "";
+  return "no fault was found, but no joint moved: most faults show in motion only";
+}
+
+/// What a healthy verdict speaks of: the whole log only where all of it was judged.
+std::string judged_part(const LogFacts& log) {
+  const auto read =
+      std::count_if(log.runs.begin(), log.runs.end(), [](const LogRun& run) { return run.is_read; });
+  if (read < std::ssize(log.runs)) {
+    const auto run =
+        std::find_if(log.runs.begin(), log.runs.end(), [](const LogRun& r) { return r.is_read; });
+    return fmt::format("run {} of {}; the other runs were not read", run->run, log.runs.size());
+  }
+  if (log.is_whole) return "the whole log";
+  const std::string rows = log.rows_unjudged > 0
+                               ? fmt::format("{} of {} rows", log.rows_unjudged, log.rows_read)
+                               : "a few moments";
+  return fmt::format(
+      "the log, but for {} that could not be judged, never more than {:.2g} s at a time or a quarter of {:.2g} s",
+      rows, judged_moment_s(log.sample_period_s), judged_window_s(log.sample_period_s));
+}
+
+/// Why a log in which no fault was found is not called healthy; empty when it can be.
+std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
+  if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
+  if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
+  if (const std::string unjudged = why_not_judged(diagnosis.log); !unjudged.empty()) return unjudged;
+  if (const std::string thin = why_too_thin(diagnosis.judged_share); !thin.empty()) return thin;
+  if (const std::string rest = why_at_rest(diagnosis.log); !rest.empty()) return rest;
+  if (power < kLeastPower)
+    return fmt::format(
+        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
+        "logs that resemble each other more",
+        kVerdictPercent * power);
+  if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
+  if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
+  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
+  if (far.empty()) return "";
+  return fmt::format(
+      "no moment was found at which a fault begins, but the robot is not as it was when healthy logs were "
+      "recorded: {}; where that is so on purpose, learn a model from logs of today",
+      far);
+}
+
+/// Why the log cannot be judged with this model; empty when it can.
+std::string why_inconclusive(const LogFacts& log, double model_period_s) {
+  for (const char* code : {kMisreadLog, kChangedColumns})
+    if (const Issue* misread = log.issues.find(code)) return misread->message;
+  const double ratio = log.sample_period_s / model_period_s;
+  if (ratio > kOtherPeriod || ratio < 1.0 / kOtherPeriod)
+    return fmt::format(
+        "the log has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; learn "
+        "a model from healthy logs of this rate",
+        log.sample_period_s, model_period_s);
+  if (log.rows_used < kFewestRows)
+    return fmt::format("the log has {} usable rows; at least {} are needed to judge", log.rows_used,
+                       kFewestRows);
+  if (static_cast<double>(log.judgeable_rows) < kFewestJudgeable * static_cast<double>(log.rows_used))
+    return fmt::format("only {} of {} rows {}", log.judgeable_rows, log.rows_used,
+                       log.is_tracked ? "could be held against a reference that moves as in the healthy logs"
+                                      : "have position and torque of every joint");
+  return "";
+}
+
+}  // namespace
+
+void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, double model_period_s,
+                    double power) {
+  diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
+  if (!diagnosis.verdict_reason.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.condition.clear();
+    return;
+  }
+  diagnosis.small_changes = take_small_changes(faults);
+  diagnosis.faults = merge_continued(std::move(faults));
+  number_by_onset(diagnosis.faults);
+  if (const Issue* scaled = diagnosis.log.issues.find(kScaledMotion); scaled && !diagnosis.faults.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.verdict_reason = "what the log shows may be its own: " + scaled->message;
+    diagnosis.faults.clear();
+    return;
+  }
+  const std::size_t count = diagnosis.faults.size();
+  if (const std::string doubt = count == 0 ? why_not_healthy(diagnosis, power) : ""; !doubt.empty()) {
+    diagnosis.verdict = Verdict::inconclusive;
+    diagnosis.verdict_reason = doubt;
+    return;
+  }
+  diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
+  const std::string healthy = diagnosis.log.is_tracked
+                                  ? "every joint that is judged follows its reference"
+                                  : "the identified robot explains " + judged_part(diagnosis.log);
+  diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
+  if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
+    diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;
+  if (const std::size_t small = diagnosis.small_changes.size(); count == 0 && small > 0)
+    diagnosis.verdict_reason += "; " + counted(static_cast<long long>(small), "change") +
+                                " found, too small to be reported as a fault";
+}
+
+}  // namespace faultline

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "lib/learn/day_differences.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/identify/feasible/feasible.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // of a torque that the model misses
+
+/// The torque that the rows of a joint leave, as one that is forgotten within some time.
+void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
+  const Eigen::VectorXd covariance = autocovariance(m.noise.joint[joint]);
+  const double variance = m.noise.joint[joint].base * covariance[0];
+  if (!(variance > 0.0)) return;
+  const double again = covariance.size() > 1 ? covariance[1] / covariance[0] : 0.0;
+  const double memory_s = again > 0.0 ? -m.setting.row_s() / elementary::log(again) : kLeastMemory_s;
+  out.missed[joint] = std::sqrt(variance);
+  out.missed_memory_s[joint] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
+}
+
+struct Differences {
+  DayDifferences operator()(const BalanceModel& m) const {
+    const DayLayout at = day_layout(m.rigid);
+    DayDifferences out = DayDifferences::none(m.joints());
+    for (int j = 0; j < m.joints(); ++j) {
+      out.offset[j] = std::sqrt(m.day_variance[at.offset(j)]);
+      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
+      take_missed_torque(m, j, out);
+    }
+    return out;
+  }
+  DayDifferences operator()(const OneStepModel& m) const {
+    const StepDayLayout at = m.day_layout();
+    DayDifferences out = DayDifferences::none(m.joints());
+    for (int j = 0; j < m.joints(); ++j) {
+      out.offset[j] = std::sqrt(m.day_variance[at.force(j)]);
+      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
+    }
+    return out;
+  }
+};
+
+double variance_of_range(double range) { return Eigen::numext::abs2(range / DayEffect::kStdsInRange); }
+
+struct Widen {
+  const NormalRange& stated;
+  const std::vector<double>& torque_scale;
+
+  void friction(double& variance) const {
+    if (stated.friction != NormalRange{}.friction)
+      variance = std::max(variance, variance_of_range(stated.friction));
+  }
+  void offset(double& variance, int joint) const {
+    if (stated.torque_offset != NormalRange{}.torque_offset)
+      variance = std::max(variance, variance_of_range(stated.torque_offset * torque_scale[joint]));
+  }
+  void gain(double& variance) const {
+    if (stated.torque_constant != NormalRange{}.torque_constant)
+      variance = std::max(variance, variance_of_range(stated.torque_constant));
+  }
+  void operator()(BalanceModel& m) const {
+    if (stated.work_piece_kg > 0.0) m.piece_kg = stated.work_piece_kg;
+    const DayLayout at = day_layout(m.rigid);
+    for (int j = 0; j < m.joints(); ++j) {
+      friction(m.day_variance[at.friction(j)]);
+      offset(m.day_variance[at.offset(j)], j);
+      gain(m.day_variance[at.gain(j)]);
+    }
+  }
+  void operator()(OneStepModel& m) const {
+    const StepDayLayout at = m.day_layout();
+    for (int j = 0; j < m.joints(); ++j) {
+      friction(m.day_variance[at.friction(j)]);
+      offset(m.day_variance[at.force(j)], j);
+      gain(m.day_variance[at.gain(j)]);
+    }
+  }
+};
+
+}  // namespace
+
+DayDifferences day_differences(const RobotRows& robot) { return std::visit(Differences{}, robot); }
+
+RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
+                             const std::vector<double>& torque_scale) {
+  std::visit(Widen{stated, torque_scale}, robot);
+  return robot;
+}
+
+namespace {
+
+/// The friction that explains the logs, in place of the identified one.
+template <typename Rows>
+Identification with_friction_of(Identification identification, const Rows& model,
+                                const Eigen::VectorXd& width) {
+  const ParameterSpace& space = identification.space;
+  const auto layout = model.layout();
+  for (int j = 0; j < space.joints(); ++j) {
+    identification.estimate[space.viscous(j)] = model.theta[layout.viscous(j)];
+    identification.estimate[space.coulomb(j)] = model.theta[layout.coulomb(j)];
+    identification.estimate[space.log_width(j)] = elementary::log(width[j]);
+    identification.robot.chain.friction[j].width = width[j];
+  }
+  return identification;
+}
+
+/// The base parameters that explain the logs, which differ by day as these logs do, where some bodies can
+/// have them. A model of one-step predictions has no rotors.
+Identification with_base_of(const Identification& identification, const OneStepModel& model) {
+  Identification out = identification;
+  const ParameterSpace& space = out.space;
+  out.covariance.setZero();
+  for (int p = 0, at = 0; p < space.rigid(); ++p) {
+    out.estimate[p] = 0.0;
+    if (space.base[p].is_rotor) continue;
+    out.estimate[p] = model.theta[at];
+    out.covariance(p, p) =
+        model.day_variance[model.day_layout().inertia(at)] * Eigen::numext::abs2(model.theta[at]);
+    ++at;
+  }
+  const bool is_feasible =
+      infeasibility(space, out.estimate, out.covariance, model.q_low, model.q_high).empty();
+  return is_feasible ? out : identification;
+}
+
+/// Noise of the readings as one-step predictions leave it: few samples of a move show it no other way.
+Identification with_noise_of(Identification identification, const OneStepModel& model) {
+  const Eigen::VectorXd noise = model.reading_variance.cwiseSqrt();
+  identification.q_noise.assign(noise.begin(), noise.begin() + model.joints());
+  if (!identification.dq_noise.empty())
+    identification.dq_noise.assign(noise.begin() + model.joints(), noise.end());
+  return identification;
+}
+
+}  // namespace
+
+Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
+  if (const auto* rows = std::get_if<BalanceModel>(&robot))
+    return with_friction_of(identification, *rows, rows->setting.friction_width);
+  const auto& steps = std::get<OneStepModel>(robot);
+  return with_noise_of(
+      with_base_of(with_friction_of(identification, steps, steps.body.friction_width()), steps), steps);
+}
+
+}  // namespace faultline

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "lib/learn/healthy_robot.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "lib/core/make_issue.hpp"
+#include "lib/core/parallel.hpp"
+#include "lib/identify/days/fit_coarse_days.hpp"
+#include "lib/identify/days/fit_days.hpp"
+#include "lib/learn/identified_model.hpp"
+#include "lib/learn/without_work_piece.hpp"
+#include "lib/log/memory_source.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kFirst = 0.4;  // share of the work that is done when the robot was identified once
+constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
+constexpr int kDaysOfOneLog = 3;                // that a single log is cut into
+
+/// Model and logs of `identification`; the logs are those that agreed when all were given.
+HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& robot,
+                                 Identification identification, std::vector<IdentifiedLog> given) {
+  HealthyRobot out;
+  out.model = identified_model(identification);
+  out.reading = reading_of(robot, out.model.robot);
+  out.logs = in_time(logs, out.reading, given);
+  out.model.motion = usual_motion(pointers(out.logs), identification.robot.chain);
+  out.identification = std::move(identification);
+  out.given = std::move(given);
+  return out;
+}
+
+/// A mass that comes and goes looks like a torque that acts late: what such logs tell of a delay is not
+/// believed while work pieces are looked for.
+Identification as_stated(Identification identification, const Robot& robot) {
+  identification.robot.torque_delay_s = robot.torque_delay_s;
+  return identification;
+}
+
+bool has_doubtful_delay(const Identification& identification, const Robot& robot) {
+  return identification.status != IdentificationStatus::converged &&
+         identification.robot.torque_delay_s != robot.torque_delay_s;
+}
+
+bool is_held(const HealthyRobot& robot) {
+  return robot.model.robot.log.torque_between_samples == TorqueTiming::held;
+}
+
+FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
+  return fit_days(days, robot.identification.space, {.torque_is_held = is_held(robot)});
+}
+
+/// The robot at a coarse rate, and without each of the logs.
+void learn_steps(HealthyRobot& robot, const std::vector<LogSource*>& days, int threads) {
+  const auto count = static_cast<int>(days.size());
+  std::vector<Log> copies;  // one job after the other reads the same logs
+  for (LogSource* log : days) {
+    log->rewind();
+    copies.push_back(read_all(*log));
+  }
+  std::vector<RobotRows> without(days.size());
+  parallel_for(count + 1, threads, [&](int left_out) {
+    std::vector<std::unique_ptr<MemorySource>> own;
+    std::vector<LogSource*> kept;
+    for (int k = 0; k < count; ++k)
+      if (k != left_out) kept.push_back(own.emplace_back(std::make_unique<MemorySource>(copies[k])).get());
+    RobotRows learned = fit_coarse_days(kept, robot.model.robot, robot.identification.space,
+                                        {.torque_is_held = is_held(robot)});
+    (left_out < count ? without[left_out] : robot.model.explain.robot) = std::move(learned);
+  });
+  robot.without = std::move(without);
+}
+
+void take_rows(HealthyRobot& robot, FittedDays fit) {
+  robot.model.explain.robot = std::move(fit.model);
+  robot.without.clear();
+  for (BalanceModel& model : fit.without) robot.without.emplace_back(std::move(model));
+}
+
+/// The logs that agree, without the rows in which a work piece is carried; none where that is told of none.
+std::deque<SelectedRowsSource> without_work_piece(std::span<LogSource* const> logs, HealthyRobot& robot,
+                                                  const FittedDays& fit) {
+  std::deque<SelectedRowsSource> out;
+  if (robot.days.size() != robot.logs.size()) return out;
+  const auto ranges = rows_without_work_piece(robot.days, fit);
+  if (ranges.empty()) return out;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (robot.given[i].left_out) continue;
+    if (const std::vector<RowRange>& rows = ranges[next++]; !rows.empty()) {
+      logs[i]->rewind();
+      out.emplace_back(*logs[i], rows);
+    }
+  }
+  return out;
+}
+
+Issue work_piece_issue(double kg) {
+  return make_issue("work_piece_comes_and_goes", Severity::note,
+                    fmt::format("a work piece of {:.3g} kg comes and goes in these logs: the robot is "
+                                "identified from the rows without it",
+                                kg));
+}
+
+/// The logs as days; a single one is cut into several.
+void set_days(HealthyRobot& robot) {
+  robot.days = pointers(robot.logs);
+  if (robot.days.size() != 1) return;
+  LogSource& log = *robot.days.front();
+  log.rewind();
+  const Log all = read_all(log);
+  robot.days.clear();
+  for (int d = 0; d < kDaysOfOneLog; ++d) {
+    robot.parts.push_back(std::make_unique<MemorySource>(
+        slice(all, d * all.rows() / kDaysOfOneLog, (d + 1) * all.rows() / kDaysOfOneLog)));
+    robot.days.push_back(robot.parts.back().get());
+  }
+}
+
+}  // namespace
+
+RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
+  if (std::holds_alternative<BalanceModel>(robot.model.explain.robot)) return fitted_days(robot, days).model;
+  return fit_coarse_days(days, robot.model.robot, robot.identification.space,
+                         {.torque_is_held = is_held(robot)});
+}
+
+HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
+                           const IdentifyOptions& options, const Progress& progress) {
+  Identification identification = identify(logs, robot, options, part_of(progress, 0.0, kFirst));
+  std::vector<IdentifiedLog> given = identification.logs;
+  if (progress) progress("learning what differs from day to day", kFirst);
+  const bool is_coarse = identified_period_s(identification) > kCoarse_s;
+  const bool doubtful = robot.payloads.empty() && has_doubtful_delay(identification, robot) && !is_coarse;
+  HealthyRobot first =
+      with_identification(logs, robot, doubtful ? as_stated(identification, robot) : identification, given);
+  set_days(first);
+  if (is_coarse) {
+    learn_steps(first, first.days, options.threads);
+    return first;
+  }
+  FittedDays fit = fitted_days(first, first.days);
+  std::deque<SelectedRowsSource> empty;
+  if (robot.payloads.empty()) empty = without_work_piece(logs, first, fit);
+  if (empty.empty() && !doubtful) {
+    take_rows(first, std::move(fit));
+    return first;
+  }
+  if (!empty.empty()) {
+    std::vector<LogSource*> sources;
+    for (SelectedRowsSource& log : empty) sources.push_back(&log);
+    identification = identify(sources, robot, options, part_of(progress, kFitted, kSecond));
+    identification.issues.add(work_piece_issue(fit.model.piece_kg));
+  }
+  if (progress) progress("learning what differs from day to day", kSecond);
+  HealthyRobot second = with_identification(logs, robot, std::move(identification), std::move(given));
+  set_days(second);
+  take_rows(second, fitted_days(second, second.days));
+  return second;
+}
+
+}  // namespace faultline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lib/core/progress.hpp"
+#include "lib/identify/identify.hpp"
+#include "lib/learn/torque_reading.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// What healthy logs tell of the robot before faults are thought of.
+struct HealthyRobot {
+  Identification identification;
+  std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
+  TorqueReading reading;                            ///< of logs that were opened with the robot as given
+  std::deque<DelayedTorqueSource> logs;             ///< those that agree
+  std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
+  std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log
+  Model model;                                      ///< robot, identification, motion, rows
+  std::vector<RobotRows> without{};                 ///< rows learned without each of the days
+};
+
+/// Identifies the robot and learns how its healthy days differ. Where a work piece comes and goes, the robot
+/// is identified a second time, from the rows without it. `logs` outlive the result. Throws
+/// Error(input) when they do not suffice.
+HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
+                           const IdentifyOptions& options, const Progress& progress);
+
+/// Rows learned from some of the robot's days.
+RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days);
+
+}  // namespace faultline

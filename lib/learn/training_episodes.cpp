@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "lib/learn/training_episodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "lib/core/error.hpp"
+#include "lib/diagnose/describe_episode.hpp"
+
+namespace faultline {
+namespace {
+
+/// Two classifiers: number h has not seen the episodes i with i % 2 == h.
+std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpisode>& episodes,
+                                                   const EpisodeClassifierOptions& options) {
+  std::array<EpisodeClassifier, 2> half;
+  for (std::size_t h = 0; h < half.size(); ++h) {
+    std::vector<LabelledEpisode> others;
+    for (std::size_t i = 0; i < episodes.size(); ++i)
+      if (i % 2 != h) others.push_back(episodes[i]);
+    half[h] = train_episode_classifier(others, options);
+  }
+  return half;
+}
+
+CaseSource source_of(const MonitoredRun& run) {
+  if (run.origin == kSimulatedOrigin) return {run.origin, "", "", std::numeric_limits<double>::quiet_NaN()};
+  return {run.origin, run.log.log.sha256, std::filesystem::path(run.log.log.path).filename().string(),
+          run.onset_s};
+}
+
+/// Every classifier, also those of halves, tells at least two kinds of fault apart.
+void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    std::vector<FaultLabel> labels;
+    for (std::size_t i = half; i < episodes.size(); i += 2)
+      if (std::find(labels.begin(), labels.end(), episodes[i].label) == labels.end())
+        labels.push_back(episodes[i].label);
+    if (labels.size() < 2)
+      throw Error(
+          ErrorCode::input, "the healthy logs",
+          fmt::format("are too noisy, or the robot explains too little of them, to tell faults apart: "
+                      "only {} of {} simulated faults show in them. Are units, signs and columns right? "
+                      "Otherwise record longer and faster motions with less noise",
+                      episodes.size(), runs));
+  }
+}
+
+}  // namespace
+
+TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model) {
+  TrainingEpisodes out;
+  for (const MonitoredRun& run : runs) {
+    const MonitoredEpisode* of_fault = episode_of_fault(run);
+    if (!of_fault) continue;
+    const Episode episode = describe_episode(*of_fault, model).episode;
+    out.episodes.push_back({episode.features, run.label});
+    out.evidence.push_back(episode.evidence);
+    out.sources.push_back(source_of(run));
+  }
+  check_kinds(out.episodes, runs.size());
+  return out;
+}
+
+CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
+                        const EpisodeClassifierOptions& options) {
+  CaseBase cases(episode_feature_names(model.labels, model.robot.joints()));
+  const std::array<EpisodeClassifier, 2> half = trained_on_halves(training.episodes, options);
+  for (std::size_t i = 0; i < training.episodes.size(); ++i) {
+    Case c;
+    const Opinions opinions = classify_episode(half[i % 2], training.episodes[i].features);
+    c.episode = {training.episodes[i].features, opinions.mlp, opinions.rbfn, training.evidence[i]};
+    c.decision = c.label = training.episodes[i].label;
+    c.outcome = CaseOutcome::confirmed;
+    c.origin = training.sources[i].origin;
+    c.log_sha256 = training.sources[i].log_sha256;
+    c.log_name = training.sources[i].log_name;
+    c.onset_s = training.sources[i].onset_s;
+    cases.retain(std::move(c));
+  }
+  cases.learn();
+  return cases;
+}
+
+}  // namespace faultline

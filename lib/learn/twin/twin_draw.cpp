@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "lib/learn/twin/twin_draw.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+/// A usual move goes over a third of the range, as points drawn at random do, and a quintic has an rms speed
+/// of 1.2 times its mean: its length is this share of range / rms speed.
+constexpr double kMoveShare = 0.4;
+constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the logs moves
+
+constexpr double kMostStds = 2.0;       // of what differs on a day: the normal range
+constexpr double kLeastFriction = 0.3;  // there is always some
+constexpr double kLeastGain = -0.9;     // no drive turns round
+
+std::vector<double> scaled(std::vector<double> values, double by) {
+  for (double& value : values) value *= by;
+  return values;
+}
+
+double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
+
+/// What differs on a day, within the normal range; nothing is drawn where days are alike.
+double draw_change(double std, Random& random) {
+  if (std == 0.0) return 0.0;
+  const double most = kMostStds * std, change = std * random.normal();
+  return std::clamp(change, -most, most);
+}
+
+double draw_from(const DrawRange& range, Random& random) {
+  const double sign = range.either_sign ? random_sign(random) : 1.0;
+  const double size =
+      range.spread == Spread::log_uniform
+          ? range.low * elementary::exp(random.uniform() * elementary::log(range.high / range.low))
+          : random.uniform(range.low, range.high);
+  return sign * size;
+}
+
+/// Sizes that a technician would call a fault, against what is usual for the joint.
+SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onset_s, Random& random) {
+  const TwinFault& ranges = twin.options.faults[static_cast<std::size_t>(label.kind)];
+  const FaultDescription& kind = describe(label.kind);
+  SimulatedFault fault;
+  fault.kind = label.kind;
+  fault.joint = label.joint;
+  fault.onset_s = onset_s;
+  auto draw_size = [&](int s) {
+    return draw_from(ranges.size[s], random) *
+           usual_size(*twin.motion, kind.size[s].measure, label.joint - 1);
+  };
+  if (kind.size_count > 0) fault.size = draw_size(kind.size_count - 1);
+  if (kind.size_count > 1) fault.viscous = draw_size(0);
+  if (kind.passes) fault.end_s = onset_s + std::max(draw_from(ranges.length_s, random), twin.sample_period_s);
+  return fault;
+}
+
+/// A contact at the tip pushes another joint as well, less than its own.
+void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, Random& random) {
+  const UsualMotion& motion = *twin.motion;
+  const int joints = motion.joints();
+  if (joints < 2 || random.uniform() > twin.options.second_push_share) return;
+  SimulatedFault other = faults.front();
+  const int first = other.joint - 1;
+  const int second = (first + 1 + static_cast<int>(random.below(joints - 1))) % joints;
+  const double size = draw_from(twin.options.second_push, random);
+  const double share = size * random_sign(random);
+  other.joint = second + 1;
+  other.size = share * faults.front().size / motion.torque_scale[first] * motion.torque_scale[second];
+  faults.push_back(other);
+}
+
+}  // namespace
+
+double usual_move_s(const Twin& twin) {
+  const UsualMotion& motion = *twin.motion;
+  std::vector<double> lengths;
+  for (int j = 0; j < motion.joints(); ++j)
+    if (motion.velocity_scale[j] > 0.0)
+      lengths.push_back(kMoveShare * (motion.q_high[j] - motion.q_low[j]) / motion.velocity_scale[j]);
+  if (lengths.empty()) return kMoveOfAStill_s;
+  return std::clamp(upper_median_of(lengths), twin.options.shortest_move_s, twin.options.longest_move_s);
+}
+
+MotionSpec draw_motion(const Twin& twin, Random& random) {
+  MotionSpec spec;
+  const bool quintic = random.uniform() < twin.options.quintic_share;
+  spec.profile = quintic ? MotionProfile::quintic : MotionProfile::trapezoidal;
+  spec.low = twin.motion->q_low;
+  spec.high = twin.motion->q_high;
+  const double move_s = usual_move_s(twin);
+  spec.move_min_s = twin.options.move.low * move_s;
+  spec.move_max_s = twin.options.move.high * move_s;
+  spec.dwell_min_s = twin.options.dwell.low * move_s;
+  spec.dwell_max_s = twin.options.dwell.high * move_s;
+  return spec;
+}
+
+ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random) {
+  ControllerSpec spec;
+  const bool pd = random.uniform() < twin.options.pd_share;
+  spec.kind = pd && allow_pd ? ControllerKind::pd_gravity : ControllerKind::computed_torque;
+  const double most = twin.options.mass_error;
+  for (int j = 0; j < twin.motion->joints(); ++j) spec.mass_error.push_back(random.uniform(-most, most));
+  return spec;
+}
+
+NoiseSpec draw_noise(const Twin& twin, Random& random) {
+  const NoiseSpec noise{twin.identification->q_noise, twin.identification->dq_noise};
+  const auto& [low, high] = twin.identification->robot.normal.noise;
+  const double level = low * elementary::exp(random.uniform() * elementary::log(high / low));
+  return {scaled(noise.q, level), scaled(noise.dq, level)};
+}
+
+DriveSpec draw_drives(const Twin& twin, Random& random) {
+  const DayDifferences& days = twin.days;
+  const auto joints = static_cast<std::size_t>(twin.motion->joints());
+  DriveSpec drives;
+  drives.roughness = days.missed;
+  drives.roughness_memory_s = days.missed_memory_s;
+  for (std::size_t j = 0; j < joints; ++j) {
+    drives.offset.push_back(draw_change(days.offset[j], random));
+    drives.gain.push_back(std::max(draw_change(days.gain[j], random), kLeastGain));
+  }
+  return drives;
+}
+
+void draw_day(const Twin& twin, Robot& robot, Random& random) {
+  for (std::size_t j = 0; j < robot.chain.friction.size(); ++j) {
+    const double scale = std::max(1.0 + draw_change(twin.days.friction[j], random), kLeastFriction);
+    robot.chain.friction[j].viscous *= scale;
+    robot.chain.friction[j].coulomb *= scale;
+    robot.chain.friction[j].load *= scale;
+  }
+}
+
+JointStops draw_stops(const Twin& twin, Random& random) {
+  JointStops stops;
+  if (random.uniform() >= twin.options.stop_share) return stops;
+  const UsualMotion& motion = *twin.motion;
+  const DrawRange& distance = twin.options.stop_distance;
+  for (int j = 0; j < motion.joints(); ++j) {
+    const double range = motion.q_high[j] - motion.q_low[j];
+    stops.low.push_back(motion.q_low[j] - draw_from(distance, random) * range);
+    stops.high.push_back(motion.q_high[j] + draw_from(distance, random) * range);
+  }
+  return stops;
+}
+
+std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
+                                        Random& random) {
+  std::vector<SimulatedFault> faults = {draw_fault(twin, label, onset_s, random)};
+  if (describe(label.kind).passes) push_another_joint(twin, faults, random);
+  return faults;
+}
+
+}  // namespace faultline

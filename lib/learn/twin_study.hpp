@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/cases/case_base.hpp"
+#include "lib/classify/sample_classifier.hpp"
+#include "lib/core/progress.hpp"
+#include "lib/diagnose/monitor/monitored_log.hpp"
+#include "lib/learn/twin/twin.hpp"
+#include "lib/model/model.hpp"
+
+namespace faultline {
+
+/// A log whose fault is known, as monitoring left it.
+struct MonitoredRun {
+  FaultLabel label;
+  double onset_s = 0.0;
+  double length_s = 0.0;  ///< time from its first to its last row
+  std::string origin;     ///< where it comes from, as a case tells it
+  MonitoredLog log;
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
+};
+
+/// How a run of the twin is judged.
+enum class TwinJudging {
+  searched,  ///< as a log is that somebody recorded
+  known,     ///< at the times of its fault (monitor_at()): a tenth of the time
+};
+
+/// The model without gear springs: the twin has rigid gears, and springs that its runs do not show would be
+/// evidence of faults.
+Model with_rigid_gears(Model model);
+
+struct TwinStudyOptions {
+  TwinJudging judging = TwinJudging::searched;
+  bool keep_residuals = false;   ///< of each run, for learn_sample_mode()
+  std::uint64_t first_seed = 0;  ///< run i has the seed stream `first_seed + i`
+  int threads = 0;               ///< 0 = one a core; changes no byte of the result
+};
+
+/// Runs of the twin, one for each label.
+struct TwinStudy {
+  std::vector<MonitoredRun> runs;
+  std::vector<LabelledResiduals> residuals;  ///< of all rows of each run; empty where they were not asked for
+};
+
+/// One run of the twin for each label, judged with the model, but with rigid gears.
+TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
+                              const TwinStudyOptions& options, const Progress& progress = {});
+
+/// Each of the labels `count` times: of the kinds asked for, all if none is.
+std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,
+                                           const std::vector<FaultKind>& kinds);
+
+/// The episode that belongs to the run's fault: the first alarm not before its onset; null when there is
+/// none.
+const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
+
+struct Validated {
+  Validation validation;
+  std::vector<JudgedConfidence> judged;  ///< the names that were given in the runs with a fault
+};
+
+/// What the pipeline makes of runs that it was not trained on.
+Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
+                   const Model& model, const CaseBase& cases);
+
+}  // namespace faultline

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "lib/plausibility/checkup/checkup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/log/log_channels.hpp"
+#include "lib/log/time_axis.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kHeadRows = 64;
+constexpr double kGapSteps = 3.0;
+
+}  // namespace
+
+void Checkup::add(const Log& segment) {
+  if (settled_) return take(segment);
+  append(head_, segment);
+  if (head_.rows() > kHeadRows) settle();
+}
+
+void Checkup::settle() {
+  settled_ = true;
+  const int head = std::min(head_.rows(), kHeadRows);
+  const double step = median_step({head_.time.begin(), head_.time.begin() + head});
+  const double period_s = step > 0.0 ? step : 1.0;
+  for_each_joint_channel(head_, [&](const std::vector<double>&, Channel channel) {
+    channels_.push_back(channel);
+    courses_.emplace_back(channel.quantity == Quantity::dq);
+  });
+  const auto joints = static_cast<std::size_t>(head_.joints());
+  velocity_.assign(head_.dq.empty() ? 0 : joints, VelocityRelation(kGapSteps * period_s));
+  if (!head_.tau.empty() && head_.joints() <= TorqueRelation::kMostJoints)
+    torque_.emplace(head_.joints(), period_s);
+  paths_.resize(joints);
+  places_.resize(joints);
+  take(head_);
+  head_ = {};
+}
+
+/// Where the velocity says that the joint is; elsewhere nothing is known of that.
+void Checkup::take_joint(const Log& segment, std::size_t j) {
+  Path& path = paths_[j];
+  auto& places = places_[j];
+  places.assign(segment.time.size(), std::nan(""));
+  if (segment.dq.empty()) return;
+  for (std::size_t i = 0; i < segment.time.size(); ++i) {
+    const double t = segment.time[i], dq = segment.dq[j][i];
+    const double known = std::isnan(dq) ? 0.0 : dq;
+    if (path.begun) path.place += 0.5 * (known + path.dq) * (t - path.t);
+    path = {path.place, t, known, true};
+    places[i] = path.place;
+    velocity_[j].add(t, segment.q[j][i], dq);
+  }
+}
+
+void Checkup::take(const Log& segment) {
+  for (const double t : segment.time) clock_.add(t);
+  repeated_.add(segment);
+  for (std::size_t j = 0; j < paths_.size(); ++j) take_joint(segment, j);
+  if (torque_)
+    for (std::size_t i = 0; i < segment.time.size(); ++i)
+      torque_->add(segment.time[i], segment.q, segment.tau, i);
+  std::size_t at = 0;
+  for_each_joint_channel(segment, [&](const std::vector<double>& values, Channel channel) {
+    const auto joint = static_cast<std::size_t>(channel.joint - 1);
+    const auto& places = channel.quantity == Quantity::q ? places_[joint] : segment.q[joint];
+    ChannelCourse& course = courses_[at++];
+    for (std::size_t i = 0; i < values.size(); ++i) course.add(segment.time[i], values[i], places[i]);
+  });
+}
+
+CheckupResult Checkup::result() const {
+  if (!settled_ && head_.rows() > 0) {
+    Checkup done = *this;
+    done.settle();
+    return done.result();
+  }
+  CheckupResult result;
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    result.channels.push_back({channels_[i], courses_[i].result()});
+  result.joints.resize(paths_.size());
+  for (std::size_t j = 0; j < velocity_.size(); ++j) result.joints[j].velocity = velocity_[j].result();
+  if (torque_) {
+    const auto torques = torque_->result();
+    for (std::size_t j = 0; j < torques.size(); ++j) result.joints[j].torque = torques[j];
+  }
+  result.clock_changes = clock_.changes();
+  result.repeated = repeated_.result();
+  return result;
+}
+
+const ChannelCheckup* CheckupResult::find(Channel channel) const {
+  const auto found = std::find_if(channels.begin(), channels.end(),
+                                  [&](const ChannelCheckup& one) { return one.channel == channel; });
+  return found == channels.end() ? nullptr : &*found;
+}
+
+}  // namespace faultline

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "lib/plausibility/plausible_units.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "lib/core/error.hpp"
+#include "lib/log/quality.hpp"
+#include "lib/robot/axis_units.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::int64_t kLookedAt = 50'000;  // rows of a log: a minute and more at 500 Hz, read in a moment
+constexpr double kHealthySpan = 13.0;  // rad, just above two turns: healthy joints of arms turn by no more
+
+/// Of a log of another number of joints none: that is said by itself.
+Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
+  QualityState state;
+  std::int64_t rows = 0;
+  bool fits = true;
+  log.rewind();
+  for (Log segment; fits && rows < kLookedAt && log.next(segment); rows += segment.rows()) {
+    fits = static_cast<std::size_t>(segment.joints()) == options.slides.size();
+    assess(segment, state);
+  }
+  log.rewind();
+  if (!fits) return {};
+  return quality_of(state, options).issues;
+}
+
+}  // namespace
+
+std::vector<std::string> implausible_units(std::span<LogSource* const> logs, const Robot& robot) {
+  QualityOptions options;
+  options.slides = sliding_joints(robot.chain);
+  options.position_span = kHealthySpan;
+  std::vector<std::string> sentences;
+  for (LogSource* log : logs) {
+    const Issues issues = issues_of_beginning(*log, options);
+    for (const Issue& issue : issues.all())
+      if (issue.code == "unit_implausible" && issue.severity == Severity::severe)
+        sentences.push_back(std::filesystem::path(log->identity().path).filename().string() + ": " +
+                            issue.channel + " " + issue.message);
+  }
+  return sentences;
+}
+
+void refuse_implausible_units(std::span<LogSource* const> logs, const Robot& robot) {
+  const std::vector<std::string> sentences = implausible_units(logs, robot);
+  if (sentences.empty()) return;
+  const std::string more =
+      sentences.size() > 1 ? fmt::format(" ({} more channels look wrong)", sentences.size() - 1) : "";
+  throw Error(ErrorCode::input, "the units of the logs",
+              fmt::format("look wrong: {}{}. --force goes on all the same", sentences.front(), more));
+}
+
+}  // namespace faultline

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html/elements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lib/core/markup.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kFew = 4, kMany = 7;  // columns from which a table needs room
+constexpr std::size_t kMostColumns = 10;    // of one that fits on a screen; wider ones are scrolled
+constexpr std::size_t kLongestWord = 30;    // letters that stay together
+
+bool has_long_word(const std::string& text) {
+  std::size_t length = 0;
+  for (const char c : text) {
+    length = c == ' ' ? 0 : length + 1;
+    if (length > kLongestWord) return true;
+  }
+  return false;
+}
+
+std::string label_attribute(const HtmlRow& head, std::size_t column) {
+  if (head.size() < kFew || column >= head.size() || head[column].empty()) return "";
+  return fmt::format(" data-label=\"{}\"", escaped_markup(head[column]));
+}
+
+std::string cell_text(const HtmlRow& head, const std::string& cell, std::size_t column) {
+  if (head.empty() && column == 0) return "<th scope=\"row\">" + escaped_markup(cell) + "</th>";
+  return fmt::format("<td{}{}>{}</td>", has_long_word(cell) ? " class=\"any\"" : "",
+                     label_attribute(head, column), escaped_markup(cell));
+}
+
+/// A table that is wider than screens is a region that the keyboard can scroll.
+std::string opening(std::size_t columns, const std::string& caption) {
+  if (columns <= kMostColumns) return "<div class=\"wide\">";
+  return fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">",
+                     escaped_markup(caption.empty() ? "Table" : caption));
+}
+
+}  // namespace
+
+const char* html_table_class(std::size_t columns) {
+  return columns >= kMany ? " class=\"many\"" : columns >= kFew ? " class=\"few\"" : "";
+}
+
+std::string html_table(const HtmlRow& head, const std::vector<HtmlRow>& rows, const std::string& caption) {
+  if (rows.empty()) return "";
+  std::string text =
+      opening(head.size(), caption) + fmt::format("<table{}>\n", html_table_class(head.size()));
+  if (!caption.empty())
+    text += fmt::format("<caption><span class=\"unseen\">{}</span></caption>\n", escaped_markup(caption));
+  if (!head.empty()) {
+    text += "<thead><tr>";
+    for (const std::string& cell : head)
+      text += cell.empty() ? "<td></td>" : "<th scope=\"col\">" + escaped_markup(cell) + "</th>";
+    text += "</tr></thead>\n";
+  }
+  text += "<tbody>\n";
+  for (const HtmlRow& row : rows) {
+    text += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) text += cell_text(head, row[i], i);
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string html_table(const FactTable& table) {
+  return html_part(table.title.c_str(), html_table(table.head, table.rows, table.title));
+}
+
+std::string html_list(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += "<li>" + escaped_markup(line) + "</li>\n";
+  return text.empty() ? "" : "<ul>\n" + text + "</ul>\n";
+}
+
+std::string html_part(const char* title, const std::string& content) {
+  if (content.empty() || *title == '\0') return content;
+  return fmt::format("<h3>{}</h3>\n{}", escaped_markup(title), content);
+}
+
+}  // namespace faultline

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html/finding.hpp"
+
+#include <fmt/format.h>
+
+#include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/diagnose/fault_event.hpp"
+#include "lib/fault/fault_words.hpp"
+#include "lib/report/finding_words.hpp"
+#include "lib/report/html/elements.hpp"
+#include "lib/report/html/figure.hpp"
+#include "lib/report/precedent_words.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
+
+std::string times(const FaultFinding& f, double period_s) {
+  return html_table({"onset", "alarm", "end", "confidence", "decided by"},
+                    {{onset_words(f, period_s), clock_words(f, f.alarm_s, period_s),
+                      clock_words(f, f.end_s, period_s), percent_text(f.confidence), decided_words(f)}},
+                    fmt::format("Fault {}", f.id));
+}
+
+std::string opinions(const FaultFinding& f) {
+  if (!was_asked(f.mlp) && !was_asked(f.rbfn)) return "";
+  return html_table({"network", "says", "confidence"},
+                    {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
+                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}},
+                    "What both networks said");
+}
+
+std::string alternatives_table(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const Alternative& a : f.could_also_be) lines.push_back(plain_words(a.label) + ": " + a.why);
+  return html_list(lines);
+}
+
+std::vector<HtmlRow> feature_rows(const char* likeness, const std::vector<PrecedentFeature>& features) {
+  std::vector<HtmlRow> rows;
+  for (const PrecedentFeature& f : features)
+    rows.push_back({likeness, f.what, feature_value_text(f.here, f.unit), feature_value_text(f.there, f.unit),
+                    fmt::format("{:.2g}", f.difference)});
+  return rows;
+}
+
+std::string likeness(const Precedent& p) {
+  std::vector<HtmlRow> rows = feature_rows("alike", p.alike);
+  for (HtmlRow& row : feature_rows("unlike", p.unlike)) rows.push_back(std::move(row));
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<details><summary>Why case {} is similar</summary>\n{}</details>\n", p.case_id,
+      html_table({"likeness", "in", "here", "there", "difference"}, rows, fmt::format("Case {}", p.case_id)));
+}
+
+std::string precedents(const FaultFinding& f) {
+  std::vector<HtmlRow> rows;
+  std::string why;
+  for (const Precedent& p : f.precedents) {
+    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
+                    p.origin_text.empty() ? "-" : p.origin_text,
+                    p.what_was_done.empty() ? "-" : p.what_was_done});
+    why += likeness(p);
+  }
+  if (!why.empty())
+    why += "<p class=\"sub\">A difference of 1 is what cases of the same fault commonly differ by.</p>\n";
+  return html_table({"case", "similarity", "what it was", "how that is known", "what was done then"}, rows,
+                    precedents_title(f)) +
+         why;
+}
+
+std::string evidence(const FaultFinding& f) {
+  std::vector<std::string> lines;
+  for (const EvidenceItem& item : f.evidence) lines.push_back(evidence_line(item));
+  return html_list(lines);
+}
+
+std::string column(const std::string& content) {
+  return content.empty() ? "" : "<div>\n" + content + "</div>\n";
+}
+
+}  // namespace
+
+std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s) {
+  if (figures.empty()) return "";
+  std::string text =
+      fmt::format("<div>\n<div class=\"tools\" data-fault=\"{}\"></div>\n<div class=\"plots\">\n", fault_id);
+  for (const PageFigure& figure : figures) text += html_figure(figure, sample_period_s);
+  return text + "</div>\n</div>\n";
+}
+
+std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& figures, double period_s) {
+  std::string text = fmt::format("<section class=\"finding\" id=\"fault-{0}\">\n<h2>Fault {0}: {1}</h2>\n",
+                                 f.id, escaped_markup(plain_words(f.label)));
+  if (const std::string size = size_words(f); !size.empty())
+    text += "<p class=\"size\">Size: " + escaped_markup(size) + ".</p>\n";
+  text += times(f, period_s);
+  if (!f.next_check.empty())
+    text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
+  text += html_plots(figures, f.id, period_s);
+  text += "<div class=\"columns\">\n";
+  text += column(html_part("It could also be", alternatives_table(f)));
+  text += column(html_part("Evidence", evidence(f)));
+  text += column(html_part("What both networks said", opinions(f)));
+  text += "</div>\n" + html_part(precedents_title(f).c_str(), precedents(f));
+  return text + "</section>\n";
+}
+
+std::string html_fault_link(const FaultFinding& f, double zero_s) {
+  const std::string place = f.id <= kFullFindings ? fmt::format("fault-{}", f.id) : "faults";
+  return fmt::format("href=\"#{}\" data-fault=\"{}\" data-onset=\"{}\"", place, f.id, f.onset_s - zero_s);
+}
+
+std::string html_fault_table(const Diagnosis& d) {
+  if (d.faults.empty()) return "";
+  const double period = d.log.sample_period_s, zero_s = time_zero(d.log.start_s);
+  const HtmlRow heads = {"fault", "what", "onset", "alarm", "end", "confidence"};
+  std::string text = fmt::format(
+      "<div class=\"wide{}\" id=\"faults\"><table{}>\n<caption><span class=\"unseen\">All faults</span>"
+      "</caption>\n<thead><tr>",
+      d.faults.size() > kShownFaults ? " tall\" tabindex=\"0\" role=\"region\" aria-label=\"All faults" : "",
+      html_table_class(heads.size()));
+  for (const std::string& head : heads) text += fmt::format("<th scope=\"col\">{}</th>", head);
+  text += "</tr></thead>\n<tbody>\n";
+  for (const FaultFinding& f : d.faults) {
+    text += fmt::format("<tr><td data-label=\"fault\"><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
+    const HtmlRow cells = {"",
+                           plain_words(f.label),
+                           onset_words(f, period),
+                           clock_words(f, f.alarm_s, period),
+                           clock_words(f, f.end_s, period),
+                           percent_text(f.confidence)};
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      text += fmt::format("<td data-label=\"{}\">{}</td>", heads[i], escaped_markup(cells[i]));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace faultline

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html/html_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
+#include "lib/report/condition_table.hpp"
+#include "lib/report/finding_words.hpp"
+#include "lib/report/html/assets.hpp"
+#include "lib/report/html/elements.hpp"
+#include "lib/report/html/finding.hpp"
+#include "lib/report/html/head.hpp"
+#include "lib/report/html/plot_data.hpp"
+#include "lib/report/html/timeline.hpp"
+#include "lib/report/text.hpp"
+
+namespace faultline {
+namespace {
+
+std::string rate_text(const LogFacts& log) {
+  if (!(log.sample_period_s > 0.0)) return "";
+  return fmt::format(", a sample every {} s", value_text(log.sample_period_s));
+}
+
+std::string timeline_key(const Diagnosis& d) {
+  std::string text;
+  if (!d.faults.empty()) text = "Low: onset to alarm; high: alarm to end. Choose a fault to see it. ";
+  if (const double zero_s = time_zero(d.log.start_s); zero_s != 0.0)
+    text += fmt::format("Axes of time count from {:.0f} s.", zero_s);
+  return text.empty() ? "" : "<p class=\"key\">" + text + "</p>\n";
+}
+
+std::string top(const Diagnosis& d) {
+  const std::string name = printable(d.log.path);
+  std::string text = fmt::format(
+      "<header>\n<h1{}>{}</h1>\n<p class=\"sub\">{} to {}, {} rows{}; model {}, faultline {}</p>\n<p "
+      "class=\"verdict {}\">{}</p>\n",
+      name.size() > 300 ? " class=\"long\" tabindex=\"0\"" : "", escaped_markup(name),
+      time_text(d.log.start_s, d.log.sample_period_s), time_text(d.log.end_s, d.log.sample_period_s),
+      d.log.rows_read, rate_text(d.log), escaped_markup(printable(d.model.name).substr(0, 200)),
+      escaped_markup(d.program_version), to_string(d.verdict), escaped_markup(verdict_sentence(d)));
+  for (const std::string& note : d.model.notes)
+    text += fmt::format("<p class=\"sub\">Note: {}</p>\n", escaped_markup(printable(note)));
+  if (d.verdict == Verdict::healthy || !d.faults.empty()) text += html_timeline(d);
+  text += timeline_key(d);
+  return text + html_fault_table(d) + "</header>\n";
+}
+
+std::string residual_table(const Diagnosis& d) {
+  std::vector<HtmlRow> rows;
+  for (const JointResidual& r : d.residuals)
+    rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
+                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
+  return html_table(
+      FactTable{"Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
+                {"joint", "velocity rms", "largest", "at", "position rms"},
+                rows});
+}
+
+std::string log_quality(const Diagnosis& d) {
+  std::vector<HtmlRow> rows;
+  for (const Issue& issue : d.log.issues.all())
+    rows.push_back({to_string(issue.severity), issue.code, issue.channel,
+                    issue.first_row > 0 ? std::to_string(issue.first_row) : "", std::to_string(issue.count),
+                    std::to_string(issue.rows_dropped), issue.message});
+  const std::string table =
+      html_table({"severity", "code", "channel", "first in row", "times", "rows left out", "what"}, rows,
+                 "What was noticed");
+  return "<h2 id=\"log\">Log quality</h2>\n" +
+         html_table({},
+                    {{"rows read", std::to_string(d.log.rows_read)},
+                     {"rows used", std::to_string(d.log.rows_used)},
+                     {"format", d.log.format},
+                     {"sample period", value_text(d.log.sample_period_s) + " s"}},
+                    "The log") +
+         (table.empty() ? "<p>Nothing was wrong with the log.</p>\n" : table) +
+         html_part("What this log and model cannot show", html_list(d.cannot_see));
+}
+
+/// Those without a title have that of their section.
+std::string tables(const std::vector<FactTable>& list, const char* section) {
+  std::string text;
+  for (const FactTable& table : list)
+    text += table.title.empty() ? html_table(table.head, table.rows, section) : html_table(table);
+  return text;
+}
+
+std::string provenance(const Diagnosis& d, const ReportDetails& details) {
+  return "<h2 id=\"provenance\">Provenance</h2>\n<p>Whoever diagnoses the log of this hash with these gets "
+         "the "
+         "same report.</p>\n" +
+         html_table({},
+                    {{"log", printable(d.log.path)},
+                     {"log SHA-256", d.log.sha256},
+                     {"model", d.model.name},
+                     {"model SHA-256", d.model.sha256},
+                     {"case base SHA-256 (of its content)", d.model.cases_sha256},
+                     {"program", "faultline " + d.program_version}},
+                    "Provenance") +
+         tables(details.provenance, "Provenance");
+}
+
+std::string scripts(const std::string& plot_data) {
+  return fmt::format(
+      "<script type=\"application/json\" id=\"plot-data\">{}</script>\n<script>{}</script>\n<script>{}"
+      "</script>\n",
+      plot_data, dygraphs_script(), page_script());
+}
+
+/// The times that plots show, counted from `zero_s`.
+RunCurves counted_from(double zero_s, RunCurves curves) {
+  auto shift = [&](CurveWindow& window) {
+    window.start_s -= zero_s;
+    window.end_s -= zero_s;
+  };
+  shift(curves.whole);
+  for (CurveWindow& window : curves.details) shift(window);
+  return curves;
+}
+
+std::vector<FaultFinding> counted_from(double zero_s, std::vector<FaultFinding> faults) {
+  for (FaultFinding& f : faults) {
+    for (double* time : {&f.onset_s, &f.alarm_s, &f.end_s}) *time -= zero_s;
+    for (double& time : f.trace.time) time -= zero_s;
+  }
+  return faults;
+}
+
+}  // namespace
+
+std::string render_html(const Diagnosis& d, const ReportDetails& details) {
+  const double zero_s = time_zero(d.log.start_s), period = d.log.sample_period_s;
+  const RunCurves curves = counted_from(zero_s, details.curves);
+  const std::vector<FaultFinding> faults = counted_from(zero_s, d.faults);
+  const std::vector<PageFigure> whole = run_figures(faults, curves);
+  std::string text =
+      html_head(printable(d.log.path).substr(0, 200), !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
+  std::vector<PageFigure> all = whole;
+  for (std::size_t i = 0; i < d.faults.size() && i < std::size_t{kFullFindings}; ++i) {
+    const std::vector<PageFigure> figures = fault_figures(faults[i], curves);
+    if (i > 0 && i == curves.details.size())
+      text += "<p class=\"sub\">The faults from here on have no plots of their own; see the whole run.</p>\n";
+    text += html_finding(d.faults[i], figures, period);
+    all.insert(all.end(), figures.begin(), figures.end());
+  }
+  if (!d.small_changes.empty())
+    text += fmt::format("<h2 id=\"small\">{}</h2>\n", kSmallChangesTitle) + html_list(small_change_lines(d));
+  const FactTable condition = condition_table(d);
+  if (!condition.rows.empty())
+    text += fmt::format("<h2 id=\"condition\">{}</h2>\n", escaped_markup(condition.title)) +
+            html_table(condition.head, condition.rows, condition.title);
+  text += "<h2 id=\"run\">The whole run</h2>\n" + html_plots(whole, 0, period) + residual_table(d);
+  text += log_quality(d);
+  if (!details.model.empty())
+    text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model, "The model");
+  text += provenance(d, details) + "</main>\n";
+  if (!whole.empty()) text += scripts(html_plot_data(faults, curves, all));
+  return text + "</body>\n</html>\n";
+}
+
+}  // namespace faultline

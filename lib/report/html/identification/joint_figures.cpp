@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "lib/report/html/identification/joint_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lib/report/html/identification/torque_figures.hpp"
+#include "lib/robot/axis_units.hpp"
+#include "lib/robot/dynamics.hpp"
+#include "lib/robot/robot_words.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr std::size_t kDots = 1200;  // of a cloud
+constexpr std::size_t kBins = 30;    // of the mean through it
+constexpr std::size_t kFewest = 20;  // dots in a bin that has a mean
+constexpr std::size_t kCurve = 400;  // points of the fitted friction
+
+/// Moving windows of a joint, and a quantity over another.
+struct Cloud {
+  std::vector<double> x, y;
+};
+
+template <typename X, typename Y>
+Cloud cloud_of(const JointFit& fit, X x, Y y) {
+  Cloud cloud;
+  for (std::size_t k = 0; k < fit.size(); ++k) {
+    if (!fit.moving[k]) continue;
+    cloud.x.push_back(x(k));
+    cloud.y.push_back(y(k));
+  }
+  return cloud;
+}
+
+PlotSeries dots(const std::string& name, const Cloud& cloud) {
+  PlotSeries out{.name = name, .x = {}, .y = {}, .points = true, .line = false};
+  const std::size_t stride = (cloud.x.size() + kDots - 1) / kDots;
+  for (std::size_t k = 0; k < cloud.x.size(); k += stride) {
+    out.x.push_back(cloud.x[k]);
+    out.y.push_back(cloud.y[k]);
+  }
+  return out;
+}
+
+/// The mean over bins of equal width.
+PlotSeries mean_through(const Cloud& cloud) {
+  PlotSeries out{.name = "mean", .x = {}, .y = {}};
+  if (cloud.x.empty()) return out;
+  const auto [low, high] = std::minmax_element(cloud.x.begin(), cloud.x.end());
+  const double width = (*high - *low) / static_cast<double>(kBins);
+  std::vector<double> sum(kBins, 0.0), count(kBins, 0.0);
+  for (std::size_t k = 0; k < cloud.x.size() && width > 0.0; ++k) {
+    const std::size_t bin = std::min(static_cast<std::size_t>((cloud.x[k] - *low) / width), kBins - 1);
+    sum[bin] += cloud.y[k];
+    count[bin] += 1.0;
+  }
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    out.x.push_back(*low + (static_cast<double>(bin) + 0.5) * width);
+    out.y.push_back(count[bin] >= kFewest ? sum[bin] / count[bin] : std::nan(""));
+  }
+  return out;
+}
+
+NamedPlot left_over(const std::string& name, const std::string& title, const std::string& x_label,
+                    const std::string& y_label, const Cloud& cloud) {
+  LinePlot plot = figure_plot(title, x_label);
+  plot.panels = {{.y_label = y_label, .series = {dots("windows", cloud), mean_through(cloud)}}};
+  return {name, plot};
+}
+
+/// The friction of the identified robot over the speeds of the logs.
+PlotSeries friction_curve(const Identification& id, int joint, const Cloud& cloud) {
+  PlotSeries out{.name = "identified", .x = {}, .y = {}};
+  if (cloud.x.empty()) return out;
+  const auto [low, high] = std::minmax_element(cloud.x.begin(), cloud.x.end());
+  JointVector<double> dq = JointVector<double>::Zero(id.space.joints());
+  for (std::size_t i = 0; i <= kCurve; ++i) {
+    dq[joint] = *low + (*high - *low) * static_cast<double>(i) / static_cast<double>(kCurve);
+    out.x.push_back(dq[joint]);
+    out.y.push_back(friction_torque(id.robot.chain, dq)[joint]);
+  }
+  return out;
+}
+
+NamedPlot friction_figure(const Identification& id, int joint) {
+  const JointFit& fit = id.joint_fits[joint];
+  const AxisKind kind = id.space.chain.geometry[joint].kind;
+  const Cloud cloud = cloud_of(
+      fit, [&](std::size_t k) { return fit.dq[k]; },
+      [&](std::size_t k) { return fit.measured[k] - (fit.modelled[k] - fit.friction[k]); });
+  LinePlot plot = figure_plot(fmt::format("Joint {}: friction", joint + 1),
+                              fmt::format("speed, {}", velocity_unit(kind)));
+  plot.panels = {
+      {.y_label = fmt::format("friction, {}", torque_unit(kind)),
+       .series = {dots(std::string(logged_words(id.robot.log.torque)) + " less inertia and gravity", cloud),
+                  friction_curve(id, joint, cloud)}}};
+  return {fmt::format("friction-{}", joint + 1), plot};
+}
+
+NamedPlot spectrum_figure(const Identification& id, int joint) {
+  const ResidualPattern& p = id.residual_patterns[joint];
+  LinePlot plot = figure_plot(fmt::format("Joint {}: spectrum of what is left", joint + 1), "frequency, Hz");
+  plot.panels = {{.y_label = fmt::format("rms, {}", torque_unit(id.space.chain.geometry[joint].kind)),
+                  .series = {{.name = "left over", .x = p.spectrum_hz, .y = p.spectrum}},
+                  .log_y = true}};
+  return {fmt::format("spectrum-{}", joint + 1), plot};
+}
+
+}  // namespace
+
+std::vector<NamedPlot> joint_figures(const Identification& id, int joint) {
+  if (joint >= std::ssize(id.joint_fits) || id.joint_fits[joint].size() == 0) return {};
+  const JointFit& fit = id.joint_fits[joint];
+  const AxisKind kind = id.space.chain.geometry[joint].kind;
+  const std::string y_label = fmt::format("left over, {}", torque_unit(kind));
+  const auto residual = [&](std::size_t k) { return fit.residual(k); };
+  std::vector<NamedPlot> plots = torque_figures(id, joint);
+  plots.push_back(friction_figure(id, joint));
+  plots.push_back(left_over(fmt::format("left-position-{}", joint + 1),
+                            fmt::format("Joint {}: what is left over position", joint + 1),
+                            fmt::format("position, {}", position_unit(kind)), y_label,
+                            cloud_of(
+                                fit, [&](std::size_t k) { return fit.q[k]; }, residual)));
+  plots.push_back(left_over(fmt::format("left-speed-{}", joint + 1),
+                            fmt::format("Joint {}: what is left over speed", joint + 1),
+                            fmt::format("speed, {}", velocity_unit(kind)), y_label,
+                            cloud_of(
+                                fit, [&](std::size_t k) { return fit.dq[k]; }, residual)));
+  if (!id.residual_patterns[joint].spectrum.empty()) plots.push_back(spectrum_figure(id, joint));
+  return plots;
+}
+
+}  // namespace faultline

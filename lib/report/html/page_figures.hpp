@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/diagnose/curves/curves.hpp"
+#include "lib/diagnose/diagnosis.hpp"
+#include "lib/report/plot/line_plot.hpp"
+
+namespace faultline {
+
+/// One line of a figure. Its samples lie in equal distances over a window, or at `times` when there are any.
+struct FigureCurve {
+  std::string name;
+  std::string key;  ///< of the same signal in every window, such as "q1"
+  int pen = 0;      ///< plot_pen(); curves are drawn in their order, later ones on top
+  const CurveWindow* window = nullptr;
+  const std::vector<float>* values = nullptr;
+  const std::vector<double>* times = nullptr;
+  const std::vector<double>* ratios = nullptr;  ///< at `times`
+
+  std::size_t count() const { return times ? times->size() : values->size(); }
+  double time_s(std::size_t i) const { return times ? (*times)[i] : window->time_s(i, values->size()); }
+  double value(std::size_t i) const { return ratios ? (*ratios)[i] : (*values)[i]; }
+};
+
+/// A constant that the curves are to be compared with.
+struct FigureLimit {
+  std::string name;
+  double value = 0.0;
+};
+
+/// One plot of the page.
+struct PageFigure {
+  std::string id;
+  int fault_id = 0;  ///< 0: of the whole run
+  int group = 0;     ///< figures of one group share zoom and cursor
+  std::string caption;
+  std::string y_label;  ///< with its unit
+  bool log_y = false;
+  std::vector<FigureCurve> curves;
+  std::vector<FigureLimit> limits;
+  std::vector<PlotMark> marks;
+  double from_s = 0.0, to_s = 0.0;  ///< shown at first
+  /// What lies below is of no interest and would squeeze the rest.
+  double least_y = -std::numeric_limits<double>::infinity();
+};
+
+/// The plots of the whole run: residuals, then position, velocity and torque of each joint. They refer to
+/// `curves`, which must outlive them.
+std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves);
+
+/// The plots around one fault; none when `curves` has no detail of it.
+std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves);
+
+}  // namespace faultline

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What a finding of decide_episode() lists besides its name: alternatives, sizes, numbers.
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/hand_made_episode.hpp"
+
+namespace faultline {
+namespace {
+
+FaultFinding decided(const Model& model, const MonitoredEpisode& episode) {
+  return decide_episode(episode, model, empty_base(model));
+}
+
+Model agreed_on(const FaultLabel& label) { return hand_made_rrp({label, 0.9}, {label, 0.9}); }
+
+std::string size_text(const FaultLabel& label, double size, double second_size = 0.0) {
+  const Model model = agreed_on(label);
+  const FaultFinding finding = decided(model, episode_of_fault(label, 100.0, size, second_size));
+  const EvidenceItem* found = item(finding, "size");
+  return found ? found->text : "";
+}
+
+TEST(Alternatives, ThoseThatExplainTheLogAlmostAsWellAreListed) {
+  const Model model = agreed_on(kLocked2);
+  MonitoredEpisode episode = episode_of_fault(kLocked2);
+  explain_alike(episode, kStuck2, 97.0);
+  explain(episode, kBias3, 40.0);
+  const FaultFinding finding = decided(model, episode);
+  EXPECT_NE(alternative(finding, kStuck2), nullptr);
+  EXPECT_EQ(alternative(finding, kBias3), nullptr);
+  EXPECT_EQ(alternative(finding, kLocked2), nullptr) << "a finding is no alternative to itself";
+}
+
+/// A push of a tenth of a second on joint 1 that reaches all joints, by torques.
+FaultFinding pushed(const Eigen::Vector3d& torque) {
+  const Model model = agreed_on(kPush1);
+  MonitoredEpisode episode = episode_of_fault(kPush1);
+  episode.fault.claim.end_s = 2.1;
+  episode.fault.claim.size = torque;
+  return decided(model, episode);
+}
+
+TEST(PushOnAllJoints, ListsTheJointsItReachedByTheirUsualTorque) {
+  const FaultFinding first = pushed({20.0, 6.0, -5.0});  // largest torques 20, 10, 40
+  EXPECT_EQ(first.label, kPush1);
+  EXPECT_NE(alternative(first, {FaultKind::collision, 2}), nullptr);
+  EXPECT_EQ(alternative(first, {FaultKind::collision, 3}), nullptr) << "an eighth of its largest torque";
+  const FaultFinding second = pushed({20.0, 1.5, 10.0});
+  EXPECT_EQ(alternative(second, {FaultKind::collision, 2}), nullptr);
+  EXPECT_NE(alternative(second, {FaultKind::collision, 3}), nullptr);
+}
+
+TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
+  EXPECT_EQ(size_text({FaultKind::torque_loss, 2}, 0.436), "about 44 % of the torque is lost");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 1}, 0.0321), "the position reads 0.0321 rad too much");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 3}, -0.0021), "the position reads 0.0021 m too little");
+  EXPECT_EQ(size_text({FaultKind::sensor_drift, 2}, -0.05), "the position drifts by -0.05 rad/s");
+  EXPECT_EQ(size_text({FaultKind::friction_increase, 1}, 2.0, 3.5),
+            "dry friction changed by +3.5 N m, viscous friction by +2 N m s/rad");
+  EXPECT_EQ(size_text({FaultKind::friction_increase, 3}, 20.0, 8.0),
+            "dry friction changed by +8 N, viscous friction by +20 N s/m");
+  EXPECT_EQ(size_text({FaultKind::payload_change, 3}, 0.75),
+            "the load at the end of link 3 changed by +0.75 kg");
+  EXPECT_EQ(size_text(kLocked2, 0.0), "") << "a lock has no size";
+}
+
+TEST(SizeText, OfAFaultThatGrowsIsWhatItHasGrownTo) {
+  const FaultLabel friction{FaultKind::friction_increase, 1};
+  MonitoredEpisode episode = episode_of_fault(friction, 100.0, 1.0, 2.0);
+  episode.fault.scores.front().claim.grows = true;
+  EXPECT_EQ(item(decided(agreed_on(friction), episode), "size")->text,
+            "dry friction changed by +4 N m, viscous friction by +2 N m s/rad");
+}
+
+TEST(EvidenceLines, TellTheEvidenceAndTheThreshold) {
+  const FaultFinding finding = decided(agreed_on(kLocked2), episode_of_fault(kLocked2, 64.0));
+  const EvidenceItem* ratio = item(finding, "log_likelihood_ratio");
+  ASSERT_NE(ratio, nullptr);
+  EXPECT_EQ(ratio->value, 64.0);
+  EXPECT_EQ(ratio->unit, "nats");
+  EXPECT_NE(ratio->text.find("alarm from 21 on"), std::string::npos) << ratio->text;
+}
+
+TEST(EvidenceLines, HaveAResidualOfEachJointThatHasOne) {
+  const Model model = agreed_on(kLocked2);
+  MonitoredEpisode episode = episode_of_fault(kLocked2);
+  episode.residuals = residuals_of({1.1, kNaN, 20.0});
+  const FaultFinding finding = decided(model, episode);
+  EXPECT_EQ(item(finding, "mlp_velocity_residual_1")->value, 1.1);
+  EXPECT_EQ(item(finding, "mlp_velocity_residual_2"), nullptr);
+  EXPECT_EQ(item(finding, "mlp_velocity_residual_3")->value, 20.0);
+}
+
+TEST(EpisodeFacts, KeepTheFeaturesUnderTheNamesOfTheCaseBase) {
+  const Model model = agreed_on(kLocked2);
+  const FaultFinding finding = decided(model, episode_of_fault(kLocked2, 64.0));
+  EXPECT_EQ(finding.episode.evidence, 64.0);
+  ASSERT_EQ(finding.episode.features.size(), features_of(model).size());
+  EXPECT_EQ(finding.episode.features.front().first, "behind free_swinging 1");
+}
+
+}  // namespace
+}  // namespace faultline

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "lib/learn/day_differences.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/identify/days/fit_coarse_days.hpp"
+#include "lib/log/memory_source.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "tests/identify/closed_form_scara.hpp"
+
+namespace faultline {
+namespace {
+
+TEST(ExplainedRobot, TheTwinIsTheRobotThatItsRunsAreJudgedBy) {
+  std::vector<MemorySource> days;
+  for (std::uint64_t day = 1; day <= 3; ++day)
+    days.emplace_back(testing::simulate_closed_form({}, {.duration_s = 10.0,
+                                                         .period_s = 0.025,
+                                                         .reach = {0.8, 0.9, 0.1},
+                                                         .q_noise = 5e-5,
+                                                         .dq_noise = 2e-3,
+                                                         .seed = day,
+                                                         .bandwidth = 4.0}),
+                      "day");
+  std::vector<LogSource*> logs;
+  for (MemorySource& day : days) logs.push_back(&day);
+  const Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
+  Identification identified;
+  identified.space = parameter_space(robot);
+  identified.robot = robot;
+  identified.estimate = Eigen::VectorXd::Constant(identified.space.count(), 7.0);
+  identified.covariance = Eigen::MatrixXd::Identity(identified.space.count(), identified.space.count());
+  identified.q_noise = identified.dq_noise = {1.0, 1.0, 1.0};
+  const OneStepModel model = fit_coarse_days(logs, robot, identified.space, {.torque_is_held = true});
+  const Identification twin = with_explained_robot(identified, model);
+  const ParameterSpace& space = twin.space;
+  int at = 0;
+  for (int p = 0; p < space.rigid(); ++p)
+    EXPECT_EQ(twin.estimate[p], space.base[p].is_rotor ? 0.0 : model.theta[at++]) << space.name(p);
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_EQ(twin.estimate[space.coulomb(j)], model.theta[model.layout().coulomb(j)]) << j;
+    EXPECT_EQ(twin.q_noise[j], std::sqrt(model.reading_variance[j])) << j;
+    EXPECT_EQ(twin.dq_noise[j], std::sqrt(model.reading_variance[3 + j])) << j;
+  }
+  EXPECT_NEAR(std::sqrt(twin.covariance(0, 0)),
+              model.theta[0] * std::sqrt(model.day_variance[model.day_layout().inertia(0)]), 1e-12);
+  EXPECT_EQ(twin.covariance(space.viscous(0), space.viscous(0)), 0.0);
+}
+
+}  // namespace
+}  // namespace faultline
