@@ -2,25 +2,63 @@
 #include "lib/diagnose/diagnose.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/commands.hpp"
 #include "apps/exit_status.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/options.hpp"
-#include "apps/report_options.hpp"
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
+#include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/prefetch.hpp"
 #include "lib/model/model_files.hpp"
+#include "lib/report/html/report_formats.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr const char* kRecordingOption = "--mcap";
+
+/// A report that may be asked for.
+struct RequestedReport {
+  const ReportFormat* format;
+  std::string path{};  ///< - for standard output; empty: not asked for
+};
+
+/// Every format of reports, none asked for.
+std::vector<RequestedReport> all_reports() {
+  std::vector<RequestedReport> reports;
+  for (const ReportFormat& format : report_formats()) reports.push_back({&format});
+  return reports;
+}
+
+/// Adds an option for each, such as --json F. `reports` must stay where it is until the command was parsed.
+void add_report_options(CLI::App& command, std::vector<RequestedReport>& reports) {
+  for (RequestedReport& report : reports)
+    add_file_option(command, std::string("--") + report.format->name, report.path,
+                    std::string("Write ") + report.format->what);
+}
+
+/// Whether a report goes to standard output.
+bool standard_output_is_taken(const std::vector<RequestedReport>& reports) {
+  return std::any_of(reports.begin(), reports.end(),
+                     [](const RequestedReport& report) { return report.path == "-"; });
+}
+
+/// Writes what was asked for; what needs a second pass over the log comes last.
+void write_reports(const std::vector<RequestedReport>& reports, const ReportSource& source) {
+  for (const bool second_pass : {false, true})
+    for (const RequestedReport& report : reports)
+      if (!report.path.empty() && report.format->second_pass == second_pass)
+        write_file(report.path, report.format->render(source));
+}
 
 struct DiagnoseArguments : ModelPaths {
   std::string log;

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "apps/suggestion/axis_guess.hpp"
 #include "apps/suggestion/column_guess.hpp"
 #include "apps/suggestion/unit_guess.hpp"
 #include "lib/core/text.hpp"
@@ -27,6 +26,29 @@ constexpr std::size_t kSearchedRows = 20000, kSearchedColumns = 32;
 constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
 constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;       // correlations with acceleration and velocity
 constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // rad would be many turns; hardly a slide's m
+
+constexpr double kRestSpan = 1e-3;  // rad or m: of a joint that holds its place
+constexpr double kShortSpan = 0.6;  // rad or m: of what may slide
+constexpr double kShorterSpan = 0.4;
+constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
+
+/// Whether a joint turns or slides; `header` is its position's unit in the file, empty for none.
+GuessedAxis guess_axis(const JointNumbers& joint, const GuessedUnits& units, const std::string& header) {
+  const double span = joint.span * units.position_factor;
+  const auto known = known_unit(units.position.unit);
+  const Dimension dimension = known ? known->dimension : Dimension::none;
+  if (dimension == Dimension::length)
+    return {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
+  if (dimension == Dimension::angle)
+    return {false, header.empty() ? "its numbers are those of an angle" : "its header says " + header};
+  if (span < kRestSpan) return {false, "? it rests, so that nothing tells whether it turns or slides"};
+  if (span < kShortSpan && joint.carries)
+    return {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
+  if (span < kShorterSpan && joint.path > kToAndFro * joint.span)
+    return {true, fmt::format("? it goes to and fro over {:.3g}, little for an angle", span)};
+  const std::string spans = fmt::format("spans {:.3g} rad", span);
+  return {false, span < kShorterSpan ? "? it " + spans + ", which may be a slide's as well" : spans};
+}
 
 class Guesser {
  public:

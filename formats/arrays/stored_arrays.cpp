@@ -5,6 +5,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "lib/core/make_issue.hpp"
@@ -18,6 +21,46 @@ constexpr std::int64_t kMostUnpacked = 96 << 20;
 constexpr std::int64_t kRegionBytes = 16 << 20;     ///< read at once
 constexpr std::size_t kMostRegionBytes = 64 << 20;  ///< of one row, or of a column of few rows
 constexpr std::size_t kPiece = 1 << 20;
+
+template <typename Element>
+void decode_as(const char* from, std::ptrdiff_t stride, bool swapped, std::size_t count, double* to) {
+  for (std::size_t i = 0; i < count; ++i, from += stride) {
+    std::array<char, sizeof(Element)> bytes;
+    std::memcpy(bytes.data(), from, sizeof(Element));
+    if (swapped) std::reverse(bytes.begin(), bytes.end());
+    Element element;
+    std::memcpy(&element, bytes.data(), sizeof element);
+    to[i] = static_cast<double>(element);
+  }
+}
+
+/// Elements that lie `stride` bytes apart from `from` on, as doubles. `swapped` when their byte order is not
+/// the processor's.
+void decode(const char* from, std::ptrdiff_t stride, ElementType type, bool swapped, std::size_t count,
+            double* to) {
+  switch (type) {
+    case ElementType::f4:
+      return decode_as<float>(from, stride, swapped, count, to);
+    case ElementType::f8:
+      return decode_as<double>(from, stride, swapped, count, to);
+    case ElementType::i1:
+      return decode_as<std::int8_t>(from, stride, swapped, count, to);
+    case ElementType::i2:
+      return decode_as<std::int16_t>(from, stride, swapped, count, to);
+    case ElementType::i4:
+      return decode_as<std::int32_t>(from, stride, swapped, count, to);
+    case ElementType::i8:
+      return decode_as<std::int64_t>(from, stride, swapped, count, to);
+    case ElementType::u1:
+      return decode_as<std::uint8_t>(from, stride, swapped, count, to);
+    case ElementType::u2:
+      return decode_as<std::uint16_t>(from, stride, swapped, count, to);
+    case ElementType::u4:
+      return decode_as<std::uint32_t>(from, stride, swapped, count, to);
+    case ElementType::u8:
+      return decode_as<std::uint64_t>(from, stride, swapped, count, to);
+  }
+}
 
 /// How a two-dimensional array lies: bytes between its rows, and between its columns.
 struct Lie {
@@ -44,6 +87,26 @@ std::int64_t whole(std::int64_t bytes, std::int64_t stride, std::int64_t most) {
 }
 
 }  // namespace
+
+std::size_t size_of(ElementType type) {
+  switch (type) {
+    case ElementType::i1:
+    case ElementType::u1:
+      return 1;
+    case ElementType::i2:
+    case ElementType::u2:
+      return 2;
+    case ElementType::f4:
+    case ElementType::i4:
+    case ElementType::u4:
+      return 4;
+    case ElementType::f8:
+    case ElementType::i8:
+    case ElementType::u8:
+      return 8;
+  }
+  return 1;
+}
 
 std::vector<std::int64_t> packed_strides(const std::vector<std::int64_t>& shape, std::int64_t item,
                                          bool fortran_order) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -9,10 +10,13 @@
 #include <vector>
 
 #include "formats/arrays/array_file.hpp"
-#include "formats/arrays/element_type.hpp"
 #include "formats/arrays/stored_content.hpp"
 
 namespace faultline {
+
+enum class ElementType { f4, f8, i1, i2, i4, i8, u1, u2, u4, u8 };
+
+std::size_t size_of(ElementType type);
 
 /// An array whose elements lie at even distances in a content.
 struct StoredArray {

@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "formats/byte_source.hpp"
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_issues.hpp"
 #include "formats/csv/csv_row.hpp"
-#include "formats/csv/line_buffer.hpp"
+#include "formats/csv/number.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 
@@ -27,6 +31,84 @@ constexpr double kMostAbsentShare = 0.9;
 constexpr std::int64_t kLineWork_ns = 200;
 
 constexpr std::size_t kLongestHeadLine = 1 << 20;  ///< bytes; 16384 names of 64 characters
+constexpr std::size_t kLongestLine = 1 << 24;      ///< bytes
+constexpr std::size_t kBlock = 1 << 18;            ///< bytes that are read at once
+constexpr std::size_t kKeptBefore = 1 << 12;       ///< bytes of the lines before
+
+/// Whole lines of a text file in a window of bounded size, with kNumberMargin bytes around them. A file whose
+/// last line has no newline gets one.
+class LineBuffer {
+ public:
+  explicit LineBuffer(ByteSource& bytes) : bytes_(bytes) {}
+
+  /// Whole lines from `position()` on, each ended by '\n'; empty when more must be filled in.
+  const char* position() const { return text() + begin_; }
+  const char* end_of_lines() const { return text() + lines_end_; }
+  void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text()); }
+  /// Reads on until a whole line is there; false at the end of the file. Pointers into the buffer end here.
+  /// Throws Error(input) for a line longer than kLongestLine.
+  bool fill();
+  /// True when the line that ends the present lines is the last of the file and had no newline.
+  bool last_line_was_open() const { return last_line_was_open_; }
+  /// Whole lines just before that one, a few KiB at most.
+  std::string_view lines_before() const { return before_; }
+  void clear();
+
+ private:
+  const char* text() const { return bytes_read_.data() + kNumberMargin; }
+  char* text() { return bytes_read_.data() + kNumberMargin; }
+  void keep_before();
+
+  ByteSource& bytes_;
+  std::vector<char> bytes_read_;  ///< with kNumberMargin bytes around them
+  std::string before_;            ///< the last lines that fill() dropped
+  std::size_t begin_ = 0;
+  std::size_t lines_end_ = 0;
+  std::size_t end_ = 0;
+  bool at_end_ = false;
+  bool last_line_was_open_ = false;
+};
+
+bool LineBuffer::fill() {
+  while (begin_ == lines_end_) {
+    if (at_end_) return false;
+    if (begin_ > 0) {
+      keep_before();
+      std::memmove(text(), text() + begin_, end_ - begin_);
+      end_ -= begin_;
+      begin_ = lines_end_ = 0;
+    }
+    if (end_ > kLongestLine)
+      throw Error(ErrorCode::input, bytes_.path(),
+                  "has a line of more than 16 MiB; a log in text has short lines");
+    const std::size_t needed = end_ + kBlock + 1 + 2 * kNumberMargin;
+    if (bytes_read_.size() < needed) bytes_read_.resize(needed);
+    const std::size_t got = bytes_.read(text() + end_, kBlock);
+    if (got == 0) {
+      at_end_ = true;
+      last_line_was_open_ = end_ > 0;
+      if (end_ > 0) text()[end_++] = '\n';
+      lines_end_ = end_;
+      continue;
+    }
+    const void* newline = ::memrchr(text() + end_, '\n', got);
+    end_ += got;
+    if (newline) lines_end_ = static_cast<std::size_t>(static_cast<const char*>(newline) - text()) + 1;
+  }
+  return true;
+}
+
+void LineBuffer::keep_before() {
+  const std::size_t from = begin_ > kKeptBefore ? begin_ - kKeptBefore : 0;
+  before_.assign(text() + from, begin_ - from);
+  if (from > 0) before_.erase(0, before_.find('\n') + 1);  // its first line is not whole
+}
+
+void LineBuffer::clear() {
+  before_.clear();
+  begin_ = lines_end_ = end_ = 0;
+  at_end_ = last_line_was_open_ = false;
+}
 
 std::size_t longest_line(std::string_view text) {
   std::size_t longest = 0;

@@ -5,18 +5,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_header.hpp"
 #include "formats/csv/csv_provenance.hpp"
-#include "formats/csv/later_header.hpp"
 #include "formats/missing.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/units.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characters that are shown
+
+/// A header that stands among the rows of a table, as where files were joined.
+struct LaterHeader {
+  std::vector<int> fields;  ///< of each column of the table; -1 for a column that it does not have
+  bool has_all = false;     ///< the same columns with the same units, in whatever order, and no others
+};
+
+/// The field that names the column; -1 for none.
+int field_of(const RawColumn& column, bool unit_stood_there, const std::vector<NameAndUnit>& names) {
+  for (std::size_t f = 0; f < names.size(); ++f)
+    if (names[f].name == column.name && (!unit_stood_there || names[f].unit == column.unit))
+      return static_cast<int>(f);
+  return -1;
+}
+
+/// Nullopt for a line that is no header: of its cells, all are text, and half of the table's columns at least
+/// are among them.
+std::optional<LaterHeader> find_later_header(const CsvDialect& dialect,
+                                             const std::vector<std::string_view>& fields) {
+  if (!dialect.has_header || dialect.columns.size() < 2) return {};
+  std::vector<NameAndUnit> names;
+  for (const std::string_view field : fields) {
+    const CellKind kind = read_cell(field, dialect.decimal).kind;
+    if (kind == CellKind::number) return {};
+    names.push_back(split_unit(std::string(field)));
+  }
+  const bool has_units =
+      std::any_of(names.begin(), names.end(), [](const NameAndUnit& name) { return !name.unit.empty(); });
+  LaterHeader header;
+  for (const RawColumn& column : dialect.columns) header.fields.push_back(field_of(column, has_units, names));
+  const auto lacking = std::count(header.fields.begin(), header.fields.end(), -1);
+  if (2 * lacking > static_cast<std::ptrdiff_t>(header.fields.size())) return {};
+  header.has_all = lacking == 0 && static_cast<int>(fields.size()) == dialect.fields;
+  return header;
+}
 
 }  // namespace
 

@@ -3,10 +3,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <exception>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -14,8 +20,8 @@
 #include "formats/arrays/array_reader.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
+#include "formats/hdf5/hdf5_library.hpp"
 #include "formats/hdf5/hdf5_tree.hpp"
-#include "formats/hdf5/hdf5_trial.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
@@ -28,6 +34,39 @@ constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
 constexpr std::int64_t kMostChunks = 96 << 20, kLeastCache = 1 << 20;
 constexpr std::size_t kMostDescription = 16 << 20;
 constexpr std::size_t kFirstBlock = 512;  ///< where the signature may be, and at twice that, and so on
+constexpr rlim_t kLongest_s = 10;         ///< of a trial in a copy of this process
+
+/// Never returns. What the library or the C library says of its end is not shown.
+[[noreturn]] void try_in_copy(const std::function<void()>& work) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM}) std::signal(signal, SIG_DFL);
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+  const rlimit no_core{0, 0}, time{kLongest_s, kLongest_s};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::setrlimit(RLIMIT_CPU, &time);
+  Hdf5Turn::be_alone();
+  ::alarm(static_cast<unsigned>(kLongest_s));
+  try {
+    work();
+  } catch (const std::exception&) {
+    ::_exit(0);
+  }
+  ::_exit(0);
+}
+
+/// Whether `work` comes to an end, be it by an Error, in a copy of this process. The HDF5 library crashes on
+/// some damaged files; what it did not survive there is not tried here.
+bool survives(const std::function<void()>& work) {
+  const Hdf5Turn turn;  // so that no other thread is within the library when the copy is made
+  const pid_t copy = ::fork();
+  if (copy < 0) return true;
+  if (copy == 0) try_in_copy(work);
+  int status = 0;
+  while (::waitpid(copy, &status, 0) < 0)
+    if (errno != EINTR) return true;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
 
 class Hdf5Arrays : public ArrayFile {
  public:

@@ -4,21 +4,170 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/unpack_block.hpp"
-#include "formats/mcap/mcap_chunk.hpp"
-#include "formats/mcap/mcap_index.hpp"
+#include "formats/mcap/mcap_record.hpp"
 #include "formats/mcap/mcap_records.hpp"
+#include "formats/mcap/mcap_topics.hpp"
 #include "formats/mcap/mcap_writer.hpp"
 #include "formats/messages/joint_state_reader.hpp"
 #include "formats/messages/lost_messages.hpp"
 #include "formats/provenance.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
 namespace {
+
+/// The next record in the bytes of a chunk, which go on behind it; false at their end.
+bool take_inside(std::string_view& inside, McapOp& op, std::string_view& content) {
+  if (inside.size() < kMcapRecordHead) return false;
+  ByteCursor record(inside);
+  op = static_cast<McapOp>(record.take<unsigned char>());
+  content = record.bytes(record.take<std::uint64_t>());
+  if (!record.ok()) return false;
+  inside = record.rest();
+  return true;
+}
+
+std::uint64_t time_of_message(std::string_view content) {
+  ByteCursor message(content);
+  message.take<std::uint16_t>();
+  message.take<std::uint32_t>();
+  return message.take<std::uint64_t>();
+}
+
+/// The messages of an unpacked chunk of an MCAP file in the order of their times, whatever theirs is in the
+/// chunk.
+class McapChunk {
+ public:
+  /// Goes through the chunk once for what it defines, and for the order of its messages. `inside` must
+  /// outlive it.
+  void begin(std::string_view inside, McapTopics& topics);
+  /// The content of the next message; false behind the last.
+  bool next(std::string_view& content);
+  void close();
+
+ private:
+  struct Place {
+    std::uint64_t log_time_ns = 0;
+    std::uint32_t begin = 0, size = 0;  ///< of the content in the chunk
+  };
+  void sort(std::size_t messages);
+
+  std::string_view all_, left_;
+  std::vector<Place> sorted_;  ///< where they are not in the order of their times
+  std::size_t next_sorted_ = 0;
+};
+
+void McapChunk::begin(std::string_view inside, McapTopics& topics) {
+  close();
+  all_ = left_ = inside;
+  bool sorted = true;
+  std::uint64_t before = 0;
+  std::size_t messages = 0;
+  McapOp op{};
+  for (std::string_view content; take_inside(inside, op, content);) {
+    if (op == McapOp::schema) topics.add_schema(content);
+    if (op == McapOp::channel) topics.add_channel(content);
+    if (op != McapOp::message) continue;
+    const std::uint64_t time = time_of_message(content);
+    sorted = sorted && before <= time;
+    before = time;
+    ++messages;
+  }
+  if (!sorted) sort(messages);
+}
+
+void McapChunk::sort(std::size_t messages) {
+  sorted_.reserve(messages);
+  McapOp op{};
+  for (std::string_view content; take_inside(left_, op, content);)
+    if (op == McapOp::message)
+      sorted_.push_back({time_of_message(content), static_cast<std::uint32_t>(content.data() - all_.data()),
+                         static_cast<std::uint32_t>(content.size())});
+  std::stable_sort(sorted_.begin(), sorted_.end(),
+                   [](const Place& a, const Place& b) { return a.log_time_ns < b.log_time_ns; });
+}
+
+bool McapChunk::next(std::string_view& content) {
+  if (next_sorted_ < sorted_.size()) {
+    const Place& message = sorted_[next_sorted_++];
+    content = all_.substr(message.begin, message.size);
+    return true;
+  }
+  for (McapOp op{}; take_inside(left_, op, content);)
+    if (op == McapOp::message) return true;
+  close();
+  return false;
+}
+
+void McapChunk::close() {
+  all_ = left_ = {};
+  sorted_ = {};
+  next_sorted_ = 0;
+}
+
+/// What was met while an MCAP file was read from front to back, against what its summary says of it. The data
+/// are right; a summary that says otherwise is told.
+class McapIndex {
+ public:
+  void met_message() { ++messages_; }
+  /// A chunk record at this byte, with its head; false when there is no memory for more of them.
+  void met_chunk(std::int64_t begin, std::int64_t size);
+  /// Content of a chunk index or statistics record of the summary.
+  void check_chunk_index(std::string_view content);
+  void check_statistics(std::string_view content);
+  /// Adds what is wrong with the summary; of a damaged file nothing is expected.
+  void tell(bool damaged, Issues& issues) const;
+
+ private:
+  std::int64_t messages_ = 0;
+  std::map<std::int64_t, std::int64_t> chunks_;  ///< size by first byte
+  std::int64_t indexed_ = 0, wrong_chunks_ = 0;
+  std::int64_t messages_told_ = -1;  ///< -1: no statistics
+};
+
+void McapIndex::met_chunk(std::int64_t begin, std::int64_t size) { chunks_.emplace(begin, size); }
+
+void McapIndex::check_chunk_index(std::string_view content) {
+  ByteCursor record(content);
+  record.take<std::uint64_t>();  // first and last time
+  record.take<std::uint64_t>();
+  const auto begin = static_cast<std::int64_t>(record.take<std::uint64_t>());
+  const auto size = static_cast<std::int64_t>(record.take<std::uint64_t>());
+  const auto chunk = chunks_.find(begin);
+  ++indexed_;
+  wrong_chunks_ += !record.ok() || chunk == chunks_.end() || chunk->second != size;
+}
+
+void McapIndex::check_statistics(std::string_view content) {
+  ByteCursor record(content);
+  const auto messages = static_cast<std::int64_t>(record.take<std::uint64_t>());
+  if (record.ok()) messages_told_ = messages;
+}
+
+void McapIndex::tell(bool damaged, Issues& issues) const {
+  if (damaged) return;
+  if (wrong_chunks_ > 0)
+    issues.add(
+        {"index_wrong", "", Severity::warning,
+         fmt::format("the index at the end of the file is wrong about {} of its {} chunks; the data were "
+                     "read without it",
+                     wrong_chunks_, indexed_)});
+  if (messages_told_ >= 0 && messages_told_ != messages_)
+    issues.add(
+        {"index_wrong", "", Severity::warning,
+         fmt::format("the statistics at the end of the file speak of {} messages, the file has {}; the "
+                     "data were read without them",
+                     messages_told_, messages_)});
+}
 
 std::optional<BlockPacking> mcap_packing(std::string_view name) {
   if (name.empty()) return BlockPacking::none;

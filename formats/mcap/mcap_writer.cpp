@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
-#include "formats/mcap/mcap_curves.hpp"
-#include "formats/mcap/mcap_events.hpp"
+#include "formats/log_event.hpp"
 #include "formats/mcap/mcap_file.hpp"
 #include "formats/mcap/mcap_recording.hpp"
+#include "formats/mcap/mcap_stamp.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "lib/core/error.hpp"
@@ -18,8 +21,12 @@
 namespace faultline {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// Seconds that a stamp can hold: 32 bits, of which the first is the sign.
 constexpr double kMostSeconds = 2147483647.0;
+/// Levels of foxglove.Log.
+constexpr int kInfo = 2, kError = 4;
 
 /// A topic of joint states, and where its values are in a log.
 struct StatesTopic {
@@ -60,6 +67,50 @@ std::vector<std::string> extra_names(const Log& log) {
   for (const ExtraChannel& extra : log.extra)
     names.push_back(extra.unit.empty() ? extra.name : extra.name + " [" + extra.unit + "]");
   return names;
+}
+
+/// Where named curves stand in a recording: messages as JSON with a member a name, which can be plotted.
+McapTopic curves_topic(const NamedCurves& curves) {
+  Json members{{"timestamp", mcap_stamp_schema()}};
+  for (const std::string& name : curves.names) members[name] = {{"type", Json::array({"number", "null"})}};
+  const Json schema{{"title", curves.topic}, {"type", "object"}, {"properties", members}};
+  return {curves.topic, curves.topic.substr(1), "jsonschema", schema.dump(), "json"};
+}
+
+/// The values of all curves at a point.
+std::string curves_message(std::int64_t stamp_ns, const NamedCurves& curves, std::size_t point) {
+  Json message{{"timestamp", mcap_stamp(stamp_ns)}};
+  for (std::size_t i = 0; i < curves.names.size(); ++i) {
+    const double value = curves.values[i][point];
+    message[curves.names[i]] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  }
+  return message.dump();
+}
+
+/// Where events stand in a recording: messages of type foxglove.Log as JSON, which Foxglove lists by their
+/// times.
+McapTopic event_topic() {
+  const Json integer{{"type", "integer"}}, text{{"type", "string"}};
+  const Json schema{{"title", "foxglove.Log"},
+                    {"type", "object"},
+                    {"properties",
+                     {{"timestamp", mcap_stamp_schema()},
+                      {"level", integer},
+                      {"message", text},
+                      {"name", text},
+                      {"file", text},
+                      {"line", integer}}}};
+  return {"/faultline/diagnosis", "foxglove.Log", "jsonschema", schema.dump(), "json"};
+}
+
+std::string event_message(std::int64_t stamp_ns, const LogEvent& event) {
+  return Json{{"timestamp", mcap_stamp(stamp_ns)},
+              {"level", event.grave ? kError : kInfo},
+              {"message", event.text},
+              {"name", "faultline"},
+              {"file", ""},
+              {"line", 0}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 class McapWriter : public McapRecording {

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "formats/messages/joint_state_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "formats/bytes/work_budget.hpp"
-#include "formats/messages/alternating_rows.hpp"
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/message_issues.hpp"
-#include "formats/messages/receipt_gap.hpp"
 #include "formats/messages/rival_streams.hpp"
 #include "formats/missing.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
 namespace {
@@ -20,6 +25,77 @@ constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;
 /// Values of a block at most, whatever its columns: 8 MiB.
 constexpr std::size_t kMostBlockValues = 1 << 20;
+/// rad or m. Two publishers that are closer report one position, as the codes of an encoder at rest may do in
+/// turn.
+constexpr double kApart = 1e-2;
+constexpr double kNear = 0.25;           ///< of the distance to the last row
+constexpr double kMostShare = 0.5;       ///< of the rows that may be those of two publishers in turn
+constexpr std::int64_t kLeastRows = 20;  ///< before that is told
+
+double distance(const std::vector<double>& position, const std::vector<double>& other) {
+  double largest = 0.0;
+  for (std::size_t j = 0; j < std::min(position.size(), other.size()); ++j)
+    largest = std::fmax(largest, std::abs(position[j] - other[j]));
+  return largest;
+}
+
+/// Whether the positions of the rows are those of two publishers in turn: each row is near the one before the
+/// last, not near the last one.
+class AlternatingRows {
+ public:
+  /// The positions of all joints, always in the same order.
+  void add(const std::vector<double>& position);
+  /// Of the rows so far, most.
+  bool alternate() const;
+
+ private:
+  std::vector<double> last_, one_before_;
+  std::int64_t rows_ = 0, alternating_ = 0;
+};
+
+void AlternatingRows::add(const std::vector<double>& position) {
+  if (!one_before_.empty()) {
+    const double to_last = distance(position, last_);
+    alternating_ += to_last > kApart && distance(position, one_before_) < kNear * to_last;
+    ++rows_;
+  }
+  one_before_.swap(last_);
+  last_ = position;
+}
+
+bool AlternatingRows::alternate() const {
+  return rows_ >= kLeastRows && static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
+}
+
+/// How much later messages were received than their headers say.
+class ReceiptGap {
+ public:
+  void add(std::int64_t stamp_ns, std::int64_t receipt_ns) {
+    if (stamp_ns == 0) return;
+    const double gap_s = static_cast<double>(receipt_ns - stamp_ns) / 1e9;
+    least_s_ = std::min(least_s_, gap_s);
+    most_s_ = std::max(most_s_, gap_s);
+    sum_s_ += gap_s;
+    ++messages_;
+  }
+  /// Adds a note when some gap was met.
+  void tell(Issues& issues) const;
+
+ private:
+  double least_s_ = std::numeric_limits<double>::infinity();
+  double most_s_ = -std::numeric_limits<double>::infinity();
+  double sum_s_ = 0.0;
+  std::int64_t messages_ = 0;
+};
+
+void ReceiptGap::tell(Issues& issues) const {
+  if (messages_ == 0 || (least_s_ == 0.0 && most_s_ == 0.0)) return;
+  issues.add({"receipt_gap", "t", Severity::note,
+              fmt::format("the messages were received {:.4g} s after the stamps in their headers, between "
+                          "{:.4g} and {:.4g} s. To choose the time, name it in the robot file: [log] time = "
+                          "\"header\" or \"receipt\"",
+                          sum_s_ / static_cast<double>(messages_), least_s_, most_s_)});
+}
 
 /// Exact for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {

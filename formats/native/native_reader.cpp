@@ -1,15 +1,130 @@
 // SPDX-License-Identifier: MIT
 #include "formats/native/native_reader.hpp"
 
-#include <algorithm>
-#include <optional>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/byte_window.hpp"
 #include "formats/native/native_chunks.hpp"
 #include "formats/native/native_layout.hpp"
-#include "formats/native/native_preface.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/issue.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr int kMostTries = 4;               ///< places where the second copy could begin
+constexpr std::size_t kFarthestShift = 64;  ///< bytes by which damage may have moved it back
+
+[[noreturn]] void fail_preface(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::input, path, what);
+}
+
+NativePreface first_fields(std::string_view bytes) {
+  NativePreface preface;
+  std::memcpy(&preface, bytes.data(), sizeof preface);
+  return preface;
+}
+
+/// Bytes of the preface that begins `at` bytes from here, its hash included; 0 when it is damaged.
+std::size_t sound_preface(ByteWindow& bytes, std::size_t at) {
+  if (!bytes.fill(at + sizeof(NativePreface))) return 0;
+  const NativePreface preface = first_fields(bytes.view().substr(at));
+  const bool known = preface.version >= 1 && preface.version <= kNativeVersion;
+  if (!known || preface.list_bytes > kLongestList) return 0;
+  const std::size_t hashed = sizeof preface + preface.list_bytes, size = hashed + sizeof(std::uint64_t);
+  if (!bytes.fill(at + size)) return 0;
+  const std::string_view all = bytes.view().substr(at, size);
+  std::uint64_t hash = 0;
+  std::memcpy(&hash, all.data() + hashed, sizeof hash);
+  const bool sound =
+      all.substr(0, kNativeMagic.size()) == kNativeMagic && hash == native_hash(all.substr(0, hashed));
+  return sound ? size : 0;
+}
+
+/// Where the second copy begins when the first is damaged; 0 when there is no sound one.
+std::size_t second_copy(ByteWindow& bytes) {
+  bytes.fill(2 * (sizeof(NativePreface) + kLongestList + sizeof(std::uint64_t)));
+  std::size_t at = 0;
+  for (int i = 0; i < kMostTries; ++i) {
+    at = bytes.view().find(kNativeMagic, at + 1);
+    if (at == std::string_view::npos) return 0;
+    const std::size_t size = sound_preface(bytes, at);
+    if (size > 0 && at <= size + kFarthestShift) return at;
+  }
+  return 0;
+}
+
+[[noreturn]] void refuse(ByteWindow& bytes, const std::string& path) {
+  if (bytes.view().size() < sizeof(NativePreface))
+    fail_preface(path, "is cut inside its header; nothing can be read from it");
+  const NativePreface preface = first_fields(bytes.view());
+  if (preface.version > kNativeVersion)
+    fail_preface(path,
+                 fmt::format("is of format version {}, this program reads up to {}; use a newer faultline",
+                             preface.version, kNativeVersion));
+  fail_preface(path, "has a damaged header (its checksum does not match); nothing can be read from it");
+}
+
+std::vector<RawColumn> columns_of(std::string_view list, const std::string& path) {
+  std::vector<RawColumn> columns;
+  const auto count = static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n'));
+  if (count > kMostChannels)
+    fail_preface(path, fmt::format("promises {} channels, at most {} are read", count, kMostChannels));
+  for (std::size_t begin = 0; begin < list.size();) {
+    const auto tab = list.find('\t', begin), end = list.find('\n', begin);
+    if (tab >= end || end == std::string::npos) fail_preface(path, "has a channel list that cannot be read");
+    columns.push_back(
+        {std::string(list.substr(begin, tab - begin)), std::string(list.substr(tab + 1, end - tab - 1))});
+    begin = end + 1;
+  }
+  if (columns.empty()) fail_preface(path, "has an empty channel list");
+  return columns;
+}
+
+void note_damaged_copy(Issues& issues) {
+  issues.add({"header_damaged", "", Severity::warning,
+              "one of the two copies of the header is damaged; the other one was read"});
+}
+
+/// Goes past the second copy, damaged or not.
+void pass_copy(ByteWindow& bytes, const std::string& first, Issues& issues) {
+  bytes.fill(first.size() + sizeof(NativeChunkHeader));
+  if (bytes.view().substr(0, first.size()) == first) return bytes.advance(first.size());
+  note_damaged_copy(issues);
+  const auto reach = std::min(bytes.view().size(), first.size() + sizeof(NativeChunkHeader));
+  const std::size_t chunk = find_native_header(bytes.view().substr(0, reach), 0);
+  if (chunk != std::string_view::npos) bytes.advance(chunk);
+}
+
+/// Reads the columns from the preface of a native log, or from its second copy when the first is damaged,
+/// which is told in `issues`, and goes on to the first chunk. Throws Error(input) when none can be read or
+/// the file is of a newer version.
+std::vector<RawColumn> read_native_preface(ByteWindow& bytes, const std::string& path, Issues& issues) {
+  std::size_t size = sound_preface(bytes, 0);
+  const bool first_is_sound = size > 0;
+  if (!first_is_sound) {
+    const std::size_t at = second_copy(bytes);
+    if (at == 0) refuse(bytes, path);
+    note_damaged_copy(issues);
+    size = sound_preface(bytes, at);
+    bytes.advance(at);
+  }
+  const std::string preface(bytes.view().substr(0, size));
+  bytes.advance(size);
+  const std::size_t list = sizeof(NativePreface);
+  std::vector<RawColumn> columns =
+      columns_of(std::string_view(preface).substr(list, size - list - sizeof(std::uint64_t)), path);
+  if (first_is_sound && first_fields(preface).version >= kTwoPrefacesVersion)
+    pass_copy(bytes, preface, issues);
+  return columns;
+}
 
 class NativeReader : public RawReader {
  public:

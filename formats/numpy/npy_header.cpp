@@ -5,11 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
 
-#include "formats/numpy/python_literal.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
 
@@ -24,6 +29,106 @@ constexpr std::uint32_t kLongestHeader = 1 << 22;
 constexpr std::int64_t kHeaderMostBytes = std::int64_t{1} << 53;
 constexpr std::size_t kHeaderMostDimensions = 32;
 constexpr std::int64_t kUnicodeBytes = 4;  ///< of a character
+constexpr int kLiteralDeepest = 16;
+
+/// A Python literal of dictionaries, lists, tuples, strings, whole numbers, True, False and None; tuples
+/// become lists.
+class PythonParser {
+ public:
+  explicit PythonParser(std::string_view text) : text_(text) {}
+
+  /// Nullopt when it is no such literal, or deeper than any header.
+  std::optional<NpyJson> run() {
+    NpyJson value = read(0);
+    return failed_ ? std::nullopt : std::optional(value);
+  }
+
+ private:
+  NpyJson fail() {
+    failed_ = true;
+    return {};
+  }
+
+  char peek() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+
+  bool take(std::string_view word) {
+    peek();
+    if (text_.substr(at_, word.size()) != word) return false;
+    at_ += word.size();
+    return true;
+  }
+
+  NpyJson read(int depth) {
+    if (depth > kLiteralDeepest) return fail();
+    const char c = peek();
+    if (c == '{') return read_dictionary(depth);
+    if (c == '[') return read_list(depth, ']');
+    if (c == '(') return read_list(depth, ')');
+    if (c == '\'' || c == '"') return read_string();
+    if ((c == 'u' || c == 'b') && at_ + 1 < text_.size() &&
+        (text_[at_ + 1] == '\'' || text_[at_ + 1] == '"')) {
+      ++at_;
+      return read_string();
+    }
+    if (take("True")) return true;
+    if (take("False")) return false;
+    if (take("None")) return nullptr;
+    return read_number();
+  }
+
+  NpyJson read_dictionary(int depth) {
+    NpyJson all = NpyJson::object();
+    ++at_;
+    while (!failed_ && !take("}")) {
+      const NpyJson key = read(depth + 1);
+      if (!key.is_string() || !take(":")) return fail();
+      all[key.get<std::string>()] = read(depth + 1);
+      if (!take(",") && peek() != '}') return fail();
+    }
+    return all;
+  }
+
+  NpyJson read_list(int depth, char close) {
+    NpyJson all = NpyJson::array();
+    ++at_;
+    while (!failed_ && !take(std::string_view(&close, 1))) {
+      all.push_back(read(depth + 1));
+      if (!take(",") && peek() != close) return fail();
+    }
+    return all;
+  }
+
+  NpyJson read_string() {
+    const char quote = text_[at_++];
+    std::string text;
+    for (; at_ < text_.size() && text_[at_] != quote; ++at_) {
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+      text += text_[at_];
+    }
+    if (at_ == text_.size()) return fail();
+    ++at_;
+    return text;
+  }
+
+  NpyJson read_number() {
+    std::int64_t value = 0;
+    const std::size_t before = at_;
+    for (; at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])); ++at_) {
+      if (value > (std::numeric_limits<std::int64_t>::max() - 9) / 10) return fail();
+      value = 10 * value + (text_[at_] - '0');
+    }
+    if (at_ == before) return fail();
+    take("L");  // of Python 2
+    return value;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  bool failed_ = false;
+};
 
 /// One type of numpy, such as "<f8"; no number when its elements are none that a log has.
 struct NumpyType {
@@ -168,7 +273,7 @@ std::optional<NpyJson> header_json(ContentStream& stream, std::int64_t& header_b
   const std::size_t got =
       stream.read(static_cast<std::int64_t>(kMagicBytes + length_bytes), text.data(), length);
   if (got < length) return std::nullopt;
-  return read_python_literal(text);
+  return PythonParser(text).run();
 }
 
 }  // namespace

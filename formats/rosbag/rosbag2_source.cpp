@@ -1,15 +1,312 @@
 // SPDX-License-Identifier: MIT
 #include "formats/rosbag/rosbag2_source.hpp"
 
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "formats/arrays/stored_content.hpp"
+#include "formats/bytes/work_budget.hpp"
 #include "formats/messages/joint_state_reader.hpp"
-#include "formats/rosbag/message_table.hpp"
+#include "formats/messages/message_source.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
+constexpr int kLongestMessage = 1 << 26;
+constexpr int kMostCacheKib = 16 << 10;
+/// Steps of SQLite's machine between two counts of the work, and the usual time for one; a message takes some
+/// ten.
+constexpr int kCountedSteps = 1000;
+constexpr std::int64_t kStep_ns = 20;
+constexpr std::int64_t kMessageByte_ns = 1;
+constexpr const char* kFromNumber =
+    "SELECT id, topic_id, timestamp, data FROM messages WHERE id >= ?1 ORDER BY id";
+
+using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
+
+Statement prepared(sqlite3* db, const char* sql) {
+  sqlite3_stmt* statement = nullptr;
+  sqlite3_prepare_v2(db, sql, -1, &statement, nullptr);
+  return {statement, sqlite3_finalize};
+}
+
+std::string text_of(sqlite3_stmt* statement, int column) {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, column));
+  return text ? std::string(text, sqlite3_column_bytes(statement, column)) : std::string();
+}
+
+/// Only tables are read, and nothing is computed but the largest number of a message.
+int allow(void*, int action, const char*, const char* detail, const char*, const char*) {
+  switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_READ:
+      return SQLITE_OK;
+    case SQLITE_FUNCTION:
+      return detail && std::string_view(detail) == "max" ? SQLITE_OK : SQLITE_DENY;
+    default:
+      return SQLITE_DENY;
+  }
+}
+
+/// Bytes of a file, 0 when it is not there.
+std::int64_t bytes_of(const std::string& path) {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path, none);
+  return none ? 0 : static_cast<std::int64_t>(bytes);
+}
+
+/// The file as it stands, without locks; what a recorder left in a log beside it counts.
+std::string uri_of(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path)
+    uri += c == '?' || c == '#' || c == '%' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                            : std::string(1, c);
+  std::error_code none;
+  return uri + (std::filesystem::exists(path + "-wal", none) ? "?mode=ro" : "?immutable=1");
+}
+
+/// The tables of a rosbag2 recording in SQLite: topics, and messages in the order of their numbers. Pages
+/// that are damaged or missing are passed over. The file is not changed and nothing in it is trusted to run.
+class MessageTable {
+ public:
+  /// Throws Error(input) when the file is no such recording.
+  explicit MessageTable(const std::string& path);
+  ~MessageTable();
+  MessageTable(const MessageTable&) = delete;
+  MessageTable& operator=(const MessageTable&) = delete;
+
+  const std::vector<Topic>& topics() const { return topics_.all(); }
+  /// The next message; its bytes are valid until the next call. False after the last one.
+  bool next(Message& message, Issues& issues);
+  void rewind();
+  /// Counts work on the messages, see WorkBudget.
+  void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_bytes_); }
+  /// Of the numbers of all messages, 0 to 1.
+  double share_read() const;
+
+ private:
+  void open(const std::string& path);
+  void bound_work();
+  void refuse_computed(const char* table);
+  [[noreturn]] void refuse_work() const;
+  void read_topics();
+  void find_last_number();
+  bool seek(std::int64_t number);
+  bool pass_damage(Issues& issues);
+  bool take(Message& message, Issues& issues);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string path_;
+  sqlite3* db_ = nullptr;
+  sqlite3_stmt* messages_ = nullptr;  ///< from some number on
+  TopicList topics_;
+  std::map<std::int64_t, int> topic_of_id_;
+  std::int64_t number_ = 0;       ///< of the last message handed out
+  std::int64_t last_number_ = 0;  ///< of the file's last message, as far as it can be told
+  bool at_row_ = false;           ///< a row was read by seek() and not handed out
+  bool at_end_ = false;
+  std::int64_t file_bytes_ = 0;
+  WorkBudget budget_;         ///< of the steps of SQLite
+  bool over_budget_ = false;  ///< SQLite was interrupted
+};
+
+MessageTable::MessageTable(const std::string& path)
+    : path_(path), topics_(path), file_bytes_(bytes_of(path) + bytes_of(path + "-wal")), budget_(path) {
+  try {
+    open(path);
+    bound_work();
+    for (const char* table : {"topics", "messages"}) refuse_computed(table);
+    sqlite3_set_authorizer(db_, allow, nullptr);
+    read_topics();
+  } catch (...) {
+    sqlite3_close(db_);
+    throw;
+  }
+  rewind();
+}
+
+MessageTable::~MessageTable() {
+  sqlite3_finalize(messages_);
+  sqlite3_close(db_);
+}
+
+void MessageTable::fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
+
+void MessageTable::open(const std::string& path) {
+  if (sqlite3_open_v2(uri_of(path).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
+      SQLITE_OK)
+    fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
+  for (const int off :
+       {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
+    sqlite3_db_config(db_, off, 0, nullptr);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
+  // Nothing is written; it lets SQLite read a file that is shorter than its head says.
+  sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+}
+
+/// What SQLite is asked for ends when it takes far more steps than a file of this size has use for.
+void MessageTable::bound_work() {
+  sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
+               nullptr, nullptr, nullptr);
+  sqlite3_progress_handler(
+      db_, kCountedSteps,
+      [](void* self) {
+        auto& table = *static_cast<MessageTable*>(self);
+        try {
+          table.budget_.spend(kCountedSteps * kStep_ns, table.file_bytes_);
+        } catch (const Error&) {
+          table.over_budget_ = true;
+        }
+        return table.over_budget_ ? 1 : 0;
+      },
+      this);
+}
+
+void MessageTable::refuse_work() const {
+  fail(
+      "asks SQLite for far more work than a recording of its size needs, and was not read on; a recording of "
+      "rosbag2 has plain tables of topics and messages. Export it as CSV");
+}
+
+/// A view, a virtual table or a column that is computed could make any amount of work of a small file.
+void MessageTable::refuse_computed(const char* table) {
+  const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
+  if (!kind) return;
+  sqlite3_bind_text(kind.get(), 1, table, -1, SQLITE_STATIC);
+  if (sqlite3_step(kind.get()) == SQLITE_ROW &&
+      (text_of(kind.get(), 0) != "table" || sqlite3_column_type(kind.get(), 1) != SQLITE_TEXT ||
+       text_of(kind.get(), 1).find("VIRTUAL") != std::string::npos))
+    fail(fmt::format(
+        "is no rosbag2 recording: \"{}\" is no plain table but is computed, which is not run. Export "
+        "it as CSV",
+        table));
+  const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
+  if (!columns) return;
+  sqlite3_bind_text(columns.get(), 1, table, -1, SQLITE_STATIC);
+  while (sqlite3_step(columns.get()) == SQLITE_ROW)
+    if (sqlite3_column_int(columns.get(), 0) != 0)
+      fail(fmt::format(
+          "is no rosbag2 recording: the table \"{}\" has a column that is computed, which is not run. "
+          "Export it as CSV",
+          table));
+}
+
+void MessageTable::read_topics() {
+  const Statement topics =
+      prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+  if (!topics || !prepared(db_, kFromNumber))
+    fail(fmt::format(
+        "is an SQLite file, but no rosbag2 recording that can be read ({}); a recording has the tables "
+        "topics and messages. Export it as CSV",
+        sqlite3_errmsg(db_)));
+  while (sqlite3_step(topics.get()) == SQLITE_ROW) {
+    spend(kMessageWork_ns);
+    topic_of_id_.emplace(
+        sqlite3_column_int64(topics.get(), 0),
+        topics_.add({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
+  }
+  if (over_budget_) refuse_work();
+}
+
+void MessageTable::find_last_number() {
+  const Statement last = prepared(db_, "SELECT max(id) FROM messages");
+  last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
+  if (over_budget_) refuse_work();
+}
+
+void MessageTable::rewind() {
+  number_ = std::numeric_limits<std::int64_t>::min();
+  budget_.start();
+  over_budget_ = false;
+  find_last_number();
+  seek(number_);
+  at_row_ = at_end_ = false;
+  sqlite3_reset(messages_);
+}
+
+/// Goes to the first message from `number` on; whether there is one that can be read.
+bool MessageTable::seek(std::int64_t number) {
+  sqlite3_finalize(messages_);
+  messages_ = nullptr;
+  sqlite3_prepare_v2(db_, kFromNumber, -1, &messages_, nullptr);
+  sqlite3_bind_int64(messages_, 1, number);
+  return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
+}
+
+/// Steps over messages that cannot be read: ever further, then back to the first one that can be.
+bool MessageTable::pass_damage(Issues& issues) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
+  const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
+  std::int64_t step = 1;
+  while (step < kFarthest && !seek(first + step)) step *= 2;
+  const bool found = at_row_;
+  if (over_budget_) refuse_work();
+  if (found) {
+    std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at the one, not at the other
+    while (light - dark > 1) {
+      const std::int64_t middle = dark + (light - dark) / 2;
+      (seek(middle) ? light : dark) = middle;
+    }
+    seek(light);
+  }
+  const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
+  const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
+                                        : fmt::format("the messages from number {} on", first);
+  issues.add(
+      {"pages_damaged", "", Severity::severe, lost + " stand on damaged or missing pages and are lost"});
+  return found;
+}
+
+bool MessageTable::next(Message& message, Issues& issues) {
+  while (!at_end_) {
+    if (!at_row_) {
+      const int result = sqlite3_step(messages_);
+      const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
+      if (over_budget_) refuse_work();
+      at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
+      if (at_end_) break;
+    }
+    at_row_ = false;
+    if (take(message, issues)) return true;
+  }
+  return false;
+}
+
+bool MessageTable::take(Message& message, Issues& issues) {
+  number_ = sqlite3_column_int64(messages_, 0);
+  const std::int64_t id = sqlite3_column_int64(messages_, 1);
+  const auto topic = topic_of_id_.find(id);
+  if (topic == topic_of_id_.end()) {
+    issues.add({"channel_unknown", "", Severity::warning,
+                fmt::format("message {} was left out, as there is no topic {}", number_, id)});
+    return false;
+  }
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
+  spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_, 3));
+  message = {topic->second,
+             sqlite3_column_int64(messages_, 2),
+             {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},
+             bytes == nullptr};
+  return true;
+}
+
+double MessageTable::share_read() const {
+  if (last_number_ <= 0 || number_ <= 0) return 0.0;
+  return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
+}
 
 std::int64_t big_endian(std::string_view bytes) {
   std::int64_t number = 0;

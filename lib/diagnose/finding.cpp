@@ -3,16 +3,133 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "lib/core/number_text.hpp"
-#include "lib/diagnose/alternatives.hpp"
-#include "lib/diagnose/finding_evidence.hpp"
+#include "lib/diagnose/decision_words.hpp"
 #include "lib/diagnose/least_size.hpp"
 #include "lib/fault/fault_words.hpp"
+#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kSureOfFriction = 0.95;  // its interval alone leaves less, other kinds leave more
+
+constexpr double kLeastShare = 0.15;  // of the votes that makes a label worth naming
+constexpr double kLeastPush = 0.2;    // of the push on the joint named, each by its joint's usual torque
+
+/// Reasons by label, in the order in which they were given.
+class Alternatives {
+ public:
+  explicit Alternatives(const FaultLabel& of) : of_(of) {}
+
+  void add(const FaultLabel& label, std::string why) {
+    if (label == of_ || label.kind == FaultKind::none) return;
+    for (const Alternative& known : list)
+      if (known.label == label) return;
+    list.push_back({label, std::move(why)});
+  }
+
+  std::vector<Alternative> list;
+
+ private:
+  FaultLabel of_;
+};
+
+void add_opinions(Alternatives& alternatives, const Episode& episode) {
+  alternatives.add(episode.mlp.label, "the MLP says so");
+  alternatives.add(episode.rbfn.label, "the RBFN says so");
+}
+
+void add_votes(Alternatives& alternatives, const Votes& votes) {
+  for (const LabelShare& share : votes.shares)
+    if (share.share >= kLeastShare)
+      alternatives.add(share.label, fmt::format("similar cases and opinions give it {:.0f} % of the votes",
+                                                100.0 * share.share));
+}
+
+void add_pushed_joints(Alternatives& alternatives, const MonitoredEpisode& observed, const Model& model) {
+  const FaultClaim& claim = observed.fault.claim;
+  const int joints = model.robot.joints();
+  auto push = [&](int j) { return std::abs(impulse_of(claim, j, joints)) / model.motion.torque_scale[j]; };
+  for (int j = 0; j < joints; ++j)
+    if (push(j) > kLeastPush * push(claim.joint - 1))
+      alternatives.add({FaultKind::collision, j + 1},
+                       "the push reached this joint too, as one at the tip does");
+}
+
+/// What a fault could also be: the networks' other opinions, labels with a good share of the votes, labels
+/// whose evidence comes near that of the best, and the other joints that a push on all of them reached. Each
+/// label once, with the first reason that named it, and never the fault's own.
+std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model) {
+  const auto& [observed, basis, decision] = decided;
+  Alternatives alternatives(decision.label);
+  if (basis.likeliest.kind != FaultKind::unknown) alternatives.add(basis.likeliest, "explains the log best");
+  for (const FaultLabel& label : basis.as_likely)
+    alternatives.add(label, basis.likeliest.kind == FaultKind::unknown ? "comes nearest of the known faults"
+                                                                       : "explains the log almost as well");
+  add_opinions(alternatives, basis.episode);
+  add_votes(alternatives, basis.votes);
+  if (observed.fault.claim.kind == FaultKind::collision) add_pushed_joints(alternatives, observed, model);
+  return alternatives.list;
+}
+
+/// The words of single networks.
+std::vector<Alternative> alternatives_to(const SampleAlarm& alarm) {
+  Alternatives alternatives(alarm.episode.label);
+  for (const Opinion& opinion : {alarm.opinions.mlp, alarm.opinions.rbfn})
+    alternatives.add(opinion.label, "one network alone says so");
+  return alternatives.list;
+}
+
+/// How large the fault is that was named; empty where the log was not explained by it.
+std::string size_words(const DecidedEpisode& decided, const Model& model) {
+  const FaultLabel& label = decided.decision.label;
+  for (const LabelScore& score : decided.observed.fault.scores) {
+    if (score.label() != label || score.claim.size.size() == 0) continue;
+    const bool turns = model.robot.chain.geometry[label.joint - 1].kind == AxisKind::revolute;
+    return size_text(label, sizes_of(score.claim, decided.observed.end_s, model.robot.joints()), turns);
+  }
+  return "";
+}
+
+EvidenceItem remark(const char* name, std::string text) {
+  return {.name = name, .unit = {}, .text = std::move(text)};
+}
+
+/// What speaks for a decision: its reason in a sentence, what similar cases hold against it, the log
+/// likelihood ratio, the size of the fault, and the MLP's residual of each joint.
+std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const Model& model) {
+  const auto& [observed, basis, decision] = decided;
+  std::vector<EvidenceItem> items;
+  items.push_back(remark("decision", reason_in_words(decision, basis)));
+  for (std::string& warning : warnings_of_cases(decision, basis.votes))
+    items.push_back(remark("warning", std::move(warning)));
+  items.push_back(
+      {"log_likelihood_ratio", basis.episode.evidence, "nats",
+       fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)", basis.limit)});
+  if (decision.label.joint > 0)
+    if (std::string size = size_words(decided, model); !size.empty())
+      items.push_back(remark("size", std::move(size)));
+  const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),
+                                  [&](const LabelEvidence& e) { return e.label == decision.label; });
+  if (label != basis.evidence.end() && std::isfinite(label->left))
+    items.push_back(
+        {"left_over", label->left, "times noise",
+         fmt::format("what {} leaves of the motion (1 is noise)", label_text(label->label, " at joint "))});
+  if (decision.label.kind == FaultKind::unknown)
+    items.push_back({"misfit", observed.fault.misfit, "nats",
+                     "by which a change of any form explains the log better than the nearest known fault"});
+  for (const JointResidual& residual : observed.residuals)
+    if (std::isfinite(residual.velocity_rms))
+      items.push_back({fmt::format("mlp_velocity_residual_{}", residual.joint), residual.velocity_rms,
+                       "times healthy", fmt::format("MLP residual of joint {}", residual.joint)});
+  return items;
+}
 
 EpisodeFacts facts_of(const Episode& episode, const std::vector<std::string>& feature_names) {
   EpisodeFacts facts;

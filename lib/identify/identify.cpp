@@ -3,19 +3,23 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/identify/fit_alike.hpp"
-#include "lib/identify/payload_groups.hpp"
 #include "lib/identify/physical.hpp"
-#include "lib/identify/quiet_solver.hpp"
 #include "lib/identify/verdict/inertia_verdict.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 namespace {
@@ -83,6 +87,34 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   return physical.lengths;
 }
 
+/// Logs that carry the same mass at the tip.
+struct PayloadGroup {
+  KnownValue payload;
+  std::vector<LogSource*> logs;
+  std::vector<std::size_t> index;  ///< of each log among all
+};
+
+/// By robot.payloads, the logs without payload first. Throws Error(input) when every log carries one.
+std::vector<PayloadGroup> group_by_payload(std::span<LogSource* const> logs, const Robot& robot) {
+  std::map<std::pair<double, double>, PayloadGroup> groups;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const std::string file = std::filesystem::path(logs[i]->identity().path).filename().string();
+    const auto it = robot.payloads.find(file);
+    const KnownValue payload = it == robot.payloads.end() ? KnownValue{} : it->second;
+    PayloadGroup& group = groups[{payload.value, payload.std}];
+    group.payload = payload;
+    group.logs.push_back(logs[i]);
+    group.index.push_back(i);
+  }
+  std::vector<PayloadGroup> out;
+  for (auto& [key, group] : groups) out.push_back(std::move(group));
+  std::stable_partition(out.begin(), out.end(), [](const auto& g) { return g.payload.value == 0.0; });
+  if (!out.empty() && out[0].payload.value != 0.0)
+    throw Error(ErrorCode::input, logs[0]->identity().path,
+                "carries a payload, as every log given does; give at least one log without payload");
+  return out;
+}
+
 void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {
   for (std::size_t k = 0; k < from.logs.size(); ++k) {
     id.logs[group.index[k]] = from.logs[k];
@@ -148,6 +180,16 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
   find_negative_inertia(id);
   id.robot = robot_with(id.robot, id.space, id.estimate);
   return {std::move(id), std::move(lengths)};
+}
+
+/// Keeps what the solver's library writes about singular systems off the terminal: the result says it in its
+/// own words. Errors that end the program are still written. May be called any number of times.
+void quiet_solver() {
+  static const bool done = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  (void)done;
 }
 
 }  // namespace

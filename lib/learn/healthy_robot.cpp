@@ -8,9 +8,9 @@
 
 #include "lib/core/make_issue.hpp"
 #include "lib/core/parallel.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/identify/days/fit_days.hpp"
-#include "lib/learn/identified_model.hpp"
 #include "lib/learn/without_work_piece.hpp"
 #include "lib/log/memory_source.hpp"
 
@@ -20,6 +20,34 @@ namespace {
 constexpr double kFirst = 0.4;  // share of the work that is done when the robot was identified once
 constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
 constexpr int kDaysOfOneLog = 3;                // that a single log is cut into
+
+/// What a model keeps of the identification for those who ask how good it is.
+Identification without_state(Identification identification) {
+  identification.robot = {};
+  identification.space = {};
+  identification.estimate = {};
+  identification.covariance = {};
+  identification.logs.clear();  // the model's sources name them
+  return identification;
+}
+
+/// Usual sample period of the logs.
+double identified_period_s(const Identification& identification) {
+  std::vector<double> periods;
+  for (const IdentifiedLog& log : identification.logs) periods.push_back(log.sample_period_s);
+  return periods.empty() ? 0.0 : upper_median(periods);
+}
+
+/// The beginning of a model: the identified robot and the usual sample period of its logs.
+Model identified_model(const Identification& identification) {
+  Model model;
+  model.name = identification.robot.name;
+  model.robot = identification.robot;
+  model.identification = without_state(identification);
+  model.sample_period_s = identified_period_s(identification);
+  model.has_velocity = !identification.dq_noise.empty();
+  return model;
+}
 
 /// Model and logs of `identification`; the logs are those that agreed when all were given.
 HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& robot,
@@ -122,6 +150,30 @@ void set_days(HealthyRobot& robot) {
 }
 
 }  // namespace
+
+TorqueReading reading_of(const Robot& opened_with, const Robot& robot) {
+  TorqueReading out{robot.torque_delay_s, robot.torque_gain};
+  out.delay_s.resize(robot.joints(), 0.0);
+  out.gain.resize(robot.joints(), 1.0);
+  for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
+    out.delay_s[j] -= opened_with.torque_delay_s[j];
+  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
+  return out;
+}
+
+std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
+                                        const std::vector<IdentifiedLog>& identified) {
+  std::deque<DelayedTorqueSource> out;
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    if (!identified[i].left_out) out.push_back(reading.of(*logs[i]));
+  return out;
+}
+
+std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
+  std::vector<LogSource*> out;
+  for (DelayedTorqueSource& log : logs) out.push_back(&log);
+  return out;
+}
 
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
   if (std::holds_alternative<BalanceModel>(robot.model.explain.robot)) return fitted_days(robot, days).model;

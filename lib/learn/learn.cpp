@@ -8,13 +8,14 @@
 #include <deque>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/learn/day_differences.hpp"
-#include "lib/learn/learn_samples.hpp"
 #include "lib/learn/model_doubts.hpp"
 #include "lib/learn/reach.hpp"
 #include "lib/learn/tracking_model.hpp"
@@ -40,6 +41,49 @@ constexpr double kEnoughFound = 0.5;  // of the training runs: where fewer are, 
 // Streams of seeds that never meet.
 constexpr std::uint64_t kTrainingSeeds = 0, kMoreSeeds = 500'000, kValidationSeeds = 1'000'000,
                         kHealthyValidationSeeds = 3'000'000, kLimitSeeds = 2'000'000, kSeedBlock = 10'000'000;
+
+constexpr int kSampleRuns = 6;  // of a label, two thirds for training
+
+CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& classifier,
+                       const std::vector<LabelledResiduals>& runs) {
+  const OutputMeaning meaning{classifier.classes, classifier.prior};
+  std::vector<LabelledOutputs> outputs;
+  for (const LabelledResiduals& run : runs) {
+    const SampleOutputs out = classify_samples(classifier, run.residuals);
+    outputs.push_back({out.time, out.average(), run.fault, run.onset_s});
+  }
+  return tune_criterion(start, meaning, outputs).best;
+}
+
+/// The runs that single samples are judged by.
+std::vector<LabelledResiduals> of_samples(std::vector<LabelledResiduals> runs) {
+  std::vector<LabelledResiduals> out;
+  std::vector<FaultLabel> taken;
+  for (LabelledResiduals& run : runs) {
+    const bool is_healthy = run.fault.kind == FaultKind::none;
+    if (!is_healthy && (!describe(run.fault.kind).shows_in_each_sample ||
+                        std::ranges::count(taken, run.fault) == kSampleRuns))
+      continue;
+    if (!is_healthy) taken.push_back(run.fault);
+    out.push_back(std::move(run));
+  }
+  return out;
+}
+
+/// Trains the paper's classifiers on the residuals of simulated runs and tunes both criteria on every third
+/// of them, which it does not train on. It uses all healthy runs, and the first few runs of each label whose
+/// fault shows in every sample while it lasts.
+SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs) {
+  runs = of_samples(std::move(runs));
+  std::vector<LabelledResiduals> training, tuning;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    (i % 3 == 2 ? tuning : training).push_back(std::move(runs[i]));
+  SampleMode mode;
+  mode.classifier = train_sample_classifier(training, model.residual).classifier;
+  mode.consecutive = tuned(mode.consecutive, mode.classifier, tuning);
+  mode.log_odds = tuned(mode.log_odds, mode.classifier, tuning);
+  return mode;
+}
 
 /// The logs with an empty row for each that was lost, as diagnose() reads them.
 class FilledLogs {

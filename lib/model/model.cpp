@@ -13,8 +13,7 @@
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
 #include "lib/model/twin/twin_json.hpp"
-#include "lib/model/usual_motion_json.hpp"
-#include "lib/model/validation_json.hpp"
+#include "lib/neural/json_matrix.hpp"
 #include "lib/residual/relation/relation_json.hpp"
 #include "lib/robot/payload.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -24,6 +23,106 @@ namespace {
 
 constexpr std::size_t kLargestModel = 64 << 20;           // bytes
 constexpr const char* kLearnedFromTracking = "tracking";  // logs without torque: no mechanics
+
+nlohmann::json validation_to_json(const Validation& validation) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const ValidationRow& row : validation.rows)
+    rows.push_back({{"kind", to_string(row.kind)},
+                    {"runs", row.runs},
+                    {"detected", row.detected},
+                    {"right_kind", row.right_kind},
+                    {"right_joint", row.right_joint},
+                    {"right_kind_and_joint", row.right_kind_and_joint},
+                    {"right_or_named", row.right_or_named},
+                    {"median_delay_s", number_or_null(row.median_delay_s)},
+                    {"p90_delay_s", number_or_null(row.p90_delay_s)}});
+  nlohmann::json reach = nlohmann::json::array();
+  for (const Reach& each : validation.reach)
+    reach.push_back({{"kind", to_string(each.label.kind)},
+                     {"joint", each.label.joint},
+                     {"runs", each.runs},
+                     {"found", each.found},
+                     {"size", number_or_null(each.size)},
+                     {"least_size", number_or_null(each.least_size)},
+                     {"median_delay_s", number_or_null(each.median_delay_s)}});
+  return {{"rows", rows},
+          {"reach", reach},
+          {"early_alarms", validation.early_alarms},
+          {"healthy_hours", validation.healthy_hours},
+          {"false_alarms", validation.false_alarms},
+          {"raw_confidence_error", number_or_null(validation.raw_confidence_error)},
+          {"confidence_error", number_or_null(validation.confidence_error)}};
+}
+
+/// Throws what nlohmann::json throws, and Error(usage) for an unknown kind.
+Validation validation_from_json(const nlohmann::json& json) {
+  Validation validation;
+  for (const auto& row : json.at("rows"))
+    validation.rows.push_back({fault_kind_from(row.at("kind")), row.at("runs"), row.at("detected"),
+                               row.at("right_kind"), row.at("right_joint"), row.at("right_kind_and_joint"),
+                               row.at("right_or_named"), number_or_nan(row.at("median_delay_s")),
+                               number_or_nan(row.at("p90_delay_s"))});
+  if (json.contains("reach"))
+    for (const auto& each : json["reach"])
+      validation.reach.push_back({{fault_kind_from(each.at("kind")), each.at("joint")},
+                                  each.at("runs"),
+                                  each.at("found"),
+                                  number_or_nan(each.at("size")),
+                                  number_or_nan(each.at("least_size")),
+                                  number_or_nan(each.at("median_delay_s"))});
+  validation.early_alarms = json.at("early_alarms");
+  validation.healthy_hours = json.at("healthy_hours");
+  validation.false_alarms = json.at("false_alarms");
+  validation.raw_confidence_error = number_or_nan(json.at("raw_confidence_error"));
+  validation.confidence_error = number_or_nan(json.at("confidence_error"));
+  return validation;
+}
+
+/// Calls visit(key, vector) for every list that has one number a joint.
+template <typename Usual, typename Visit>
+void visit_joint_lists(Usual& usual, Visit visit) {
+  visit("q_low", usual.q_low);
+  visit("q_high", usual.q_high);
+  visit("velocity_scale", usual.velocity_scale);
+  visit("torque_scale", usual.torque_scale);
+  visit("usual_bias", usual.sizes.bias);
+  visit("usual_drift", usual.sizes.drift);
+  visit("usual_viscous_increase", usual.sizes.viscous_increase);
+  visit("usual_coulomb_increase", usual.sizes.coulomb_increase);
+  visit("usual_external_torque", usual.sizes.external_torque);
+}
+
+void check_ranges(const UsualMotion& usual, const std::string& where) {
+  for (std::size_t j = 0; j < usual.q_low.size(); ++j)
+    if (!(usual.q_low[j] <= usual.q_high[j]))
+      throw Error(ErrorCode::input, where,
+                  "\"q_low\" of joint " + std::to_string(j + 1) +
+                      " lies above its \"q_high\"; learn the model again");
+}
+
+nlohmann::json usual_motion_to_json(const UsualMotion& usual) {
+  nlohmann::json json = nlohmann::json::object();
+  visit_joint_lists(usual, [&](const char* key, const auto& values) { json[key] = values; });
+  json["usual_payload"] = usual.sizes.payload;
+  return json;
+}
+
+/// Throws Error(input) when a key is missing or the lists do not have one number for each of `joints`.
+UsualMotion usual_motion_from_json(const nlohmann::json& json, int joints, const std::string& where) {
+  UsualMotion usual;
+  visit_joint_lists(usual, [&](const char* key, std::vector<double>& values) {
+    const Eigen::VectorXd read = vector_from_json(json, key, where);
+    if (read.size() != joints)
+      throw Error(ErrorCode::input, where,
+                  std::string("\"") + key + "\" has " + std::to_string(read.size()) +
+                      " numbers, expected one a joint (" + std::to_string(joints) +
+                      "); learn the model again");
+    values.assign(read.begin(), read.end());
+  });
+  check_ranges(usual, where);
+  usual.sizes.payload = number_from_json(json, "usual_payload", where);
+  return usual;
+}
 
 nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
   nlohmann::json list = nlohmann::json::array();

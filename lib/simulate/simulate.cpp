@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/simulate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "lib/core/error.hpp"
+#include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/robot/chain.hpp"
 #include "lib/simulate/clock.hpp"
-#include "lib/simulate/sensors.hpp"
-#include "lib/simulate/simulation_check.hpp"
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
@@ -23,6 +27,60 @@ enum Stream : std::uint64_t {
 };
 
 constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s: the simulation diverged
+
+/// Control periods in a sample period. Throws Error(usage) when that is no whole number.
+int control_periods_per_sample(const SimulationSpec& spec) {
+  const double ratio = spec.sample_period_s / spec.control_period_s;
+  if (std::round(ratio) < 1.0 || std::abs(ratio - std::round(ratio)) > 1e-6)
+    throw Error(
+        ErrorCode::usage, "control_period_s",
+        fmt::format("expected a whole number of control periods in the sample period of {} s, found {} s",
+                    spec.sample_period_s, spec.control_period_s));
+  return static_cast<int>(std::lround(ratio));
+}
+
+void check_times(const SimulationSpec& spec) {
+  if (!(spec.control_period_s > 0.0) || !(spec.max_step_s > 0.0) || !(spec.sample_period_s > 0.0))
+    throw Error(ErrorCode::usage, "sample_period_s, control_period_s, max_step_s", "expected positive times");
+  if (!(spec.duration_s >= spec.sample_period_s) || !(spec.duration_s / spec.sample_period_s < 1e9))
+    throw Error(
+        ErrorCode::usage, "duration_s",
+        fmt::format("expected at least one sample period of {} s and less than 1e9 of them, found {} s",
+                    spec.sample_period_s, spec.duration_s));
+  control_periods_per_sample(spec);
+}
+
+void check_noise(int joints, const NoiseSpec& noise) {
+  check_not_negative(joints, noise.q, "noise.q");
+  check_not_negative(joints, noise.dq, "noise.dq");
+  check_not_negative(joints, noise.q_resolution, "noise.q_resolution");
+}
+
+void check_drives(int joints, const DriveSpec& drives) {
+  check_count(joints, drives.gain, "drives.gain");
+  check_count(joints, drives.offset, "drives.offset");
+  check_not_negative(joints, drives.roughness, "drives.roughness");
+  check_positive(joints, drives.roughness_memory_s, "drives.roughness_memory_s");
+  for (const double gain : drives.gain)
+    if (!(gain > -1.0))
+      throw Error(ErrorCode::usage, "drives.gain", fmt::format("expected shares above -1, found {}", gain));
+}
+
+/// The part of check_simulation() that nothing built from the spec checks by itself.
+void check_numbers(const Robot& robot, const SimulationSpec& spec) {
+  const int joints = robot.joints();
+  check_times(spec);
+  check_noise(joints, spec.noise);
+  check_positive(joints, spec.torque_limit, "limits.torque");
+  check_drives(joints, spec.drives);
+  check_positive(joints, spec.overspeed, "limits.overspeed");
+  check_gears(robot, spec.machine.gears);
+  check_stick_slip(joints, spec.machine.stick_slip);
+  check_warm_up(joints, spec.machine.warm_up);
+  check_work_piece(spec.work_piece);
+  check_recording(joints, spec.sample_period_s, spec.recording);
+  for (const SimulatedFault& fault : spec.faults) check_fault(robot, fault);
+}
 
 std::vector<SimulatedFault> real_faults(const Robot& robot, const SimulationSpec& spec) {
   std::vector<SimulatedFault> faults;
@@ -43,6 +101,54 @@ Log empty_log(const Robot& robot, const SimulationSpec& spec, int rows) {
   if (spec.record_reference) like.q_ref = like.dq_ref = like.q;
   resize_like(log, like, rows);
   return log;
+}
+
+/// Turns the true motion into what the controller and the log get: noise, encoder steps and the faults of the
+/// sensors, which therefore go through the feedback.
+class Sensors {
+ public:
+  Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random);
+
+  /// Reads at time t; `q` and `dq` keep the reading until the next call (a stuck encoder repeats it).
+  void read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq);
+
+  JointVector<double> q, dq;
+
+ private:
+  std::vector<double> q_noise_, dq_noise_, resolution_;
+  std::vector<SimulatedFault> faults_;
+  Random random_;
+  bool started_ = false;
+};
+
+Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random)
+    : q_noise_(or_all(noise.q, joints, 0.0)),
+      dq_noise_(or_all(noise.dq, joints, 0.0)),
+      resolution_(or_all(noise.q_resolution, joints, 0.0)),
+      random_(random) {
+  for (const SimulatedFault& fault : faults)
+    if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
+  q = dq = JointVector<double>::Zero(joints);
+}
+
+void Sensors::read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq) {
+  for (int i = 0; i < q.size(); ++i) {
+    double position = true_q[i], speed = true_dq[i];
+    bool stuck = false;
+    for (const SimulatedFault& fault : faults_) {
+      if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
+      const MachineFault change = machine_fault(fault);
+      position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);
+      stuck = stuck || change.reading_sticks;
+    }
+    if (q_noise_[i] > 0.0) position += q_noise_[i] * random_.normal();
+    if (dq_noise_[i] > 0.0) speed += dq_noise_[i] * random_.normal();
+    if (resolution_[i] > 0.0) position = resolution_[i] * std::round(position / resolution_[i]);
+    if (stuck && started_) continue;
+    q[i] = position;
+    dq[i] = speed;
+  }
+  started_ = true;
 }
 
 /// What a controller sees and does at one moment.
@@ -98,6 +204,13 @@ const char* to_string(EndReason reason) {
       return "diverged";
   }
   return "unknown";
+}
+
+void check_simulation(const Robot& robot, const SimulationSpec& spec) {
+  check_numbers(robot, spec);
+  const Motion motion(robot, spec.motion, 0.0, 1);
+  const Controller controller(robot, spec.controller, spec.control_period_s);
+  const Plant plant(robot, spec.stops, {}, spec.max_step_s, spec.machine);
 }
 
 Motion reference_motion(const Robot& robot, const SimulationSpec& spec, std::uint64_t seed) {

@@ -2,20 +2,190 @@
 #include "lib/diagnose/monitor/monitor.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "lib/diagnose/monitor/explain_monitor.hpp"
 #include "lib/diagnose/monitor/log_tally.hpp"
-#include "lib/diagnose/monitor/relation_monitor.hpp"
-#include "lib/diagnose/monitor/sample_monitor.hpp"
+#include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/explain_at.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
-#include "lib/log/transformed/tapped_source.hpp"
+#include "lib/residual/relation/relation_watch.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
 namespace {
+
+/// A log whose segments are shown to somebody on their way.
+class TappedSource : public LogSource {
+ public:
+  using Tap = std::function<void(const Log& segment)>;
+
+  /// `source` is read by nobody else and outlives this. Whoever is shown the segments goes on after a rewind.
+  TappedSource(LogSource& source, Tap tap) : source_(source), tap_(std::move(tap)) {}
+
+  bool next(Log& segment) override {
+    if (!source_.next(segment)) return false;
+    tap_(segment);
+    return true;
+  }
+  void rewind() override { source_.rewind(); }
+  const LogIdentity& identity() const override { return source_.identity(); }
+  const Issues& issues() const override { return source_.issues(); }
+  double share_read() const override { return source_.share_read(); }
+
+ private:
+  LogSource& source_;
+  Tap tap_;
+};
+
+/// Leads the segments of a log through the second residuals of a model: those with torque or, where a log has
+/// none, tracking.
+class RelationMonitor {
+ public:
+  /// `relations` outlive this.
+  RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking);
+
+  void take(const Log& segment);
+  /// After the last segment.
+  void finish();
+
+  /// By onset.
+  std::vector<RelationEpisode> episodes() const;
+  /// By relation: for how long the log could be judged, s; 0 for those of the other sort.
+  std::vector<double> judged_s() const;
+  /// By relation: for how long its inputs were beyond all that was learned, s.
+  std::vector<double> beyond_s() const;
+
+ private:
+  std::deque<RelationWatch> watches_;
+  std::vector<char> is_watched_;
+};
+
+RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking) {
+  for (const SignalRelation& relation : relations) {
+    watches_.emplace_back(relation);
+    is_watched_.push_back((relation.kind == RelationKind::tracking) == by_tracking);
+  }
+}
+
+void RelationMonitor::take(const Log& segment) {
+  for (std::size_t i = 0; i < watches_.size(); ++i)
+    if (is_watched_[i]) watches_[i].take(segment);
+}
+
+void RelationMonitor::finish() {
+  for (RelationWatch& watch : watches_) watch.finish();
+}
+
+std::vector<RelationEpisode> RelationMonitor::episodes() const {
+  std::vector<RelationEpisode> all;
+  for (const RelationWatch& watch : watches_)
+    all.insert(all.end(), watch.episodes().begin(), watch.episodes().end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.onset_s < b.onset_s; });
+  return all;
+}
+
+std::vector<double> RelationMonitor::judged_s() const {
+  std::vector<double> out;
+  for (const RelationWatch& watch : watches_) out.push_back(watch.judged_s());
+  return out;
+}
+
+std::vector<double> RelationMonitor::beyond_s() const {
+  std::vector<double> out;
+  for (const RelationWatch& watch : watches_) out.push_back(watch.beyond_s());
+  return out;
+}
+
+/// The fault criterion applied to one series of outputs along a log.
+class CriterionWatch {
+ public:
+  CriterionWatch(const CriterionOptions& options, const OutputMeaning& meaning)
+      : options_(options), meaning_(meaning) {}
+
+  void take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs);
+  /// After the last sample: an episode that is open ends.
+  void finish();
+  const std::vector<SampleEpisode>& episodes() const { return episodes_; }
+
+ private:
+  CriterionOptions options_;
+  OutputMeaning meaning_;
+  CriterionState state_;
+  std::vector<SampleEpisode> episodes_;
+};
+
+/// The paper's way: both networks over the residuals of each sample, the fault criterion on their average
+/// (figure 2) and on each alone (figure 1), whose word becomes its opinion. The criterion is that of the
+/// options, as the model has tuned it.
+class SampleMonitor {
+ public:
+  SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options);
+
+  void take(const Residuals& residuals);
+  /// After the last segment.
+  void finish();
+  std::vector<SampleAlarm> alarms() const;
+
+ private:
+  const SampleClassifier& classifier_;
+  CriterionWatch average_, mlp_, rbfn_;
+};
+
+/// What one network alone says about the time of an episode.
+Opinion opinion_on(const SampleEpisode& episode, const std::vector<SampleEpisode>& own) {
+  for (const SampleEpisode& other : own)
+    if (other.alarm_s <= episode.end_s && other.end_s >= episode.onset_s)
+      return {other.label, other.confidence};
+  return {};
+}
+
+CriterionWatch watch_of(const SampleMode& samples, const DiagnoseOptions& options) {
+  CriterionOptions criterion =
+      options.criterion == CriterionKind::consecutive ? samples.consecutive : samples.log_odds;
+  if (options.g > 0) criterion.g = options.g;
+  return {criterion, {samples.classifier.classes, samples.classifier.prior}};
+}
+
+void CriterionWatch::take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs) {
+  for (const SampleEpisode& episode : apply_criterion(options_, meaning_, time, outputs, state_))
+    episodes_.push_back(episode);
+}
+
+void CriterionWatch::finish() {
+  if (const auto open = open_episode(meaning_, state_)) episodes_.push_back(*open);
+}
+
+SampleMonitor::SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options)
+    : classifier_(samples.classifier),
+      average_(watch_of(samples, options)),
+      mlp_(average_),
+      rbfn_(average_) {}
+
+void SampleMonitor::take(const Residuals& residuals) {
+  const SampleOutputs outputs = classify_samples(classifier_, residuals);
+  average_.take(outputs.time, outputs.average());
+  mlp_.take(outputs.time, outputs.mlp);
+  rbfn_.take(outputs.time, outputs.rbfn);
+}
+
+void SampleMonitor::finish() {
+  for (CriterionWatch* each : {&average_, &mlp_, &rbfn_}) each->finish();
+}
+
+std::vector<SampleAlarm> SampleMonitor::alarms() const {
+  std::vector<SampleAlarm> alarms;
+  for (const SampleEpisode& episode : average_.episodes())
+    alarms.push_back(
+        {episode, {opinion_on(episode, mlp_.episodes()), opinion_on(episode, rbfn_.episodes())}});
+  return alarms;
+}
 
 /// Whether there is no torque that the model could judge. Rewinds the log before and after. Throws
 /// Error(input) for a log of another number of joints, before anything takes it for the model's.

@@ -8,7 +8,6 @@
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/coarse/coarse_price.hpp"
-#include "lib/explain/coarse/false_reading.hpp"
 #include "lib/explain/fault_claim.hpp"
 #include "lib/robot/dynamics.hpp"
 
@@ -28,6 +27,18 @@ constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a
 constexpr double kMostLoss = 1.05;        // share of the torque lost that a round starts from, at most
 constexpr double kSettled_nats = 0.05;    // nats: a round that changes less is the last
 constexpr double kMostPayload = 2.5;      // times the mass that the link carries: the same of a payload
+
+/// What a unit of the false reading of `guess` adds to the readings (2 joints x samples) from sample `from`
+/// on.
+Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(log.read.rows(), log.samples());
+  const int j = guess.joint - 1, n = log.joints();
+  for (int k = from; k < log.samples(); ++k) {
+    out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
+    if (guess.kind == FaultKind::sensor_drift && !guess.velocity_is_true) out(n + j, k) = 1.0;
+  }
+  return out;
+}
 
 /// Values about which one round linearises a hypothesis, and steps that are known.
 struct Setup {

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_days.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "lib/identify/days/day_variance.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/draft_rows.hpp"
-#include "lib/identify/days/healthy_looks.hpp"
-#include "lib/identify/days/mixed_effects.hpp"
+#include "lib/identify/days/healthy_day.hpp"
 #include "lib/identify/days/payload_columns.hpp"
 #include "lib/identify/days/refine_terms.hpp"
 #include "lib/identify/days/work_pieces.hpp"
 
 namespace faultline {
 namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // Kernel of the rows, standard deviation: the longer one for sample periods from kHighRate_s on.
 constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
@@ -24,9 +29,68 @@ constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows re
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
 
+constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
+// Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
+constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
+
+constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not move
+constexpr double kPieceForce = 9.81;                   // N of 1 kg that may be there or not
+
+constexpr double kUnseenDays = 2.0;  // times the variance between the days that were seen
+
+/// Standard deviations of the effects, relative but for the offset, which is a share of the joint's torque
+/// rms, and the delay, which is in samples.
+struct EffectStd {
+  double inertia, friction, slope, gain, offset, width, delay;
+};
+
+// First: what robots differ by from day to day. Least: what makes no difference to any judgement. Unseen:
+// what a few days cannot show (friction by the warmth of the gear, inertia and torque constants as drives are
+// made, friction near rest, where healthy logs have few rows).
+constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1};
+constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01};
+constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.3};
+
 /// Recorded samples that are averaged into one of the rows' samples.
 int samples_averaged(double period_s) {
   return std::max(1, static_cast<int>(kFinest_s / period_s + kSlackOfRate));
+}
+
+/// The model with ranges, speeds, noise and repeated positions of the healthy logs.
+BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
+  const int n = m.joints();
+  std::vector<VectorXd> q, dq;
+  m.q_low = VectorXd::Constant(n, 1e300);
+  m.q_high = -m.q_low;
+  m.top_speed = m.torque_rms = m.repeat_share = VectorXd::Zero(n);
+  m.longest_repeat = Eigen::VectorXi::Zero(n);
+  double rows = 0.0;
+  for (const HealthyDay& day : days) {
+    q.push_back(day.log.q_noise);
+    dq.push_back(day.log.dq.rows() > 0 ? day.log.dq_noise : day.log.q_noise);
+    m.q_low = m.q_low.cwiseMin(day.log.q.colwise().minCoeff().transpose());
+    m.q_high = m.q_high.cwiseMax(day.log.q.colwise().maxCoeff().transpose());
+    m.torque_rms += day.log.tau.cwiseAbs2().colwise().sum().transpose();
+    rows += day.log.rows();
+    const MatrixXd speed = fused_velocity(day.log, m.setting).cwiseAbs();
+    for (int j = 0; j < n; ++j) {
+      std::vector<double> v(speed.col(j).data(), speed.col(j).data() + speed.rows());
+      m.top_speed[j] = std::max(m.top_speed[j], upper_quantile(std::move(v), kTopSpeed));
+      int run = 0, same = 0;
+      for (int k = 1; k < day.log.rows(); ++k) {
+        run = day.log.q(k, j) == day.log.q(k - 1, j) ? run + 1 : 0;
+        same += run > 0;
+        m.longest_repeat[j] = std::max(m.longest_repeat[j], run);
+      }
+      m.repeat_share[j] +=
+          static_cast<double>(same) / (day.log.rows() - 1) / static_cast<double>(days.size());
+    }
+  }
+  m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
+  m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
+  m.q_noise = joint_medians(q);
+  m.dq_noise = joint_medians(dq);
+  return m;
 }
 
 /// Rows, setting and a first fit of the rigid robot.
@@ -69,6 +133,164 @@ DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& opt
   draft = with_rotors(std::move(draft), round >= kRotorsFrom);
   if (round <= kRowsUntil) draft = with_rows(std::move(draft));
   return with_day_columns(std::move(draft));
+}
+
+std::vector<int> free_columns(const DayDraft& draft) {
+  std::vector<int> free;
+  for (std::size_t p = 0; p < draft.used.size(); ++p)
+    if (draft.used[p]) free.push_back(static_cast<int>(p));
+  return free;
+}
+
+MatrixXd whitened(const std::vector<MatrixXd>& column, const HealthyDay& day, const RowNoise& noise) {
+  const Eigen::Index rows = day.rows.rows();
+  MatrixXd out(rows * day.rows.joints(), column.front().cols());
+  for (int j = 0; j < day.rows.joints(); ++j)
+    out.middleRows(j * rows, rows) = whiten(column[j], day.std.col(j), noise.joint[j]);
+  return out;
+}
+
+VectorXd whitened(const MatrixXd& torque, const HealthyDay& day, const RowNoise& noise) {
+  const Eigen::Index rows = day.rows.rows();
+  VectorXd out(rows * torque.cols());
+  for (int j = 0; j < torque.cols(); ++j)
+    out.segment(j * rows, rows) = whiten(torque.col(j), day.std.col(j), noise.joint[j]);
+  return out;
+}
+
+std::vector<DayBlock> day_blocks(const DayDraft& draft, const std::vector<int>& free,
+                                 const VectorXd& between) {
+  std::vector<DayBlock> out;
+  for (const HealthyDay& day : draft.days) {
+    const RowNoise& noise = draft.model.noise;
+    const MatrixXd y = whitened(day.rows.column, day, noise)(Eigen::all, free);
+    const MatrixXd w = whitened(day.day_column, day, noise);
+    const VectorXd r = whitened(day.rows.torque - day.piece, day, noise);
+    const Eigen::Index robot = y.cols(), effects = w.cols();
+    NormalEquations sums{MatrixXd::Zero(robot + effects, robot + effects), VectorXd(robot + effects)};
+    sums.matrix.topLeftCorner(robot, robot) = y.transpose() * y;
+    sums.matrix.bottomLeftCorner(effects, robot) = w.transpose() * y;
+    sums.matrix.bottomRightCorner(effects, effects) = w.transpose() * w;
+    sums.vector << y.transpose() * r, w.transpose() * r;
+    out.push_back(day_block(sums, between));
+  }
+  return out;
+}
+
+/// Parameters of the robot by all days but `left_out`.
+VectorXd theta_without(const std::vector<DayBlock>& blocks, const DayDraft& draft,
+                       const std::vector<int>& free, std::size_t left_out) {
+  const ColumnLayout layout = draft.model.layout();
+  auto [a, b, square, rows] = robot_sums(blocks, left_out);
+  for (Eigen::Index i = 0; i < b.size(); ++i)
+    if (free[i] >= layout.delay(0) && free[i] < layout.spring(0)) a(i, i) += 1.0 / (kDelayStd * kDelayStd);
+  a.diagonal() *= 1.0 + kTinyRidge;
+  a.diagonal().array() += kTiniest;
+  return a.ldlt().solve(b);
+}
+
+VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, const VectorXd& theta) {
+  VectorXd out = VectorXd::Zero(m.layout().count());
+  out(free) = theta;
+  return out;
+}
+
+/// The draft with the noise of its rows by what robot and days leave unexplained. `order`: of the
+/// autoregression.
+DayDraft with_noise(DayDraft draft, int order) {
+  BalanceModel& m = draft.model;
+  std::vector<LeftOver> left;
+  for (const HealthyDay& day : draft.days)
+    left.push_back({&day.rows, left_over(day, m.theta), {}, rows_near_change(day, m)});
+  m.noise = with_variance(left, m.setting, std::move(m.noise));
+  for (std::size_t d = 0; d < left.size(); ++d) {
+    HealthyDay& day = draft.days[d];
+    day.std = row_std(day.rows, m.setting, m.noise, VectorXd::Ones(m.joints()));
+    for (int k = 0; k < day.rows.rows() && m.piece_kg > 0.0; ++k)
+      if (left[d].not_counted[k])
+        day.std.row(k) =
+            (day.std.row(k).array().square() + Eigen::numext::abs2(m.piece_kg * kPieceForce)).sqrt();
+    left[d].std = day.std;
+  }
+  m.noise = with_filter(left, order, std::move(m.noise));
+  return draft;
+}
+
+/// Robot and effects of all days together: the robot's parameters free, the effects random.
+struct MixedEffects {
+  DayDraft draft;           ///< with parameters and effects
+  Eigen::VectorXd moments;  ///< second moments of the effects about their mean, their doubt included
+};
+
+/// Best linear unbiased prediction (equation (7) of docs/how-it-works.md; Henderson 1950), given the variance
+/// `between` the days. The normal matrix is an arrow: the robot, and a block for each day, which is
+/// eliminated.
+MixedEffects fit_mixed_effects(DayDraft draft, const VectorXd& between) {
+  const std::vector<int> free = free_columns(draft);
+  const std::vector<DayBlock> blocks = day_blocks(draft, free, between);
+  const VectorXd theta = theta_without(blocks, draft, free, kNoDay);
+  const EffectMoments moments = effect_moments(blocks, theta);
+  draft.model.theta = all_parameters(draft.model, free, theta);
+  for (std::size_t d = 0; d < blocks.size(); ++d)
+    draft.days[d].effect = blocks[d].effect(theta) - moments.mean;
+  return {std::move(draft), moments.about_mean()};
+}
+
+/// The robot as all days but one show it, noise and what is not linear as by all.
+struct RobotWithoutDay {
+  Eigen::VectorXd theta;
+  Eigen::VectorXd moments;  ///< as MixedEffects has them
+};
+
+/// One for each day, from the same normal equations.
+std::vector<RobotWithoutDay> fit_without_each_day(const DayDraft& draft, const VectorXd& between) {
+  const std::vector<int> free = free_columns(draft);
+  const std::vector<DayBlock> blocks = day_blocks(draft, free, between);
+  std::vector<RobotWithoutDay> out;
+  for (std::size_t d = 0; d < blocks.size(); ++d) {
+    const VectorXd theta = theta_without(blocks, draft, free, d);
+    out.push_back({all_parameters(draft.model, free, theta), effect_moments(blocks, theta, d).about_mean()});
+  }
+  return out;
+}
+
+Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
+  const DayLayout day = day_layout(model.rigid);
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(day.count(), std.inertia * std.inertia);
+  out[day.delay()] = std.delay * std.delay;
+  for (int j = 0; j < model.joints(); ++j) {
+    const double offset = std.offset * model.torque_rms[j];
+    out[day.friction(j)] = std.friction * std.friction;
+    out[day.friction_slope(j)] = std.slope * std.slope;
+    out[day.gain(j)] = std.gain * std.gain;
+    out[day.offset(j)] = offset * offset;
+    out[day.friction_width(j)] = std.width * std.width;
+  }
+  return out;
+}
+
+/// Gain and offset of a slide that gravity pulls along look like a mass: they are no effects of their own.
+Eigen::VectorXd without_doubles(const BalanceModel& model, Eigen::VectorXd variance) {
+  const DayLayout day = day_layout(model.rigid);
+  for (int j = 0; j < model.joints(); ++j)
+    if (carries_weight(model.rigid, j)) variance[day.gain(j)] = variance[day.offset(j)] = kNoEffect;
+  return variance;
+}
+
+/// Variance of the effects of a day (see DayLayout) before any day was looked at.
+Eigen::VectorXd first_day_variance(const BalanceModel& model) {
+  return without_doubles(model, variance_of(model, kFirst));
+}
+
+/// Variance between the days from the second moments of their effects: at least what a few days cannot show,
+/// and none where an effect cannot be told from another.
+Eigen::VectorXd variance_between_days(const BalanceModel& model, const Eigen::VectorXd& moments) {
+  return without_doubles(model, moments.cwiseMax(variance_of(model, kLeast)));
+}
+
+/// Prior of a day that was never seen: twice the variance between the days, and what few days cannot show.
+Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd& between) {
+  return without_doubles(model, kUnseenDays * between + variance_of(model, kUnseen));
 }
 
 }  // namespace

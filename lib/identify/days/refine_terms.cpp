@@ -4,9 +4,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
+#include "lib/balance/noise.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/identify/days/ripple_search.hpp"
 
 namespace faultline {
 namespace {
@@ -18,6 +20,9 @@ using Eigen::VectorXd;
 constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
 constexpr double kClearSpring = 20.0;  // nats, of rows that are not quite independent
 constexpr double kWidthRidge = 1e-12;  // for joints that rest
+
+constexpr double kLeastExplained = 0.05;  // of the squares left over: a ripple that explains less is none
+constexpr double kCut = 4.0;              // standard deviations
 
 /// Rows of a day that say what friction there is.
 std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) {
@@ -56,6 +61,68 @@ double left_with(const DayDraft& draft, int j, const RowSetting& setting) {
 double lowest_of_parabola(const std::array<double, 3>& x, const std::array<double, 3>& y) {
   const double a = (x[1] - x[0]) * (y[1] - y[2]), b = (x[1] - x[2]) * (y[1] - y[0]);
   return a == b ? x[1] : x[1] - 0.5 * ((x[1] - x[0]) * a - (x[1] - x[2]) * b) / (a - b);
+}
+
+/// What is left of one joint in the rows that count.
+struct Column {
+  std::vector<double> q, dq, torque, left;
+};
+
+Column column_of(const std::vector<LeftOver>& logs, int j) {
+  Column out;
+  for (const LeftOver& log : logs)
+    for (int k = 0; k < log.rows->rows(); ++k) {
+      if (log.rows->lost[k] || (!log.not_counted.empty() && log.not_counted[k])) continue;
+      out.q.push_back(log.rows->q(k, j));
+      out.dq.push_back(log.rows->dq(k, j));
+      out.torque.push_back(log.rows->torque(k, j));
+      out.left.push_back(log.torque(k, j));
+    }
+  return out;
+}
+
+/// Mean zero, and no value beyond kCut standard deviations.
+void centre_and_cut(std::vector<double>& values) {
+  Eigen::Map<Eigen::ArrayXd> v(values.data(), static_cast<Eigen::Index>(values.size()));
+  v -= v.mean();
+  const double most = kCut * std::sqrt(v.square().mean());
+  v = v.max(-most).min(most);
+}
+
+/// Square that a ripple of this rate explains; the kernel weakens fast ones.
+double explained(const Column& c, double rate, double kernel_s) {
+  Eigen::Matrix4d a = 1e-6 * Eigen::Matrix4d::Identity();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  for (std::size_t k = 0; k < c.q.size(); ++k) {
+    const double slow = rate * c.dq[k] * kernel_s, gain = elementary::exp(-0.5 * slow * slow);
+    const auto [s, co] = elementary::sin_cos(rate * c.q[k]);
+    const Eigen::Vector4d x(gain * s * c.torque[k], gain * co * c.torque[k], gain * s, gain * co);
+    a += x * x.transpose();
+    b += c.left[k] * x;
+  }
+  return b.dot(a.ldlt().solve(b));
+}
+
+/// Torques that repeat with a joint's position: the rate of each joint whose sine and cosine, alone and times
+/// the torque, explain more than a twentieth of what is left of it. `range` is that of each joint.
+std::vector<RippleRate> find_ripples_in_rows(const std::vector<LeftOver>& logs, const RowSetting& setting,
+                                             const Eigen::VectorXd& range) {
+  std::vector<RippleRate> out;
+  for (int j = 0; j < setting.joints(); ++j) {
+    if (range[j] <= 0.0) continue;
+    Column column = column_of(logs, j);
+    if (column.left.empty()) continue;
+    centre_and_cut(column.left);
+    double all = 0.0;
+    for (const double v : column.left) all += v * v;
+    double most = 0.0, best = 0.0;
+    for (double waves = 20.0; waves < 700.0; waves += 1.0) {
+      const double rate = waves / range[j], e = explained(column, rate, setting.kernel_s);
+      if (e > most) most = e, best = rate;
+    }
+    if (most > kLeastExplained * all) out.push_back({j, best});
+  }
+  return out;
 }
 
 }  // namespace

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/excitation/suggest_motion.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/random.hpp"
-#include "lib/identify/excitation/motion_moments.hpp"
+#include "lib/identify/excitation/excitation.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/identify/weak_form/weak_windows.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/simulate/motion.hpp"
 
 namespace faultline {
 namespace {
@@ -26,6 +32,11 @@ constexpr double kLeast_s = 20.0;              // of the motion: whole periods, 
 constexpr double kSlowestSample_s = 0.005;     // a log that slow or slower is suggested at this period
 constexpr double kLook_s = 0.01;               // steps at which speed and torque are looked at
 constexpr std::uint64_t kSeedsApart = 100000;  // candidates of one seed are no candidates of the next
+
+constexpr double kStep_s = 0.02;       // between samples of a motion, whose fastest harmonic lasts 0.7 s
+constexpr double kWindow_s = 0.16;     // as long as the windows that judge the terms of logs (kYardstick_s)
+constexpr int kManyWindows = 1 << 20;  // none is dropped
+constexpr double kRank = 1e-13;        // of the largest eigenvalue
 
 struct Candidate {
   std::uint64_t seed = 0;
@@ -76,6 +87,63 @@ void set_ranges(const std::vector<SuggestedJoint>& joints, const Eigen::VectorXd
     motion.low.push_back(middle - half);
     motion.high.push_back(middle + half);
   }
+}
+
+Stretch stretch_of(const Motion& reference, int joints, double duration_s) {
+  const int rows = static_cast<int>(std::lround(duration_s / kStep_s)) + 1;
+  Stretch s;
+  s.period_s = kStep_s;
+  s.time.resize(rows);
+  s.q_smooth.resize(joints, rows);
+  s.dq_smooth.resize(joints, rows);
+  s.tau.setZero(joints, rows);
+  s.outlier.setZero(2 * joints, rows);
+  Reference at;
+  for (int k = 0; k < rows; ++k) {
+    s.time[k] = k * kStep_s;
+    reference.at(s.time[k], at);
+    s.q_smooth.col(k) = at.q;
+    s.dq_smooth.col(k) = at.dq;
+  }
+  s.q = s.q_smooth;
+  s.dq = s.dq_smooth;
+  return s;
+}
+
+/// Row of joint `j` in all linear parameters of the space but the offsets and the timing.
+Eigen::RowVectorXd row_of(const ParameterSpace& space, const WeakWindow& w, int j) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(space.linear());
+  row.head(space.rigid()) = w.base.row(j);
+  row[space.viscous(j)] = w.viscous[j];
+  row[space.coulomb(j)] = w.coulomb(j, kOwnWidth);
+  return row;
+}
+
+/// `Excitation::moments` as they would be if the logs were `duration_s` of that reference, in the columns and
+/// scales of `of`.
+Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of, const Motion& reference,
+                               double duration_s) {
+  const Stretch stretch = stretch_of(reference, space.joints(), duration_s);
+  WeakWindows windows(kWindow_s, kManyWindows);
+  windows.add(stretch, stretch_terms(space, stretch), ShiftRange{0, 0});
+  const auto count = static_cast<Eigen::Index>(of.columns.size());
+  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(count, count);
+  for (const WeakWindow& w : windows.all())
+    for (int j = 0; j < space.joints(); ++j) {
+      const Eigen::RowVectorXd row = row_of(space, w, j)(of.columns) / of.joint_scale[j];
+      moments += row.transpose() * row;
+    }
+  return moments / static_cast<double>(std::max<std::size_t>(windows.all().size(), 1));
+}
+
+/// Condition number of a motion's regressor, each column counted in its `unit`, so that a column that is
+/// hardly shown counts as badly as one that is hardly told from the others; infinite when one is not told at
+/// all.
+double condition_of(const Eigen::MatrixXd& moments, const Eigen::VectorXd& unit) {
+  const Eigen::VectorXd scale = unit.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
+  const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * moments * scale.asDiagonal());
+  const double least = values.minCoeff(), most = values.maxCoeff();
+  return least > kRank * most ? std::sqrt(most / least) : std::numeric_limits<double>::infinity();
 }
 
 /// Random harmonics over the allowed ranges, those of a joint that would be too fast made smaller.

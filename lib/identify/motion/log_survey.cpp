@@ -5,8 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
+#include <string>
+#include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
@@ -18,6 +23,14 @@ namespace {
 constexpr int kNoiseRows = 1000;       // in the middle of a stretch: enough to estimate a joint's noise
 constexpr double kFewRepeats = 0.005;  // of the rows in motion: less changes nothing
 constexpr double kCaughtUp = 1.5;      // usual steps after a repeated row: the motion went on meanwhile
+
+constexpr double kSame = 1e-9;        // of the value: the same number
+constexpr double kLimitShare = 0.04;  // of the rows at one value that nothing goes beyond
+
+constexpr double kAlike = 0.9;        // correlation above which both are one quantity
+constexpr double kFactorApart = 1.2;  // factor between them that no noise makes
+constexpr double kNear = 0.05;        // of a known factor, in its logarithm
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// Steps of q around the rows that repeat the one before, by the joint that moves most there.
 class RepeatCounter {
@@ -95,7 +108,94 @@ void leave_out_repeats(JointMotion& m) {
     }
 }
 
+bool is_near(double factor, double known) {
+  return std::abs(elementary::log(std::abs(factor) / known)) < kNear;
+}
+
+/// `motion` must have a velocity.
+DerivativeAgreement velocity_agreement(const JointMotion& motion) {
+  JointMotion alone = motion;
+  alone.dq.resize(0);
+  const Eigen::VectorXd derived = smooth_motion(alone, fit_motion_noise(alone)).dq;
+  double dd = 0.0, dm = 0.0, mm = 0.0;
+  for (int k = 0; k < motion.rows(); ++k) {
+    if (motion.dq_off[k]) continue;
+    dd += derived[k] * derived[k];
+    dm += derived[k] * motion.dq[k];
+    mm += motion.dq[k] * motion.dq[k];
+  }
+  if (dd <= 0.0 || mm <= 0.0) return {};
+  return {dm / dd, dm / std::sqrt(dd * mm)};
+}
+
+/// In words, such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees".
+std::string words(const DerivativeAgreement& agreement, int joint) {
+  const double factor = agreement.factor;
+  std::string guess = "one of them is in another unit";
+  if (is_near(factor, kDegreesPerRadian) || is_near(factor, 1.0 / kDegreesPerRadian))
+    guess = "one of them is in degrees";
+  if (is_near(factor, 1e3) || is_near(factor, 1e-3))
+    guess = "one of them is in mm, or the time in milliseconds";
+  if (factor < 0.0)
+    guess = is_near(factor, 1.0) ? "one of them has the other sign" : guess + " and the other sign";
+  return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint, factor,
+                     guess);
+}
+
+std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
+
 }  // namespace
+
+bool DerivativeAgreement::disagrees() const {
+  return std::abs(correlation) > kAlike &&
+         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
+}
+
+/// For the larger of two values; the smaller ones are seen with the other sign.
+void TorqueLimits::Extreme::see(double v) {
+  const double margin = kSame * std::max(std::abs(v), std::abs(value));
+  if (rows > 0 && v < value - margin) return;
+  if (rows == 0 || v > value + margin) {
+    value = v;
+    rows = 0;
+  }
+  ++rows;
+}
+
+void TorqueLimits::add(const RawStretch& s) {
+  high_.resize(s.joints());
+  low_.resize(s.joints());
+  rows_ += s.rows();
+  for (int j = 0; j < s.joints(); ++j)
+    for (int k = 0; k < s.rows(); ++k) {
+      high_[j].see(s.tau(j, k));
+      low_[j].see(-s.tau(j, k));
+    }
+}
+
+Issues TorqueLimits::issues() const {
+  Issues out;
+  for (std::size_t j = 0; j < high_.size(); ++j) {
+    const int joint = static_cast<int>(j);
+    if (high_[j].value == -low_[j].value) {
+      out.add(make_issue("constant_torque", Severity::warning,
+                         fmt::format("tau{} never changes: is it the right column?", joint + 1),
+                         channel(joint)));
+      continue;
+    }
+    for (const auto& [extreme, sign] : {std::pair{high_[j], 1.0}, std::pair{low_[j], -1.0}})
+      if (static_cast<double>(extreme.rows) > kLimitShare * static_cast<double>(rows_) &&
+          extreme.value != 0.0)
+        out.add(
+            make_issue("torque_limit", Severity::warning,
+                       fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque "
+                                   "cut off by the drive or by the log is not what moved the robot",
+                                   joint + 1, sign * extreme.value,
+                                   100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
+                       channel(joint)));
+  }
+  return out;
+}
 
 LogSurvey survey_log(LogSource& source, int joints) {
   LogSurvey survey;

@@ -7,11 +7,36 @@
 #include "lib/core/issue.hpp"
 #include "lib/identify/motion/motion_smoother.hpp"
 #include "lib/identify/motion/raw_stretch.hpp"
-#include "lib/identify/motion/torque_limits.hpp"
-#include "lib/identify/motion/velocity_agreement.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
+
+/// How the measured velocity of a joint goes with the derivative of its position.
+struct DerivativeAgreement {
+  double factor = 1.0;       ///< measured over derived, by least squares
+  double correlation = 1.0;  ///< of both
+
+  /// They are the same quantity in different units or with different signs.
+  bool disagrees() const;
+};
+
+/// Counts how often each joint's torque stands at its largest and smallest value.
+class TorqueLimits {
+ public:
+  void add(const RawStretch& stretch);
+  /// Joints whose torque never changes, and those that stand at a limit for a good part of the log: what was
+  /// asked for beyond it is not what moved the robot.
+  Issues issues() const;
+
+ private:
+  struct Extreme {
+    double value = 0.0;
+    long rows = 0;
+    void see(double v);
+  };
+  std::vector<Extreme> high_, low_;
+  long rows_ = 0;
+};
 
 /// What has to be known of a log before its motion can be smoothed.
 struct LogSurvey {

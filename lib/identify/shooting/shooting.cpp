@@ -8,15 +8,91 @@
 #include <cmath>
 #include <memory>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/identify/shooting/shooting_costs.hpp"
-#include "lib/identify/shooting/shooting_covariance.hpp"
+#include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/shooting/shooting_evaluation.hpp"
+#include "lib/identify/shooting/trailing_covariance.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr double kShootingSettled = 0.03;  ///< relative change of a noise level below which rounds end
+
+constexpr double kFreeBlocks = 0.5;  // share of the blocks that at least counts as free
+constexpr double kWhite =
+    1.5;  // mean ratio of the sandwich's variances to the white ones: chance, not correlation
+
+/// Hands Ceres what the evaluation has prepared.
+class ExcerptCost : public ceres::CostFunction {
+ public:
+  ExcerptCost(const ShootingEvaluation& evaluation, int excerpt, int states, int free)
+      : evaluation_(evaluation), excerpt_(excerpt) {
+    set_num_residuals(evaluation.rows());
+    mutable_parameter_block_sizes()->push_back(states);
+    mutable_parameter_block_sizes()->push_back(free);
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    const ReducedExcerpt& r = evaluation_.reduced[excerpt_];
+    std::copy_n(r.residual.data(), r.residual.size(), residuals);
+    if (!jacobians) return true;
+    if (jacobians[0]) std::copy_n(r.by_state.data(), r.by_state.size(), jacobians[0]);
+    if (jacobians[1]) std::copy_n(r.by_parameter.data(), r.by_parameter.size(), jacobians[1]);
+    return true;
+  }
+
+ private:
+  const ShootingEvaluation& evaluation_;
+  int excerpt_;
+};
+
+class PriorCost : public ceres::CostFunction {
+ public:
+  PriorCost(int index, double value, double std, int free) : index_(index), value_(value), std_(std) {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->push_back(free);
+  }
+
+  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
+    residual[0] = (x[0][index_] - value_) / std_;
+    if (!jacobians || !jacobians[0]) return true;
+    std::fill_n(jacobians[0], parameter_block_sizes()[0], 0.0);
+    jacobians[0][index_] = 1.0 / std_;
+    return true;
+  }
+
+ private:
+  int index_;
+  double value_, std_;
+};
+
+/// Adds to `costs` what every excerpt and every prior costs, and the bounds of the parameters.
+void add_costs(const ShootingProblem& problem, ShootingEvaluation& evaluation, ceres::Problem& costs) {
+  const ParameterSpace& space = problem.space;
+  const std::vector<int>& free = problem.free;
+  double* parameters = evaluation.values();
+  const int count = static_cast<int>(free.size());
+  for (std::size_t i = 0; i < evaluation.count(); ++i)
+    costs.AddResidualBlock(new ExcerptCost(evaluation, static_cast<int>(i), 2 * space.joints(), count),
+                           nullptr, evaluation.state(i), parameters);
+  const auto index_of = [&](int p) {
+    const auto it = std::find(free.begin(), free.end(), p);
+    return it == free.end() ? -1 : static_cast<int>(it - free.begin());
+  };
+  for (const auto& prior : problem.priors)
+    if (const int k = index_of(prior.parameter); k >= 0)
+      costs.AddResidualBlock(new PriorCost(k, prior.value, prior.std, count), nullptr, parameters);
+  if (const int k = index_of(space.timing()); k >= 0) {
+    costs.SetParameterLowerBound(parameters, k, -1.0);
+    costs.SetParameterUpperBound(parameters, k, 2.0);
+  }
+  for (int j = 0; j < space.joints(); ++j)
+    if (const int k = index_of(space.log_width(j)); k >= 0) {
+      costs.SetParameterLowerBound(parameters, k, elementary::log(evaluation.narrowest_width(j)));
+      costs.SetParameterUpperBound(parameters, k, elementary::log(0.5));
+    }
+}
 
 ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evaluation, int max_iterations,
                              bool last) {
@@ -79,6 +155,62 @@ Eigen::VectorXd neighbour_correlation(const std::vector<Eigen::MatrixXd>& residu
           square[c] += 0.5 * (r(c, k) * r(c, k) + r(c, k - 1) * r(c, k - 1));
         }
   return product.cwiseQuotient(square);
+}
+
+double total_s(const std::vector<Excerpt>& excerpts) {
+  double sum = 0.0;
+  for (const Excerpt& e : excerpts) sum += e.time[e.rows() - 1] - e.time[0];
+  return sum;
+}
+
+/// Covariance of the free parameters when the residuals are white, by Ceres; false when it is singular.
+bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
+  ceres::Problem::EvaluateOptions options;
+  options.num_threads = 1;
+  for (std::size_t i = 0; i < evaluation.count(); ++i)
+    options.parameter_blocks.push_back(evaluation.state(i));
+  options.parameter_blocks.push_back(evaluation.values());
+  ceres::CRSMatrix jacobian;
+  if (!costs.Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return false;
+  return trailing_covariance(jacobian, jacobian.num_cols - evaluation.free(), out);
+}
+
+/// Sandwich over blocks of about a second: what the residuals' own correlation says of the spread.
+Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
+                         const Eigen::MatrixXd& white) {
+  const Eigen::Index m = white.rows();
+  const double block_s = residual_block_s(total_s(excerpts), static_cast<double>(m));
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(m, m);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
+  double blocks = 0.0;
+  for (std::size_t i = 0; i < excerpts.size(); ++i) {
+    // At the optimum an excerpt's gradient with respect to its own start is zero: what is left is of the
+    // parameters alone.
+    g += evaluation.reduced[i].by_parameter.transpose() * evaluation.reduced[i].residual;
+    const bool ends =
+        i + 1 == excerpts.size() || excerpts[i + 1].log != excerpts[i].log ||
+        std::floor(excerpts[i + 1].time[0] / block_s) != std::floor(excerpts[i].time[0] / block_s);
+    if (!ends) continue;
+    meat += g * g.transpose();
+    g.setZero();
+    blocks += 1.0;
+  }
+  const double correction = blocks / std::max({1.0, blocks - static_cast<double>(m), kFreeBlocks * blocks});
+  return correction * white * meat * white;
+}
+
+/// The white covariance with every std at least that of the sandwich; `widened` is the largest factor.
+Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(white.rows());
+  const double mean = robust.diagonal().cwiseQuotient(white.diagonal().cwiseMax(1e-300)).mean();
+  if (mean < kWhite) {
+    widened = std::sqrt(std::max(1.0, mean));
+    return widened * widened * white;
+  }
+  for (Eigen::Index k = 0; k < white.rows(); ++k)
+    factor[k] = white(k, k) > 0.0 ? std::sqrt(std::max(1.0, robust(k, k) / white(k, k))) : 1.0;
+  widened = factor.maxCoeff();
+  return factor.asDiagonal() * white * factor.asDiagonal();
 }
 
 /// Covariance of all parameters of the space, zero for those not free.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/weak_form/stretch_terms.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/robot/dynamics.hpp"
+#include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
 namespace {
@@ -69,6 +73,151 @@ void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& 
   }
   mean.force /= pieces;
   mean.coulomb /= pieces;
+}
+
+bool has(const ParameterSpace& space, ExtraKind kind) {
+  return std::any_of(space.extra.begin(), space.extra.end(),
+                     [kind](const ExtraTerm& term) { return term.kind == kind; });
+}
+
+/// A stretch with what the columns of extra terms share.
+class Columns {
+ public:
+  Columns(const ParameterSpace& space, const Stretch& stretch, const ExtraSetting& setting)
+      : space_(space), s_(stretch), setting_(setting), chain_(chain_of(space, setting)), dynamics_(chain_) {}
+
+  /// (joints x terms) x samples.
+  Eigen::MatrixXd all() const {
+    const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n * terms, s_.rows() - 1);
+    const Eigen::MatrixXd carried =
+        has(space_, ExtraKind::load_friction) ? carried_torque() : Eigen::MatrixXd();
+    for (Eigen::Index i = 0; i < terms; ++i) {
+      const ExtraTerm& term = space_.extra[i];
+      Rows rows = out.middleRows(i * n, n);
+      if (term.kind == ExtraKind::load_friction)
+        add_load(term.joint, carried.row(term.joint), rows);
+      else if (is_of_shared_drive(term.kind))
+        add_shared(term, rows);
+      else if (is_ripple(term.kind))
+        add_ripple(term, rows);
+    }
+    if (has(space_, ExtraKind::gear_compliance)) add_compliances(out);
+    return out;
+  }
+
+ private:
+  using Rows = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+  /// The chain without extra torques: the setting may know nothing of them.
+  static Chain<double> chain_of(const ParameterSpace& space, const ExtraSetting& setting) {
+    ParameterSpace plain = space;
+    plain.extra.clear();
+    if (setting.parameters.size() == 0) return plain.chain;
+    Eigen::VectorXd p(plain.count());
+    p << setting.parameters.head(plain.extra_begin()), setting.parameters.tail(1 + plain.joints());
+    return chain_from(plain, p);
+  }
+
+  double logged(int joint, int row) const { return s_.tau(joint, std::clamp(row, 0, s_.rows() - 1)); }
+  double step(int k) const { return s_.time[k + 1] - s_.time[k]; }
+
+  /// M ddq + h + G in the middle of each sample: joints x samples.
+  Eigen::MatrixXd carried_torque() const {
+    Eigen::MatrixXd out(space_.joints(), s_.rows() - 1);
+    for (int k = 0; k < out.cols(); ++k) {
+      const JointVector<double> q = 0.5 * (s_.q_smooth.col(k) + s_.q_smooth.col(k + 1)),
+                                dq = 0.5 * (s_.dq_smooth.col(k) + s_.dq_smooth.col(k + 1)),
+                                ddq = (s_.dq_smooth.col(k + 1) - s_.dq_smooth.col(k)) / step(k);
+      out.col(k) = dynamics_.body_torque(q, dq, ddq);
+    }
+    return out;
+  }
+
+  void add_load(int j, const Eigen::RowVectorXd& carried, Rows out) const {
+    const double width = chain_.friction[j].width;
+    double before = elementary::tanh(s_.dq_smooth(j, 0) / width);
+    for (int k = 0; k < out.cols(); ++k) {
+      const double after = elementary::tanh(s_.dq_smooth(j, k + 1) / width);
+      out(j, k) = step(k) * std::abs(carried[k]) * 0.5 * (before + after);
+      before = after;
+    }
+  }
+
+  void add_shared(const ExtraTerm& term, Rows out) const {
+    const SharedDrive& f = space_.chain.shared_drives[term.index];
+    for (int k = 0; k < out.cols(); ++k) {
+      const double from = f.speed(s_.dq_smooth.col(k).data()), to = f.speed(s_.dq_smooth.col(k + 1).data());
+      if (term.kind == ExtraKind::shared_inertia) {
+        out.col(k) = (to - from) * f.along;
+        continue;
+      }
+      const double mean = term.kind == ExtraKind::shared_viscous
+                              ? 0.5 * (from + to)
+                              : 0.5 * (elementary::tanh(from / f.width) + elementary::tanh(to / f.width));
+      out.col(k) = step(k) * mean * f.along;
+    }
+  }
+
+  /// Integrated over a sample at constant velocity.
+  void add_ripple(const ExtraTerm& term, Rows out) const {
+    const double rate = space_.chain.ripples[term.index].rate;
+    for (int k = 0; k < out.cols(); ++k) {
+      const double from = rate * s_.q_smooth(term.joint, k), to = rate * s_.q_smooth(term.joint, k + 1);
+      const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+      const double share = std::abs(half) > 1e-6 ? elementary::sin(half) / half : 1.0;
+      out(term.joint, k) =
+          step(k) * share *
+          (term.kind == ExtraKind::ripple_cosine ? elementary::cos(middle) : elementary::sin(middle));
+    }
+  }
+
+  /// Torque in the gear of joint `j` over sample `k`: what the drive's own friction and rotor leave of its
+  /// torque.
+  double gear_torque(int j, int k) const {
+    const Friction<double>& f = chain_.friction[j];
+    const int shift = setting_.shift.empty() ? 0 : setting_.shift[j];
+    const double torque =
+        (1.0 - setting_.phi) * logged(j, k - shift) + setting_.phi * logged(j, k + 1 - shift);
+    const double from = s_.dq_smooth(j, k), to = s_.dq_smooth(j, k + 1), mean = 0.5 * (from + to);
+    return torque - f.viscous * mean - f.coulomb * elementary::tanh(mean / f.width) - f.offset -
+           chain_.rotor_inertia[j] * (to - from) / step(k);
+  }
+
+  /// The link lags its drive by compliance times the torque tau_g in the gear, so that its momentum is less
+  /// by M dtau_g/dt times the compliance.
+  void add_compliances(Eigen::MatrixXd& out) const {
+    const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
+    Eigen::MatrixXd before = Eigen::MatrixXd::Zero(n, n), after = before;  // a column for each gear
+    for (int k = 0; k + 1 < out.cols(); ++k) {
+      const JointVector<double> q = s_.q_smooth.col(k + 1);
+      const JointMatrix<double> inertia = inertia_matrix(chain_, q);
+      const double between = 0.5 * (step(k) + step(k + 1));
+      for (Eigen::Index i = 0; i < terms; ++i) {
+        const int j = space_.extra[i].joint;
+        if (space_.extra[i].kind != ExtraKind::gear_compliance) continue;
+        after.col(j) = inertia.col(j);
+        after(j, j) -= chain_.rotor_inertia[j];
+        after.col(j) *= (gear_torque(j, k + 1) - gear_torque(j, k)) / between;
+        if (k > 0) out.col(k).segment(i * n, n) = before.col(j) - after.col(j);
+      }
+      std::swap(before, after);
+    }
+  }
+
+  const ParameterSpace& space_;
+  const Stretch& s_;
+  const ExtraSetting& setting_;
+  Chain<double> chain_;
+  FastDynamics dynamics_;
+};
+
+/// What every sample of a stretch adds to the momentum balance, one column a sample: (joints x extra terms)
+/// rows, term after term. Torques that the shift takes from beyond the stretch are those at its ends.
+Eigen::MatrixXd extra_columns(const ParameterSpace& space, const Stretch& stretch,
+                              const ExtraSetting& setting) {
+  if (space.extra.empty()) return Eigen::MatrixXd(0, stretch.rows() - 1);
+  return Columns(space, stretch, setting).all();
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
-#include "lib/identify/extra/extra_columns.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/identify/parameter_space.hpp"
 
@@ -15,6 +15,13 @@ inline constexpr int kWidths = 12;
 inline constexpr int kCoulombWidths = 9;  ///< of Coulomb friction: the first, up to 10 times the robot's own
 inline constexpr int kOwnWidth = 4;       ///< the robot's own
 double weak_width(const ParameterSpace& space, int joint, int k);
+
+/// What the columns of extra terms are worked out with: what is known of the robot before they are fitted.
+struct ExtraSetting {
+  std::vector<int> shift;      ///< by joint: samples by which its torque acts later than logged; empty: 0
+  double phi = 0.5;            ///< of the torque between samples
+  Eigen::VectorXd parameters;  ///< of the space, whatever its extra terms; empty: those of its chain
+};
 
 /// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample
 /// (from row k to row k + 1), joint after joint within a group of rows.

@@ -5,10 +5,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace faultline {
 namespace {
+
+constexpr double kShortestHold_s = 0.25;             // as of a recorder that stands still as a whole
+constexpr double kShortestTorque_s = 0.5;            // a coarse torque may stay as it is for a while
+constexpr int kFewestHeld = 4, kFewestTorques = 10;  // rows, at slow rates
+constexpr double kLongerThanBefore = 4.0;            // times the longest hold that was none
+constexpr double kApart = 0.01;                      // rad or m between position and velocity
+constexpr double kLeastDrift = 0.02;                 // of the same a second: less is a velocity that is off
+constexpr double kChanging = 0.1;                    // rad/s or m/s: no torque stays the same for that
+constexpr int kFewestJoints = 2;                     // the sensor of one may be faulty
+constexpr std::int64_t kMostHeld = 4096;             // rows that wait at most
+constexpr std::int64_t kFewestTorqueChanges = 20;    // torques that never change are another matter
+
+const JointSignals& group_of(const Log& rows, int group) {
+  if (group == static_cast<int>(ColumnGroup::positions)) return rows.q;
+  return group == static_cast<int>(ColumnGroup::velocities) ? rows.dq : rows.tau;
+}
+
+void take_row(const JointSignals& signals, int at, std::vector<double>& values) {
+  values.resize(signals.size());
+  for (std::size_t j = 0; j < signals.size(); ++j) values[j] = signals[j][at];
+}
+
+bool is_row(const JointSignals& signals, int at, const std::vector<double>& values) {
+  if (values.size() != signals.size()) return false;
+  for (std::size_t j = 0; j < signals.size(); ++j)
+    if (values[j] != signals[j][at]) return false;
+  return true;
+}
+
+double shortest_hold_s(int group) {
+  return group == static_cast<int>(ColumnGroup::torques) ? kShortestTorque_s : kShortestHold_s;
+}
 
 struct GroupWords {
   const char* code;
@@ -40,6 +73,73 @@ JointSignals& signals_of_group(Log& rows, ColumnGroup group) {
 }
 
 }  // namespace
+
+void StoppedColumns::begin(int group, const Log& rows, int at, std::int64_t number) {
+  Follow& of = follow_[group];
+  ColumnHold& hold = holds_[group];
+  if (t_ - of.since_s < shortest_hold_s(group)) of.usual_s = std::max(of.usual_s, t_ - of.since_s);
+  take_row(group_of(rows, group), at, of.last);
+  of.since_s = rows.time[at];
+  ++of.changes;
+  of.apart.assign(rows.q.size(), 0.0);
+  of.low.assign(rows.dq.size(), std::numeric_limits<double>::infinity());
+  of.high.assign(rows.dq.size(), -std::numeric_limits<double>::infinity());
+  hold = {.first_row = number};
+  hold.is_zero = std::all_of(of.last.begin(), of.last.end(), [](double value) { return value == 0.0; });
+}
+
+void StoppedColumns::go_on(int group, const Log& rows, int at) {
+  Follow& of = follow_[group];
+  const double step_s = rows.time[at] - t_;
+  for (std::size_t j = 0; j < rows.dq.size(); ++j) {
+    const double moved = rows.q[j][at] - q_[j], told = 0.5 * (rows.dq[j][at] + dq_[j]) * step_s;
+    if (std::isfinite(moved) && std::isfinite(told)) of.apart[j] += moved - told;
+    of.low[j] = std::fmin(of.low[j], rows.dq[j][at]);
+    of.high[j] = std::fmax(of.high[j], rows.dq[j][at]);
+  }
+}
+
+bool StoppedColumns::is_contradicted(int group, int joints) const {
+  const Follow& of = follow_[group];
+  const bool is_torque = group == static_cast<int>(ColumnGroup::torques);
+  const double least_apart = std::max(kApart, kLeastDrift * (t_ - of.since_s));
+  int contradict = 0;
+  for (int j = 0; j < joints; ++j)
+    contradict += is_torque ? of.high[j] - of.low[j] > kChanging : std::abs(of.apart[j]) > least_apart;
+  return contradict >= kFewestJoints && (!is_torque || of.changes >= kFewestTorqueChanges);
+}
+
+bool StoppedColumns::is_long(int group, double time_s) const {
+  const bool is_torque = group == static_cast<int>(ColumnGroup::torques);
+  const double least_s = std::max(shortest_hold_s(group), kLongerThanBefore * follow_[group].usual_s);
+  return holds_[group].repeats >= (is_torque ? kFewestTorques : kFewestHeld) &&
+         time_s - follow_[group].since_s >= least_s;
+}
+
+const std::array<ColumnHold, kColumnGroups>& StoppedColumns::take(const Log& rows, int at,
+                                                                  std::int64_t number) {
+  for (int group = 0; group < kColumnGroups; ++group) {
+    ColumnHold& hold = holds_[group];
+    const JointSignals& signals = group_of(rows, group);
+    const bool is_told = !signals.empty() && !rows.dq.empty();
+    if (!is_told || !is_row(signals, at, follow_[group].last)) {
+      begin(group, rows, at, number);
+      hold.decided = !is_told;
+      continue;
+    }
+    ++hold.repeats;
+    if (hold.decided) continue;
+    go_on(group, rows, at);
+    if (is_long(group, rows.time[at]) && is_contradicted(group, static_cast<int>(rows.q.size())))
+      hold.stopped = hold.decided = true;
+    else
+      hold.decided = hold.repeats > kMostHeld;
+  }
+  take_row(rows.q, at, q_);
+  take_row(rows.dq, at, dq_);
+  t_ = rows.time[at];
+  return holds_;
+}
 
 void StoppedColumnsSource::rewind() {
   source_->rewind();

@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-
-#include "lib/plausibility/checkup/value_step.hpp"
+#include <vector>
 
 namespace faultline {
 
@@ -16,6 +15,18 @@ struct SameValue {
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double length_s = 0.0;
   double moved = 0.0;  ///< how far the joint moved meanwhile, told by another channel, rad or m
+};
+
+/// The step in which a channel's values lie, as that of an encoder or of a printed decimal, from the first
+/// few thousand changes of the value.
+class ValueStep {
+ public:
+  void add_change(double change);
+  /// Nullopt when the changes are no multiples of one step, or too few.
+  std::optional<double> result() const;
+
+ private:
+  std::vector<double> changes_;  ///< sizes
 };
 
 /// How one channel goes through its values, over the whole log.

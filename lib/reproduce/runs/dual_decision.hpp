@@ -2,16 +2,44 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
+#include "lib/classify/sample_classifier.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
-#include "lib/reproduce/runs/network_sums.hpp"
 #include "lib/reproduce/runs/sample_detector.hpp"
 
 namespace faultline {
 
 // The paper's second approach (figure 2): both networks, and a case-based decision where they disagree.
+
+/// What one network has summed up of its log odds against fault-free.
+struct NetworkSum {
+  Eigen::VectorXd sum;  ///< of each fault, nats
+  int output = 0;       ///< the fault with the largest
+  double best = 0.0;    ///< that largest sum
+  double last = 0.0;    ///< what the last sample added to it
+};
+
+/// A sample at which one of the networks suspects a fault: an episode before it is decided.
+struct Suspicion {
+  double time_s = 0.0;
+  int samples = 0;  ///< since both networks' sums were zero
+  NetworkSum mlp, rbfn;
+
+  double largest() const;
+};
+
+/// The samples at which a network's sum is at least `least` nats, in order of time.
+std::vector<Suspicion> suspicions_of(const SampleClassifier& classifier, const SampleOutputs& outputs,
+                                     double sample_cap, double least);
+
+std::vector<std::string> suspicion_feature_names(int faults);
+/// As case-based reasoning compares it. A network's opinion is its fault where its sum reaches `threshold`,
+/// else `none`.
+Episode episode_of(const Suspicion& suspicion, const std::vector<FaultLabel>& classes, double threshold);
 
 /// Cases of suspicions of known truth in these runs: of each faulty run the first few after its onset, and
 /// false ones in between, at most `most_false` of all runs.

@@ -45,7 +45,7 @@ void check_urdf_size(std::uintmax_t bytes, const std::string& file);
 
 /// Throws Error(input) naming file, line and element when the text is no URDF that can be understood: broken
 /// XML, missing attributes, numbers that are none, unknown links, names given twice. Whether links and joints
-/// make a robot is judged by serial_chain().
+/// make a robot is judged by robot_from_urdf().
 UrdfModel parse_urdf(const std::string& text, const std::string& file);
 
 }  // namespace faultline

@@ -3,15 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lib/core/markup.hpp"
+#include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/core/version.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/head.hpp"
-#include "lib/report/html/identification/identification_tables.hpp"
-#include "lib/report/html/identification/trend_figures.hpp"
+#include "lib/report/html/identification/torque_figures.hpp"
 #include "lib/report/html/still_figures.hpp"
 #include "lib/report/identification_text.hpp"
+#include "lib/robot/axis_units.hpp"
 
 namespace faultline {
 namespace {
@@ -46,6 +49,162 @@ std::string top(const Identification& id) {
 
 std::string part(const char* id, const char* title, const std::string& content) {
   return content.empty() ? "" : fmt::format("<h2 id=\"{}\">{}</h2>\n{}", id, title, content);
+}
+
+std::string share_cell(double share) { return std::isfinite(share) ? percent_text(share) : "-"; }
+
+std::string r2_text(double r2) { return std::isfinite(r2) ? fmt::format("{:.4f}", r2) : "-"; }
+
+double nth(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : std::nan("");
+}
+
+std::string chance_text(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p); }
+
+std::string parameter_table(const char* title, const std::vector<ParameterEstimate>& list) {
+  std::vector<HtmlRow> rows;
+  for (const ParameterEstimate& e : list) {
+    if (!e.identifiable) {
+      rows.push_back({e.name, "-", "", e.unit, "not identifiable: " + e.why_not});
+      continue;
+    }
+    const std::string interval =
+        e.std > 0.0 ? fmt::format("{} to {}", fact_text(e.ci95[0]), fact_text(e.ci95[1])) : "given";
+    rows.push_back({e.name, fact_text(e.value), interval, e.unit, e.meaning == e.name ? "" : e.meaning});
+  }
+  return html_table(FactTable{title, {"parameter", "value", "95 % interval", "unit", "meaning"}, rows});
+}
+
+std::string term_table(const Identification& id) {
+  std::vector<HtmlRow> rows;
+  for (const ModelTerm& t : id.terms)
+    rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
+                    std::string("it ") + worth_words(t)});
+  return html_table(FactTable{"What the model was offered, and what it leaves of torque that was not fitted",
+                              {"term", "joint", "without it", "with it", "outcome"},
+                              rows});
+}
+
+std::string pattern_table(const Identification& id) {
+  std::vector<HtmlRow> rows;
+  for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
+    const ResidualPattern& p = id.residual_patterns[j];
+    rows.push_back({std::to_string(j + 1), share_cell(p.position), share_cell(p.speed), share_cell(p.torque),
+                    share_cell(p.previous)});
+  }
+  return html_table(FactTable{"What the torque left over repeats with, in shares of its variance",
+                              {"joint", "position", "speed", "torque", "its value a window before"},
+                              rows});
+}
+
+std::string parameter_tables(const Identification& id) {
+  return parameter_table("Base parameters and friction", id.base_parameters) +
+         parameter_table("Masses and lengths", id.physical_parameters);
+}
+
+std::string fit_tables(const Identification& id) {
+  std::vector<HtmlRow> rows;
+  for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {
+    const AxisKind kind = id.space.chain.geometry[j].kind;
+    rows.push_back(
+        {std::to_string(j + 1), r2_text(id.fit_r2[j]), r2_text(nth(id.held_out_r2, j)),
+         fact_text(nth(id.residual_rms, j), torque_unit(kind)),
+         fmt::format("{:.2g} ms", 1e3 * nth(id.torque_delay_s, j)),
+         fmt::format("{:.3g} {}", nth(id.q_noise, j), position_unit(kind)),
+         id.dq_noise.empty() ? "-" : fmt::format("{:.3g} {}", nth(id.dq_noise, j), velocity_unit(kind))});
+  }
+  return html_table({"joint", "R2", "R2 held out", "left over, rms", "torque is late by", "noise of q",
+                     "noise of dq"},
+                    rows, "Fit of each joint") +
+         term_table(id) + pattern_table(id);
+}
+
+std::string excitation_tables(const Identification& id) {
+  std::vector<HtmlRow> joints, parameters;
+  for (std::size_t j = 0; j < id.excitation.joints.size(); ++j) {
+    const JointExcitation& e = id.excitation.joints[j];
+    const AxisKind kind = id.space.chain.geometry[j].kind;
+    joints.push_back({std::to_string(j + 1),
+                      fmt::format("{:.3g} to {:.3g} {}", e.q_low, e.q_high, position_unit(kind)),
+                      fmt::format("{:.3g} {}", e.fastest_forward, velocity_unit(kind)),
+                      fmt::format("{:.3g} {}", e.fastest_back, velocity_unit(kind)), share_cell(e.forward),
+                      e.lacks.empty() ? "nothing" : e.lacks});
+  }
+  for (const ParameterExcitation& p : id.excitation.parameters)
+    parameters.push_back(
+        {p.name, std::isfinite(p.own) ? fmt::format("{:.2g}", p.own) : "not shown", p.mixed_with});
+  const std::string mixture = mixture_text(id.excitation);
+  return html_list(excitation_lines(id)) +
+         html_table({"joint", "position", "fastest forward", "fastest back", "time forward", "lacks"}, joints,
+                    "Motion of each joint") +
+         html_table(FactTable{
+             "Share of each parameter's effect on the torque that no combination of the others reproduces (1: all)",
+             {"parameter", "its own", "hardest to separate from"},
+             parameters}) +
+         (mixture.empty()
+              ? ""
+              : html_part("The mixture of parameters that is determined least", html_list({mixture})));
+}
+
+std::string trend_table(const Identification& id) {
+  std::vector<HtmlRow> rows;
+  HtmlRow head = {"parameter"};
+  for (std::size_t i = 0; i < id.logs.size(); ++i) head.push_back(fmt::format("log {}", i + 1));
+  for (const char* name : {"unit", "chance if the same", "a log", "chance if level", "remark"})
+    head.emplace_back(name);
+  for (const ParameterTrend& t : id.trends) {
+    HtmlRow row(id.logs.size() + 1, "-");
+    row[0] = t.name;
+    for (const LogValue& v : t.by_log)
+      row[static_cast<std::size_t>(v.log) + 1] =
+          fmt::format("{} ± {:.2g}", fact_text(v.value), v.ci95[1] - v.value);
+    row.insert(row.end(),
+               {t.unit, chance_text(t.p_same), fmt::format("{:+.3g}", t.slope), chance_text(t.p_level),
+                t.drifts    ? "drifts"
+                : t.differs ? "differs"
+                            : ""});
+    rows.push_back(std::move(row));
+  }
+  return html_table(head, rows, "From log to log");
+}
+
+std::string log_tables(const Identification& id) {
+  std::vector<HtmlRow> rows, issues;
+  for (std::size_t i = 0; i < id.logs.size(); ++i) {
+    const IdentifiedLog& log = id.logs[i];
+    std::string r2;
+    for (const double value : log.fit_r2) r2 += (r2.empty() ? "" : ", ") + r2_text(value);
+    rows.push_back({std::to_string(i + 1), printable(log.path), std::to_string(log.rows),
+                    std::to_string(log.rows_used), value_text(log.sample_period_s) + " s",
+                    r2.empty() ? "-" : r2, log.left_out ? "left out" : "", log.sha256});
+  }
+  for (const Issue& issue : id.issues.all())
+    issues.push_back({to_string(issue.severity), issue.code, std::to_string(issue.count), issue.message});
+  return html_table({"log", "path", "rows", "used", "period", "R2 by joint", "remark", "SHA-256"}, rows,
+                    "Logs") +
+         html_table(FactTable{"What was noticed", {"severity", "code", "times", "what"}, issues});
+}
+
+NamedPlot trend_figure(const ParameterTrend& trend, std::size_t logs) {
+  const double first = 0.5, last = static_cast<double>(logs) + 0.5;
+  PlotSeries values{.name = "each log alone", .x = {}, .y = {}, .points = true};
+  for (const LogValue& v : trend.by_log) {
+    values.x.push_back(v.log + 1.0);
+    values.y.push_back(v.value);
+    values.bar.push_back(0.5 * (v.ci95[1] - v.ci95[0]));
+  }
+  LinePlot plot = figure_plot(fmt::format("{} from log to log", trend.name), "log");
+  plot.panels = {{.y_label = trend.unit.empty() ? trend.name : fmt::format("{}, {}", trend.name, trend.unit),
+                  .series = {values, {.name = "mean", .x = {first, last}, .y = {trend.mean, trend.mean}}}}};
+  return {"trend-" + trend.name, plot};
+}
+
+/// The value of each flagged parameter in each log with its 95 % interval, and the mean of all.
+std::vector<NamedPlot> trend_figures(const Identification& id) {
+  std::vector<NamedPlot> plots;
+  for (const ParameterTrend& trend : id.trends)
+    if (trend.flagged()) plots.push_back(trend_figure(trend, id.logs.size()));
+  return plots;
 }
 
 }  // namespace
