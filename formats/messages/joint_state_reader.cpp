@@ -28,9 +28,9 @@ constexpr std::size_t kMostBlockValues = 1 << 20;
 /// rad or m. Two publishers that are closer report one position, as the codes of an encoder at rest may do in
 /// turn.
 constexpr double kApart = 1e-2;
-constexpr double kNear = 0.25;           ///< of the distance to the last row
-constexpr double kMostShare = 0.5;       ///< of the rows that may be those of two publishers in turn
-constexpr std::int64_t kLeastRows = 20;  ///< before that is told
+constexpr double kNear = 0.25;                 ///< of the distance to the last row
+constexpr double kMostShare = 0.5;             ///< of the rows that may be those of two publishers in turn
+constexpr std::int64_t kFewestJointRows = 20;  ///< before that is told
 
 double distance(const std::vector<double>& position, const std::vector<double>& other) {
   double largest = 0.0;
@@ -64,7 +64,8 @@ void AlternatingRows::add(const std::vector<double>& position) {
 }
 
 bool AlternatingRows::alternate() const {
-  return rows_ >= kLeastRows && static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
+  return rows_ >= kFewestJointRows &&
+         static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
 }
 
 /// How much later messages were received than their headers say.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/search.hpp"
@@ -20,17 +21,15 @@ using Eigen::VectorXd;
 
 // Onsets that stand out: of all kinds together; of these tried for each kind, and for a drift.
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
-constexpr double kMuchLess = 0.5;        // of a lost torque's excess over noise: a clipping drive leaves less
-constexpr double kStandsOut = 8.0;       // nats from which an onset stands out or an explanation counts,
-constexpr double kMayPass = 0.33;        // or share of the least limit: the search is not exact
+constexpr double kMuchLess = 0.5;  // of a lost torque's excess over noise: a clipping drive leaves less
+constexpr double kMayPass =
+    0.33;  // share of the least limit from which an explanation counts: the search is not exact
 constexpr std::size_t kJudgedFirst = 4;  // best candidates, judged before a log counts as quiet,
 constexpr double kHidden = 2.0;          // for these, times the least limit: some quiet windows pass it once
-constexpr double kWorthRefining = 5.0;   // nats from which a hypothesis is refined
 constexpr std::size_t kRefined = 5;      // best hypotheses that are refined, at most
 constexpr double kSameNoise = 0.1;       // of a variance: noises that differ by less are the same
 constexpr std::size_t kBeside = 5;       // best hypotheses beside which the noise is estimated anew
 constexpr int kRoundsOfNoise = 3;        // of the noise beside the best explanation
-constexpr double kMayWin = 0.3;          // of the best evidence so far: what has less is not refined
 
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
   std::vector<Candidate> out;

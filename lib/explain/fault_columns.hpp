@@ -65,9 +65,9 @@ Stacked stacked(const Eigen::MatrixXd& values);
 /// Rows that the begin or the end of a fault reaches: 1 there, 0 elsewhere.
 Eigen::VectorXd fault_edges(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
 
-/// Shares of a fault's torque that its columns lack of its true form: of any fault, of a blow, and at the
-/// begin or end of any.
-inline constexpr double kFormShare = 0.05, kShareOfBlow = 0.5, kEdgeShare = 0.5;
+/// Shares of a fault's torque that its columns lack of its true form, where that is not kFormShare: of a
+/// blow, and at the begin or end of any fault.
+inline constexpr double kShareOfBlow = 0.5, kEdgeShare = 0.5;
 
 /// That of a kind, away from begin and end.
 double form_share(FaultKind kind);

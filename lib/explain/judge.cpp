@@ -8,6 +8,7 @@
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/hypothesis.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
@@ -16,9 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kImpossible = 1e9;    // nats: price of a size that no fault of the kind has
 constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
-constexpr double kFreeLoss = 0.9;      // share of the torque from which a joint swings freely
 constexpr int kReadingRounds = 3;      // of the size of a false reading
 constexpr double kSettled = 0.05;      // share of the size: a round that changes less is the last
 constexpr double kHopeless = -5.0;     // nats: below, a false reading without a known size is given up
@@ -26,18 +25,13 @@ constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torq
 constexpr double kLeastClip = 0.04;  // of the greatest torque: a joint that gets less swings freely
 constexpr double kSurely = 4.0;      // standard deviations within which friction left may be negative
 
-constexpr double kDroppedCost = 1.2;  // nats for each row that does not count: an unknown force explains it
 constexpr int kSamplesBefore = 20;    // before an onset, that show whether the joint comes to rest
 constexpr double kComesToRest = 0.3;  // share of them that repeat a code where the joint comes to rest
 constexpr double kJolt = 3.0;         // of the joint's usual torque: that of a halt
-constexpr double kRepeated = 0.98;    // share of samples that repeat a code, of a stuck encoder at least
 constexpr double kRests = 0.02;  // of the joint's greatest healthy speed (rms): a joint that stands is slower
-constexpr double kSettles_s = 0.02;    // s behind the onset, until a locked joint stands
-constexpr double kShakes = 0.05;       // share of its evidence that the shaking of a halt explains at most
-constexpr double kCoupled = 0.1;       // of a joint's usual torque: what another joint's motion gives
-constexpr double kStandingCost = 3.0;  // nats of a joint that does not move
-
-/// Nats by which a joint that is said to be locked moves, but for its spring.
+constexpr double kSettles_s = 0.02;  // s behind the onset, until a locked joint stands
+constexpr double kShakes = 0.05;     // share of its evidence that the shaking of a halt explains at most
+constexpr double kCoupled = 0.1;     // of a joint's usual torque: what another joint's motion gives
 double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   const BalanceModel& m = fit.model();
   const double compliance = m.compliance(j);
@@ -89,7 +83,7 @@ bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
     square += Eigen::numext::abs2(log.dq(k, j));
     ++samples;
   }
-  return samples > 0 && same < kRepeated * samples &&
+  return samples > 0 && same < kStuckShare * samples &&
          square < Eigen::numext::abs2(kRests * fit.model().top_speed[j]) * samples;
 }
 
@@ -117,7 +111,7 @@ double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropp
     const double torque = kCoupled * fit.model().torque_rms[i];
     for (int k = 0; k < fit.count(); ++k)
       if (dropped[static_cast<std::size_t>(i) * fit.count() + k])
-        out += std::max(kDroppedCost, elementary::log(torque / fit.std()(k, i)));
+        out += std::max(kForcedRow, elementary::log(torque / fit.std()(k, i)));
   }
   return out;
 }
@@ -156,17 +150,17 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
   const auto [samples, same, same_before] = repeats_in(fit, claim);
   const bool telling = repeats_say_something(m, j) && same_before < kComesToRest;
-  double price = kDroppedCost * lost;
+  double price = kForcedRow * lost;
   if (claim.kind == FaultKind::locked) {
     const std::vector<int> within = rows_within(fit, claim);
     if (within.size() < 5) return std::nullopt;
-    price = price_of_motion(fit, j, within) + kStandingCost;
-    if (same > kRepeated && telling) price += 2.0 * samples;
+    price = price_of_motion(fit, j, within) + kStillJoint;
+    if (same > kStuckShare && telling) price += kRepeatedReading * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
-    price = kStandingCost + price_of_unseen_motion(fit, j, dropped);
-    if (same < kRepeated || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
+    price = kStillJoint + price_of_unseen_motion(fit, j, dropped);
+    if (same < kStuckShare || samples * m.setting.period_s < (telling ? 0.0 : 0.1)) return std::nullopt;
     if (velocity_shows_rest(fit, claim)) return std::nullopt;
-    if (telling) price -= std::min(samples, 500) * elementary::log(1.0 / m.repeat_share[j]);
+    if (telling) price -= std::min(samples, kMostRepeats) * elementary::log(1.0 / m.repeat_share[j]);
   }
   const FaultColumns jolt = claim.kind == FaultKind::locked ? jolt_columns(fit, claim) : FaultColumns{};
   Explanation e = fit.explain_with_piece(fit.residual(), jolt, {}, claim.onset_s, dropped);
@@ -182,10 +176,10 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   const FaultKind kind = claim.kind;
   const int j = claim.joint - 1;
   if (kind == FaultKind::torque_loss)
-    return kImpossible * std::max(0.0, -size[0]) + 2e4 * std::max(0.0, size[0] - 1.2);
+    return kNoSuchSize * std::max(0.0, -size[0]) + kBeyondLoss * std::max(0.0, size[0] - kMostLoss);
   if (kind == FaultKind::torque_sensor_error) return 0.0;
   if (kind == FaultKind::payload_change)
-    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.joints() ? kImpossible : 0.0;
+    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.joints() ? kNoSuchSize : 0.0;
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
@@ -193,7 +187,7 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
       (size +
        kSurely * e.size_covariance.diagonal().cwiseSqrt()) *  // friction that is left is none that drives
       seconds(std::min(claim.end_s, fit.time_s()[fit.count() - 1]));
-  if (surely[0] < -theta[layout.viscous(j)] || surely[1] < -theta[layout.coulomb(j)]) return kImpossible;
+  if (surely[0] < -theta[layout.viscous(j)] || surely[1] < -theta[layout.coulomb(j)]) return kNoSuchSize;
   double power = 0.0;  // that the friction takes
   int rows = 0;
   for (int k = 0; k < fit.count(); ++k) {
@@ -203,7 +197,7 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
              seconds(fit.time_s()[k]);
     ++rows;
   }
-  return rows < 3 || power <= 0.0 ? kImpossible : 0.0;
+  return rows < 3 || power <= 0.0 ? kNoSuchSize : 0.0;
 }
 
 FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultClaim claim) {
@@ -212,7 +206,7 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   claim.kind = fault.kind;
   claim.grows = fault.columns.grow;
   const double price = price_of_size(fit, claim, e);
-  if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeLoss) claim.kind = FaultKind::free_swinging;
+  if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeShare) claim.kind = FaultKind::free_swinging;
   return hypothesis(fit, claim, std::move(e), price);
 }
 

@@ -43,10 +43,11 @@ struct Between {
     const double h = motion.time[k + 1] - motion.time[k];
     const JointVector<double> q0 = motion.q.col(k), q1 = motion.q.col(k + 1), v0 = h * motion.dq.col(k),
                               v1 = h * motion.dq.col(k + 1), rise = q1 - q0;
-    const JointVector<double> b = 3.0 * rise - 2.0 * v0 - v1, c = v0 + v1 - 2.0 * rise;
+    constexpr double kDegree = 3.0;  // of the polynomial
+    const JointVector<double> b = kDegree * rise - 2.0 * v0 - v1, c = v0 + v1 - 2.0 * rise;
     q = q0 + s * (v0 + s * (b + s * c));
-    dq = (v0 + s * (2.0 * b + 3.0 * s * c)) / h;
-    ddq = (2.0 * b + 6.0 * s * c) / (h * h);
+    dq = (v0 + s * (2.0 * b + kDegree * s * c)) / h;
+    ddq = (2.0 * b + 2.0 * kDegree * s * c) / (h * h);
   }
 };
 

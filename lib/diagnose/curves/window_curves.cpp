@@ -9,6 +9,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kHeldSteps = 1.6;  // of the predictions: a longer time between two is a gap in the log
+
 std::vector<float> largest_of(const Envelope& envelope) {
   std::vector<float> out;
   for (std::size_t i = 0; i + 1 < envelope.values.size(); i += 2)
@@ -40,7 +42,7 @@ WindowCurves::WindowCurves(const CurveWindow& window, const Model& model,
     : window_(window),
       model_(model),
       bins_per_s_(window.bins / (window.end_s - window.start_s)),
-      held_s_(1.6 * model.residual.shape.step_s * model.residual.shape.stride /
+      held_s_(kHeldSteps * model.residual.shape.step_s * model.residual.shape.stride /
               std::max(model.residual.shape.step, 1)) {
   const EnvelopeBuilder empty(window.bins);
   joints_.assign(model.robot.joints(), Joint{empty, empty, empty, empty, empty, empty, empty});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/explain/coarse/coarse_price.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 
 namespace faultline {
 namespace {
@@ -13,9 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFreeShare = 0.9;   // of the torque lost, from which a joint swings freely
-constexpr double kFormDoubt = 0.05;  // share of its effect that a known fault may miss: no unknown force does
-constexpr int kSameSamples = 3;      // between two onsets that count as one
+constexpr int kSameSamples = 3;  // between two onsets that count as one
 /// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
 constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
@@ -119,7 +118,7 @@ JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
                                         const std::shared_ptr<const CoarseSteps>& known) {
   JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds, .known = known})};
   out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
-  if (guess.kind == FaultKind::unknown) out.gain -= kFormDoubt * kFormDoubt * std::max(0.0, out.gain);
+  if (guess.kind == FaultKind::unknown) out.gain -= kFormShare * kFormShare * std::max(0.0, out.gain);
   if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
     out.kind = FaultKind::free_swinging;
   tried.push_back(guess);
@@ -142,7 +141,7 @@ void CoarseBench::integrate_best() {
       best.begin(), best.end(), [](const JudgedGuess& a, const JudgedGuess& b) { return a.gain < b.gain; });
   if (winner == best.end()) return;
   const bool is_any = winner->fit.mean_square() > kMuchLeft;
-  const double enough = kMayWinAtCoarse * winner->gain;
+  const double enough = kMayWin * winner->gain;
   for (const JudgedGuess& j : std::vector<JudgedGuess>(best))
     if ((is_any || j.gain > enough) && moves_anew(j.kind))
       judge_and_keep(j.guess, kCoarseRounds, j.fit.steps);

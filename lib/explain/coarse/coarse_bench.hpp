@@ -50,8 +50,7 @@ class CoarseBench {
 
 inline constexpr double kLongSample_s = 0.05;  ///< a step of Newton is at most a share of a longer sample
 inline constexpr double kMuchLeft = 3.0;  ///< mean square left: an explanation that leaves more may be wrong
-inline constexpr double kMayWinAtCoarse = 0.3;  ///< of the best evidence: what has less is not refined
-inline constexpr double kSettled_s = 2e-4;      ///< an onset that moves less is settled
+inline constexpr double kSettled_s = 2e-4;  ///< an onset that moves less is settled
 
 /// Whether a fault of the kind changes numbers that move the robot, and stays.
 inline bool is_linear_at_coarse(FaultKind kind) {

@@ -23,10 +23,10 @@ constexpr double kHolds = 4.0;        // mean square left, up to which the next 
 constexpr double kHoldsShare = 0.05;  // or share of the mean square that the healthy robot leaves
 constexpr double kAbsurd = 1e6;       // derivative of a state by the one before: the integration has diverged
 constexpr double kMostColumns = 4.0;  // prior standard deviations: bound of a size that a round starts from
-constexpr double kTorqueForState = 15.0;  // a torque that is off by 3 % moves a state by some .2 % a sample
-constexpr double kMostLoss = 1.05;        // share of the torque lost that a round starts from, at most
-constexpr double kSettled_nats = 0.05;    // nats: a round that changes less is the last
-constexpr double kMostPayload = 2.5;      // times the mass that the link carries: the same of a payload
+constexpr double kTorqueForState = 15.0;   // a torque that is off by 3 % moves a state by some .2 % a sample
+constexpr double kMostLossOfStart = 1.05;  // share of the torque lost that a round starts from, at most
+constexpr double kSettled_nats = 0.05;     // nats: a round that changes less is the last
+constexpr double kMostPayload = 2.5;       // times the mass that the link carries: the same of a payload
 
 /// What a unit of the false reading of `guess` adds to the readings (2 joints x samples) from sample `from`
 /// on.
@@ -223,7 +223,7 @@ VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const Vec
   VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
   if (reads_wrong(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
   VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
-  if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLoss);
+  if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLossOfStart);
   if (guess.kind == FaultKind::payload_change)
     out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->carried_kg[guess.joint - 1]);
   return out;

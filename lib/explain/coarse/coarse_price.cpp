@@ -6,21 +6,13 @@
 #include <numbers>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr double kNoSuchSize = 1e9;      // nats of a size that no fault of the kind has
-constexpr double kAboveAll = 2e4;        // nats for each share of the torque lost beyond 1.2
-constexpr double kCodesMove = 1e12;      // nats of a stuck encoder whose codes do not repeat
-constexpr double kSilentJoint = 3.0;     // nats of a joint that does not move or does not read
-constexpr double kUnreadSample = 0.7;    // nats a sample that a stuck encoder explains away
-constexpr double kForcedSample = 1.2;    // nats a sample that an unknown force explains
-constexpr double kRepeatedSample = 2.0;  // nats a repeated code of a joint that is said to be locked
-constexpr double kRepeats = 0.98;        // share of codes that repeat where an encoder is stuck
-constexpr int kMostRepeats = 500;        // repeated codes that count, at most
-
-/// Samples from `from` on that repeat the position before.
+constexpr double kCodesMove = 1e12;    // nats of a stuck encoder whose codes do not repeat
+constexpr double kUnreadSample = 0.7;  // nats a sample that a stuck encoder explains away
 int repeats_from(const CoarseLog& log, int j, int from) {
   int same = 0;
   for (int k = std::max(1, from); k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
@@ -58,26 +50,26 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
   const int j = guess.joint - 1, late = log.samples() - from;
   switch (guess.kind) {
     case FaultKind::torque_loss:
-      return (fit.size[0] < 0.0 ? kNoSuchSize : 0.0) + kAboveAll * std::max(0.0, fit.size[0] - 1.2);
+      return (fit.size[0] < 0.0 ? kNoSuchSize : 0.0) + kBeyondLoss * std::max(0.0, fit.size[0] - kMostLoss);
     case FaultKind::payload_change:
       return fit.size[0] < 0.0 ? kNoSuchSize : 0.0;
     case FaultKind::friction_increase:
       return price_of_friction(log, j, fit, from);
     case FaultKind::stuck_encoder: {
-      if (share_repeated(log, j, from) < kRepeats) return kCodesMove;
+      if (share_repeated(log, j, from) < kStuckShare) return kCodesMove;
       const double kept = log.keep.row(j).tail(late).sum();
       const double evidence = repeats_tell(*log.model, j)
                                   ? std::min(repeats_from(log, j, from), kMostRepeats) *
                                         elementary::log(1.0 / log.model->repeat_share[j])
                                   : 0.0;
-      return kSilentJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
+      return kStillJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
     }
     case FaultKind::locked:
-      return kSilentJoint + (share_repeated(log, j, from) > kRepeats && repeats_tell(*log.model, j)
-                                 ? kRepeatedSample * late
-                                 : 0.0);
+      return kStillJoint + (share_repeated(log, j, from) > kStuckShare && repeats_tell(*log.model, j)
+                                ? kRepeatedReading * late
+                                : 0.0);
     case FaultKind::unknown:
-      return kSilentJoint + kForcedSample * late;
+      return kStillJoint + kForcedRow * late;
     default:
       return 0.0;
   }

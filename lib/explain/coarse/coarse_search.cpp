@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/robot/payload.hpp"
 
 namespace faultline {
@@ -21,7 +22,6 @@ constexpr double kOnsetStep_s = 0.05;                         // between two ons
 constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
 constexpr double kWindow_s = 6.0;                             // behind an onset, in which the search looks
 constexpr int kFewestWindow = 60;                             // samples of it
-constexpr double kStandsOut_nats = 8.0;                       // nats from which an onset stands out
 constexpr double kRoughStep_s = 1.0;                          // between two onsets of the first look
 constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // s; standard deviations of its misfit
 constexpr int kFewestOfStrike = 4;                            // samples of it, at least
@@ -239,7 +239,7 @@ std::vector<std::vector<CoarseCandidate>> candidates_of(const CoarseLog& log, co
 bool strikes(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states,
             length = std::max(kFewestOfStrike, static_cast<int>(kStrike_s / log.period_s())) * states;
-  const double enough = kStandsOut_nats + kSigmasOfStrike * std::sqrt(0.5 * length);
+  const double enough = kStandsOut + kSigmasOfStrike * std::sqrt(0.5 * length);
   for (Eigen::Index k = log.first_onset() * states; k + length <= base.left.size(); k += states)
     if (0.5 * (base.left.segment(k, length).squaredNorm() - length) > enough) return true;
   return false;
@@ -253,7 +253,7 @@ bool stands_out(const CoarseLog& log) {
   const int step = std::max(1, static_cast<int>(std::lround(kRoughStep_s / log.period_s())));
   for (const std::vector<CoarseCandidate>& group : candidates_of(log, base, {step, log.samples()}))
     for (const CoarseCandidate& c : group)
-      if (c.score > kStandsOut_nats) return true;
+      if (c.score > kStandsOut) return true;
   return false;
 }
 

@@ -10,6 +10,7 @@
 #include "lib/explain/coarse/coarse_search.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/fault_end.hpp"
+#include "lib/explain/hypothesis_prices.hpp"
 
 namespace faultline {
 namespace {
@@ -23,7 +24,6 @@ constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
 constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
 constexpr std::size_t kOnsetsForAllKinds = 2;  // onsets at which every linear kind is tried
 constexpr std::size_t kMoved = 4;              // hypotheses whose onset is refined
-constexpr double kWorthMoving = 5.0;           // nats from which an onset is refined
 constexpr int kMostMoves = 24;                 // rounds of moves of an onset, at most
 constexpr int kNewton = 6;                     // steps of onset and size together
 // Moves of an onset: s of the first, at least; s and share of a sample down to which they are halved.
@@ -236,7 +236,7 @@ LogExplanation explain_coarse(const CoarseLog& log) {
     const FaultKind kind = j.guess.kind;
     const bool fixed = kind == FaultKind::stuck_encoder || kind == FaultKind::sensor_bias ||
                        kind == FaultKind::unknown;  // begins at a sample, or says nothing of its onset
-    const double enough = std::max(kWorthMoving, kMayWinAtCoarse * bench.best_gain());
+    const double enough = std::max(kWorthRefining, kMayWin * bench.best_gain());
     if (j.gain >= enough && !fixed) refine(j, bench);
   }
   LogExplanation out;

@@ -22,10 +22,10 @@ using Eigen::VectorXd;
 constexpr std::array kBlows_s{.02, .05, .1, .25};  // lengths of a collision
 constexpr std::array kLengths_s{.3, 1., 3.};       // of faults that end
 constexpr double kEndsScore = 10.0;                // nats by which an end must explain more in the search
-constexpr double kRest_s = 0.15;       // at the end of a log that a joint which stands still is measured by
-constexpr double kSurelyStands = 8.0;  // standard deviations of a position: a joint that stands is nearer
-constexpr double kSpringDoubt = 0.3;   // of a gear spring's way, by which its model may be off
-constexpr double kTakenBack = 0.3;     // of a jump's size, by which the jump back may differ
+constexpr double kRest_s = 0.15;        // at the end of a log that a joint which stands still is measured by
+constexpr double kSurelyStands = 8.0;   // standard deviations of a position: a joint that stands is nearer
+constexpr double kSpringDoubt = 0.3;    // of a gear spring's way, by which its model may be off
+constexpr double kJumpTakenBack = 0.3;  // of a jump's size, by which the jump back may differ
 constexpr double kLeastTolerance = 1e-5;                 // rad or m that a joint may move while it stands
 constexpr double kLeastNoise = 1e-6;                     // rad or m: noise of a position, at least
 constexpr double kJumpScore = 10.0, kRepeatScore = 1e3;  // nats: such onsets are judged first
@@ -242,7 +242,7 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
     const SensorJump* back = nullptr;  // the next one that takes it back
     for (const SensorJump& other : jumps)
       if (other.onset_s > jump.onset_s &&
-          std::abs(other.size + jump.size) < kTakenBack * std::abs(jump.size) &&
+          std::abs(other.size + jump.size) < kJumpTakenBack * std::abs(jump.size) &&
           (back == nullptr || other.onset_s < back->onset_s))
         back = &other;
     if (back != nullptr)

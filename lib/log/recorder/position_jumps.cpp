@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kEnoughOfJumps = 10;            // to know what is usual
+constexpr int kEnoughOfJumps = 10;         // to know what is usual
 constexpr double kUsualForgetting = 0.02;  // share of a new row in what is usual
 constexpr double kTimesUsual = 20.0;       // further off than usual: no noise and no rounding
 constexpr double kLeastJump = 1e-3;        // rad or m
