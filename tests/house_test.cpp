@@ -176,6 +176,28 @@ TEST(House, NumbersThatDecideHaveNames) {
   EXPECT_GT(checked, 50);
 }
 
+/// `python3 tests/list_constants.py FOLDER...` lists them.
+TEST(House, EachNumberThatDecidesSaysWhatItMeans) {
+  static const std::regex number(R"(constexpr (double|int|std::int64_t|std::size_t) k\w+ = -?[\d.]+)");
+  static const std::regex percent(R"(k\w*Percent\w* = 100\.0|kSecondsPerHour)");
+  int checked = 0;
+  for (const fs::path& path :
+       sources({"lib/balance", "lib/identify", "lib/explain", "lib/diagnose", "lib/learn"})) {
+    const std::vector<std::string> lines = lines_of(path);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      if (!std::regex_search(lines[i], number) || std::regex_search(lines[i], percent)) continue;
+      std::string said = lines[i - 1].find("//") != std::string::npos ? "//" : "";
+      for (std::size_t k = i; k < lines.size(); ++k) {
+        said += lines[k];
+        if (lines[k].find(';') != std::string::npos) break;
+      }
+      EXPECT_NE(said.find("//"), std::string::npos) << place(path, i) << ": " << lines[i];
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 300);
+}
+
 /// Text leaves the program at one place, which keeps names and cells of others from commanding a terminal.
 TEST(House, OnlyTheGateWritesToStreams) {
   static const std::regex writing(

@@ -23,7 +23,7 @@ constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no health
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
 constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
 constexpr double kVerdictPercent = 100.0;
-constexpr std::int64_t kFewestRows = 20;
+constexpr std::int64_t kFewestRows = 20;  // judged: fewer say nothing of a robot
 constexpr double kFewestJudged = 0.75;    // of the log, likewise
 constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
 
