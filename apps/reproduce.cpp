@@ -70,7 +70,7 @@ void add_reproduce(CLI::App& app, Program& program) {
   add_threads_option(*command, options.threads)->type_name("N");
   command->add_flag("--json", arguments->json, "Print index.json instead of a summary");
   command->footer(
-      "The full run takes some ten minutes on two cores.\nExample: faultline reproduce --quick -o "
+      "The full run takes some fifteen minutes on two cores.\nExample: faultline reproduce --quick -o "
       "/tmp/paper");
   command->callback([arguments, seeds, &program] {
     if (arguments->options.quick && seeds->count() == 0) arguments->options.seeds = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/balance_model.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "lib/balance/regressor.hpp"

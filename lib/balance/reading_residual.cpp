@@ -57,10 +57,10 @@ MatrixXd ReadingResidual::of(const JointReading& moved, int joint, int first_row
   left.col(joint) = drive(joint, link_speed(velocity, frame_.at.torque.col(joint), setting_, joint), q_middle)
                         .tail(left.rows());
   struct {
-    JointVector<double> momentum, force;
+    JointVector momentum, force;
   } before, now;
   for (Index k = from; k < samples; ++k) {
-    JointVector<double> q = q_.col(k), dq = row_of(frame_.at.velocity, k);
+    JointVector q = q_.col(k), dq = row_of(frame_.at.velocity, k);
     q[joint] = moved.q[k];
     dq[joint] = velocity[k];
     dynamics_.momentum_and_force(q, dq, now.momentum, now.force);

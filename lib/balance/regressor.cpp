@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/regressor.hpp"
 
+#include <Eigen/Geometry>
+
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -36,7 +38,7 @@ void add_scaled(Twist& sum, const Twist& t, double rate) {
   sum.linear += rate * t.linear;
 }
 
-Twist link_twist(const LinkFrames& frames, int link, const JointVector<double>& dq) {
+Twist link_twist(const LinkFrames& frames, int link, const JointVector& dq) {
   Twist v;
   for (int k = 0; k <= link; ++k) add_scaled(v, frames.twist[link][k], dq[k]);
   return v;
@@ -46,27 +48,27 @@ void reset(LinkRegressor& out, int n) { out.setZero(n, n * kLinkParameters); }
 
 }  // namespace
 
-LinkVector to_vector(const LinkInertia<double>& link) {
+LinkVector to_vector(const LinkInertia& link) {
   LinkVector v;
   const auto& i = link.inertia;
   v << link.mass, link.first_moment, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2);
   return v;
 }
 
-LinkInertia<double> link_from(const LinkVector& v) {
-  LinkInertia<double> link;
+LinkInertia link_from(const LinkVector& v) {
+  LinkInertia link;
   link.mass = v[0];
   link.first_moment = v.segment<3>(1);
   link.inertia << v[4], v[7], v[8], v[7], v[5], v[9], v[8], v[9], v[6];
   return link;
 }
 
-LinkFrames link_frames(const Chain<double>& chain, const JointVector<double>& q) {
+LinkFrames link_frames(const Chain& chain, const JointVector& q) {
   LinkFrames frames;
   frames.joints = chain.joints();
   Vector3d gravity = chain.gravity;
   for (int j = 0; j < frames.joints; ++j) {
-    const auto pose = detail::link_pose(chain, j, q[j]);
+    const auto pose = link_pose(chain, j, q[j]);
     const Eigen::Matrix3d to_link = pose.rotation.transpose();
     for (int i = 0; i < j; ++i) {
       const Twist& before = frames.twist[j - 1][i];
@@ -82,7 +84,7 @@ LinkFrames link_frames(const Chain<double>& chain, const JointVector<double>& q)
   return frames;
 }
 
-void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out) {
+void momentum_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out) {
   reset(out, frames.joints);
   for (int j = 0; j < frames.joints; ++j) {
     const Twist v = link_twist(frames, j, dq);
@@ -91,7 +93,7 @@ void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq,
   }
 }
 
-void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out) {
+void force_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out) {
   reset(out, frames.joints);
   for (int j = 0; j < frames.joints; ++j) {
     const Twist v = link_twist(frames, j, dq);
@@ -107,14 +109,14 @@ void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, Li
   }
 }
 
-void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
-                      const JointVector<double>& ddq, LinkRegressor& out) {
+void torque_regressor(const Chain& chain, const JointVector& q, const JointVector& dq, const JointVector& ddq,
+                      LinkRegressor& out) {
   const LinkFrames frames = link_frames(chain, q);
   reset(out, frames.joints);
   Vector3d omega = Vector3d::Zero(), alpha = Vector3d::Zero(), acceleration = -chain.gravity;
   for (int j = 0; j < frames.joints; ++j) {
     const JointGeometry& joint = chain.geometry[j];
-    const auto pose = detail::link_pose(chain, j, q[j]);
+    const auto pose = link_pose(chain, j, q[j]);
     const Eigen::Matrix3d to_link = pose.rotation.transpose();
     const Vector3d& p = pose.position;
     acceleration = (to_link * (acceleration + alpha.cross(p) + omega.cross(omega.cross(p)))).eval();

@@ -14,8 +14,8 @@ inline constexpr int kLinkParameters = 10;
 
 using LinkVector = Eigen::Matrix<double, kLinkParameters, 1>;
 
-LinkVector to_vector(const LinkInertia<double>& link);
-LinkInertia<double> link_from(const LinkVector& vector);
+LinkVector to_vector(const LinkInertia& link);
+LinkInertia link_from(const LinkVector& vector);
 
 /// Motion of every link that one joint's unit rate causes, in the link's own frame: angular and linear
 /// velocity of the frame's origin.
@@ -32,18 +32,18 @@ struct LinkFrames {
   int joints = 0;
 };
 
-LinkFrames link_frames(const Chain<double>& chain, const JointVector<double>& q);
+LinkFrames link_frames(const Chain& chain, const JointVector& q);
 
 /// Rows of a quantity linear in the links' inertia: n x (10 n), link after link.
 using LinkRegressor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints,
                                     kMaxJoints * kLinkParameters>;
 
 /// Momentum p = M(q) dq.
-void momentum_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
+void momentum_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out);
 /// The part of dp/dt that is neither motor nor friction: dT/dq - G(q), where T is the kinetic energy.
-void force_regressor(const LinkFrames& frames, const JointVector<double>& dq, LinkRegressor& out);
+void force_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out);
 /// Inverse dynamics M ddq + h + G. The accelerations come from the recursion of Newton and Euler.
-void torque_regressor(const Chain<double>& chain, const JointVector<double>& q, const JointVector<double>& dq,
-                      const JointVector<double>& ddq, LinkRegressor& out);
+void torque_regressor(const Chain& chain, const JointVector& q, const JointVector& dq, const JointVector& ddq,
+                      LinkRegressor& out);
 
 }  // namespace faultline

@@ -43,8 +43,6 @@ Eigen::VectorXd fused_velocity(const JointReading& reading, const RowSetting& se
 /// tanh(speed / width).
 Eigen::VectorXd saturated(const Eigen::VectorXd& speed, double width);
 
-inline JointVector<double> row_of(const Eigen::MatrixXd& values, Eigen::Index k) {
-  return values.row(k).transpose();
-}
+inline JointVector row_of(const Eigen::MatrixXd& values, Eigen::Index k) { return values.row(k).transpose(); }
 
 }  // namespace faultline

@@ -35,7 +35,7 @@ struct RowSetting {
 
 /// The rigid body of a chain as the columns see it: base parameters are what torques can tell.
 struct RigidColumns {
-  Chain<double> chain;   ///< geometry and gravity; its inertias and friction do not count
+  Chain chain;           ///< geometry and gravity; its inertias and friction do not count
   Eigen::MatrixXd lift;  ///< (11 n) x base: the links' inertial numbers, then rotors, that stand for the base
 
   int joints() const { return chain.joints(); }

@@ -22,12 +22,12 @@ class BaseMotion {
   explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid), units_(unit_dynamics(rigid)) {}
 
   /// Joints x base each.
-  void at(const JointVector<double>& q, const JointVector<double>& dq, MatrixXd& momentum, MatrixXd& force) {
+  void at(const JointVector& q, const JointVector& dq, MatrixXd& momentum, MatrixXd& force) {
     const int n = rigid_.joints(), links = n * kLinkParameters;
     if (!units_.empty()) {
       momentum.resize(n, rigid_.base());
       force.resize(n, rigid_.base());
-      JointVector<double> p, f;
+      JointVector p, f;
       for (int k = 0; k < rigid_.base(); ++k) {
         units_[k].momentum_and_force(q, dq, p, f);
         momentum.col(k) = p;
@@ -73,14 +73,14 @@ void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, co
                         const Intervals& at, const VectorXd& kernel, const CoarseGrid& grid,
                         BalanceRows& rows) {
   const ColumnLayout layout = layout_of(rigid, setting);
-  const Chain<double> chain = chain_of(rigid, theta);
+  const Chain chain = chain_of(rigid, theta);
   const MatrixXd torque = smooth(at.torque, kernel);
   MatrixXd bend(torque.rows(), torque.cols());
   for (int i = 0; i < bend.cols(); ++i)
     bend.col(i) = gradient(gradient(torque.col(i), setting.period_s), setting.period_s);
   for (int m = 0; m < grid.count; ++m) {
     const int k = grid.first + m * grid.step;
-    const JointMatrix<double> inertia = inertia_matrix(chain, row_of(at.q, k));
+    const JointMatrix inertia = inertia_matrix(chain, row_of(at.q, k));
     for (int j = 0; j < rigid.joints(); ++j)
       for (int i = 0; i < rigid.joints(); ++i)
         rows.column[j](m, layout.spring(i)) = -inertia(j, i) * bend(k, i);
@@ -113,8 +113,8 @@ std::vector<bool> crossing_lost(const std::vector<bool>& lost, const CoarseGrid&
 
 }  // namespace
 
-Chain<double> chain_of(const RigidColumns& rigid, const VectorXd& theta) {
-  Chain<double> chain = rigid.chain;
+Chain chain_of(const RigidColumns& rigid, const VectorXd& theta) {
+  Chain chain = rigid.chain;
   const int n = rigid.joints();
   const VectorXd numbers = rigid.lift * theta.head(rigid.base());
   chain.rotor_inertia.resize(n, 0.0);

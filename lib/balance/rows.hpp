@@ -43,7 +43,7 @@ double reach_s(const RowSetting& setting);
 double velocity_reach_s(const RowSetting& setting, double share);
 
 /// The chain that moves as `theta` says; its friction does not count.
-Chain<double> chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);
+Chain chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);
 
 /// The chain by base parameter, that one 1 and the others 0; none where the axes are not all parallel.
 std::vector<FastDynamics> unit_dynamics(const RigidColumns& rigid);

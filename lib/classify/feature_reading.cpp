@@ -38,8 +38,7 @@ double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
 }
 
 FeatureReading read_size(std::span<const EpisodeFeature> list, std::size_t which,
-                         std::span<const double> features, const UsualMotion& usual,
-                         const Chain<double>& chain) {
+                         std::span<const double> features, const UsualMotion& usual, const Chain& chain) {
   const FaultLabel& label = list[which].label;
   const int j = label.joint - 1, s = list[which].size;
   FeatureReading reading{"size of " + quoted(label), "", kNotTold};
@@ -56,8 +55,7 @@ FeatureReading read_size(std::span<const EpisodeFeature> list, std::size_t which
 }  // namespace
 
 FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
-                            std::span<const double> features, const UsualMotion& usual,
-                            const Chain<double>& chain) {
+                            std::span<const double> features, const UsualMotion& usual, const Chain& chain) {
   const double x = features[which];
   switch (list[which].role) {
     case FeatureRole::behind:

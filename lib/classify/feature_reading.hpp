@@ -19,7 +19,6 @@ struct FeatureReading {
 /// Feature `which` of `features`, whose meaning is `list`. The size of a fault that stays far behind the
 /// likeliest is not told.
 FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
-                            std::span<const double> features, const UsualMotion& usual,
-                            const Chain<double>& chain);
+                            std::span<const double> features, const UsualMotion& usual, const Chain& chain);
 
 }  // namespace faultline

@@ -96,7 +96,7 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
 }
 
 std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& relations,
-                                           const std::vector<double>& beyond_s, const Chain<double>& chain) {
+                                           const std::vector<double>& beyond_s, const Chain& chain) {
   std::vector<std::string> spots;
   for (std::size_t i = 0; i < std::min(relations.size(), beyond_s.size()); ++i) {
     const SignalRelation& drive = relations[i];
@@ -140,7 +140,7 @@ std::vector<std::string> rough_spots(const std::vector<double>& roughness) {
       joints)};
 }
 
-std::string reach_text(const Reach& reach, const Chain<double>& chain) {
+std::string reach_text(const Reach& reach, const Chain& chain) {
   const FaultDescription& fault = describe(reach.label.kind);
   if (fault.size_count == 0) return "";
   if (!std::isfinite(reach.size)) return "not surely";
@@ -150,7 +150,7 @@ std::string reach_text(const Reach& reach, const Chain<double>& chain) {
   return fmt::format("{:.2g} {}", reach.size, unit_of(measure, turns));
 }
 
-std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain<double>& chain) {
+std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain& chain) {
   std::vector<std::string> sentences;
   for (int k = 0; k < kFaultKinds; ++k) {
     std::string joints;

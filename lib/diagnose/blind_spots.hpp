@@ -27,7 +27,7 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
 /// Drives that were asked for more than in the healthy logs, which does not show what they can give then; a
 /// sentence each. `beyond_s` by relation: for how long.
 std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& relations,
-                                           const std::vector<double>& beyond_s, const Chain<double>& chain);
+                                           const std::vector<double>& beyond_s, const Chain& chain);
 
 /// Share of the simulated faults that a model found; NaN where none were simulated.
 double power_of(const Validation& validation);
@@ -40,10 +40,10 @@ std::vector<std::string> weak_spots(const Validation& validation);
 std::vector<std::string> rough_spots(const std::vector<double>& roughness);
 
 /// How small a fault is surely found, a sentence for each kind that has a size.
-std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain<double>& chain);
+std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain& chain);
 
 /// The size from which on a fault is surely found, such as "22 %" or "0.004 rad"; "not surely" where none is
 /// large enough, "" for kinds without a size.
-std::string reach_text(const Reach& reach, const Chain<double>& chain);
+std::string reach_text(const Reach& reach, const Chain& chain);
 
 }  // namespace faultline

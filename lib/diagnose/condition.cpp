@@ -25,7 +25,7 @@ const char* words_of(DayEffectKind kind) {
   return "";
 }
 
-ConditionItem item_of(const DayEffect& effect, const Chain<double>& chain) {
+ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   const bool is_share = effect.kind != DayEffectKind::torque_offset;
   const bool turns = chain.geometry[effect.joint - 1].kind == AxisKind::revolute;
   ConditionItem item;
@@ -43,7 +43,7 @@ ConditionItem item_of(const DayEffect& effect, const Chain<double>& chain) {
 
 }  // namespace
 
-std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain<double>& chain) {
+std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain& chain) {
   std::vector<ConditionItem> items;
   for (const DayEffect& effect : day) items.push_back(item_of(effect, chain));
   return items;

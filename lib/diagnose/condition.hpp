@@ -30,7 +30,7 @@ struct ConditionItem {
 };
 
 /// In the order in which they are.
-std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain<double>& chain);
+std::vector<ConditionItem> condition_of(const std::vector<DayEffect>& day, const Chain& chain);
 
 /// What is beyond its normal range, or so many times it, such as "friction of joint 1 (+52 %, normal within
 /// 30 %)"; empty if nothing is.

@@ -161,7 +161,7 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   return finding;
 }
 
-FaultFinding finding_of(const LastingFriction& fault, const Chain<double>& chain) {
+FaultFinding finding_of(const LastingFriction& fault, const Chain& chain) {
   const ConditionItem item = condition_of({fault.effect}, chain).front();
   FaultFinding finding;
   finding.label = {FaultKind::friction_increase, item.joint};

@@ -14,7 +14,7 @@ namespace faultline {
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
 
 /// Friction that is far beyond that of healthy days from the first row of a log on.
-FaultFinding finding_of(const LastingFriction& fault, const Chain<double>& chain);
+FaultFinding finding_of(const LastingFriction& fault, const Chain& chain);
 
 /// What the paper's criterion found, with the other words of single networks as alternatives.
 FaultFinding finding_of(const SampleAlarm& alarm);

@@ -65,7 +65,7 @@ ParameterSpace with_candidates(const Gathered& gathered, const ModelDraft& draft
   }
   const bool fast = std::all_of(id.logs.begin(), id.logs.end(),
                                 [](const IdentifiedLog& log) { return log.sample_period_s <= kSlow_s; });
-  Chain<double> chain = space.chain;
+  Chain chain = space.chain;
   std::vector<double> compliance(space.joints(), 0.0);
   for (int j = 0; j < space.joints(); ++j) {
     if (!look[j]) continue;

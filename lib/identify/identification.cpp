@@ -41,8 +41,7 @@ const char* to_string(IdentifyMethod method) {
 Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters) {
   Robot out = robot;
   out.chain = chain_from(space, parameters);
-  for (Friction<double>& friction :
-       out.chain.friction) {  // noise can make the friction of a smooth joint negative
+  for (Friction& friction : out.chain.friction) {  // noise can make the friction of a smooth joint negative
     friction.viscous = std::max(friction.viscous, 0.0);
     friction.coulomb = std::max(friction.coulomb, 0.0);
   }

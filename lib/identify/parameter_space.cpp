@@ -29,7 +29,7 @@ BaseCandidate candidate(const std::string& name, const std::string& unit, int jo
 }
 
 LinkVector rod_inertia(const Eigen::Vector3d& direction) {
-  LinkInertia<double> link;
+  LinkInertia link;
   link.inertia = Eigen::Matrix3d::Identity() - direction * direction.transpose();
   return to_vector(link);
 }
@@ -108,14 +108,14 @@ std::vector<BaseCandidate> base_candidates(const Robot& robot) {
   return out;
 }
 
-JointVector<double> draw(Random& random, int n, double scale) {
-  JointVector<double> v(n);
+JointVector draw(Random& random, int n, double scale) {
+  JointVector v(n);
   for (int i = 0; i < n; ++i) v[i] = random.uniform(-scale, scale);
   return v;
 }
 
 /// Torque of every inertial number and rotor at random states: (probes n) x (11 n).
-Eigen::MatrixXd probe(const Chain<double>& chain) {
+Eigen::MatrixXd probe(const Chain& chain) {
   const int n = chain.joints();
   Random random(20260101);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(kSpaceProbes * n, n * (kLinkParameters + 1));
@@ -259,8 +259,8 @@ ParameterSpace parameter_space(const Robot& robot) {
   return space;
 }
 
-Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
-  Chain<double> chain = space.chain;
+Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
+  Chain chain = space.chain;
   const int n = chain.joints();
   const Eigen::VectorXd numbers = space.lift * p.head(space.rigid());
   for (int i = 0; i < n; ++i) {
@@ -279,7 +279,7 @@ Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) 
   return chain;
 }
 
-Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi) {
+Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, double phi) {
   const int n = space.joints();
   Eigen::VectorXd numbers(n * (kLinkParameters + 1)), p(space.count());
   for (int i = 0; i < n; ++i) {

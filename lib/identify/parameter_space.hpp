@@ -26,9 +26,9 @@ struct BaseParameter {
 /// joint fv, fc, offset, bend, skew, then the extra terms, phi (torque timing) and ln(friction width) of
 /// every joint. Torques are linear in all but the widths.
 struct ParameterSpace {
-  Chain<double> chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter, the width of
-                        ///< bent friction, the rates of ripples, the drives of shared friction and its width;
-                        ///< its links and other friction do not count
+  Chain chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter, the width of
+                ///< bent friction, the rates of ripples, the drives of shared friction and its width;
+                ///< its links and other friction do not count
   std::vector<BaseParameter> base;
   /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
   /// parameters.
@@ -70,11 +70,11 @@ ParameterSpace parameter_space(const Robot& robot);
 
 /// The chain that moves as the parameters say. Its masses and first moments stand for the base parameters and
 /// need not be those of the real links.
-Chain<double> chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters);
+Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters);
 
 /// The parameters of `robot` in `space`: the base parameters whose torques come nearest to its own, its
 /// friction, `phi`.
-Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain<double>& chain, double phi);
+Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, double phi);
 
 /// The base parameters that arbitrary links and rotors act like: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);

@@ -14,10 +14,10 @@ namespace faultline {
 namespace {
 
 /// Adds `mass` at the end of the last link.
-void load_tip(const Robot& robot, Chain<double>& chain, double mass) {
+void load_tip(const Robot& robot, Chain& chain, double mass) {
   const int last = chain.joints() - 1;
   const Eigen::Vector3d tip = chain.length[last] * link_direction(robot, last);
-  const LinkInertia<double> body = general_body(mass, tip, Eigen::Matrix3d::Zero());
+  const LinkInertia body = general_body(mass, tip, Eigen::Matrix3d::Zero());
   chain.links[last].mass += body.mass;
   chain.links[last].first_moment += body.first_moment;
   chain.links[last].inertia += body.inertia;

@@ -26,10 +26,10 @@ bool is_not_negative(const ParameterSpace& space, int p) {
 
 /// An inertia that next to that of its joint nobody would miss.
 double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) {
-  const Chain<double> chain = chain_from(space, torque.fit.parameters);
+  const Chain chain = chain_from(space, torque.fit.parameters);
   const int joint = space.base[p].joint;
   return kSmallRotor *
-         std::abs(inertia_matrix(chain, JointVector<double>::Zero(space.joints()).eval())(joint, joint));
+         std::abs(inertia_matrix(chain, JointVector::Zero(space.joints()).eval())(joint, joint));
 }
 
 /// Friction and rotors that come out a little below zero are none, and so are rotors that are not told from

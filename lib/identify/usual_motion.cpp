@@ -82,10 +82,10 @@ std::vector<JointSums> sums_of(std::span<LogSource* const> logs, int joints) {
 
 /// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns,
 /// both in the middle of the range.
-double carried_mass(const UsualMotion& usual, const Chain<double>& chain) {
-  JointVector<double> middle(usual.joints());
+double carried_mass(const UsualMotion& usual, const Chain& chain) {
+  JointVector middle(usual.joints());
   for (int j = 0; j < usual.joints(); ++j) middle[j] = 0.5 * (usual.q_low[j] + usual.q_high[j]);
-  const JointMatrix<double> inertia = inertia_matrix(chain, middle);
+  const JointMatrix inertia = inertia_matrix(chain, middle);
   for (int j = usual.joints() - 1; j >= 0; --j)
     if (chain.geometry[j].kind == AxisKind::prismatic) return inertia(j, j);
   double reach = 0.0;
@@ -94,13 +94,12 @@ double carried_mass(const UsualMotion& usual, const Chain<double>& chain) {
   return inertia(0, 0) / std::max(reach * reach, kLeastReach_m2);
 }
 
-UsualSizes usual_sizes(const UsualMotion& usual, const std::vector<JointSums>& sums,
-                       const Chain<double>& chain) {
+UsualSizes usual_sizes(const UsualMotion& usual, const std::vector<JointSums>& sums, const Chain& chain) {
   UsualSizes out;
   for (int j = 0; j < usual.joints(); ++j) {
     const double range = usual.q_high[j] - usual.q_low[j], torque = sums[j].torque_rms(),
                  velocity = std::max(sums[j].velocity_rms(), kLeastVelocity);
-    const Friction<double>& friction = chain.friction[j];
+    const Friction& friction = chain.friction[j];
     out.bias.push_back(kBiasShare * range);
     out.drift.push_back(kDriftShare * range);
     out.viscous_increase.push_back(std::max(std::abs(friction.viscous), kFrictionShare * torque / velocity));
@@ -113,7 +112,7 @@ UsualSizes usual_sizes(const UsualMotion& usual, const std::vector<JointSums>& s
 
 }  // namespace
 
-UsualMotion usual_motion(std::span<LogSource* const> logs, const Chain<double>& chain) {
+UsualMotion usual_motion(std::span<LogSource* const> logs, const Chain& chain) {
   const std::vector<JointSums> sums = sums_of(logs, chain.joints());
   UsualMotion out;
   for (const JointSums& joint : sums) {

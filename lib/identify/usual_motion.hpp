@@ -32,7 +32,7 @@ struct UsualMotion {
 
 /// The usual motion of the identified robot in its healthy logs. Throws Error(input) when the logs hold too
 /// few rows.
-UsualMotion usual_motion(std::span<LogSource* const> logs, const Chain<double>& chain);
+UsualMotion usual_motion(std::span<LogSource* const> logs, const Chain& chain);
 
 /// What a size of this measure at joint `j` (from 0) is divided by to become a feature of an episode; 1 for a
 /// share of torque.

@@ -171,7 +171,7 @@ void check_robot_ranges(const Robot& robot, const std::string& where) {
                       "it from a copy or learn it again",
                       what, i + 1, value));
   };
-  const Chain<double>& chain = robot.chain;
+  const Chain& chain = robot.chain;
   for (std::size_t i = 0; i < chain.geometry.size(); ++i)
     check("place", i, chain.geometry[i].offset.cwiseAbs().maxCoeff());
   for (std::size_t i = 0; i < chain.length.size(); ++i) check("length", i, chain.length[i]);
@@ -181,7 +181,7 @@ void check_robot_ranges(const Robot& robot, const std::string& where) {
     check("inertia", i, chain.links[i].inertia.cwiseAbs().maxCoeff());
   }
   for (std::size_t i = 0; i < chain.friction.size(); ++i) {
-    const Friction<double>& f = chain.friction[i];
+    const Friction& f = chain.friction[i];
     for (const double value : {f.viscous, f.coulomb, f.offset, f.width, f.bend, f.skew, f.bend_width, f.load})
       check("friction", i, value);
   }

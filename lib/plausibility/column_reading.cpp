@@ -19,7 +19,7 @@ void scale_motion(Log& log, int j, double by) {
   if (!log.dq.empty()) scale(log.dq[j], by);
 }
 
-void add_units(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_units(const Chain& chain, std::vector<ColumnReading>& out) {
   constexpr double kDegree = std::numbers::pi / 180.0, kMilli = 1e-3;
   const int n = chain.joints();
   const auto is_revolute = [&chain](int j) { return chain.geometry[j].kind == AxisKind::revolute; };
@@ -48,7 +48,7 @@ void add_units(const Chain<double>& chain, std::vector<ColumnReading>& out) {
 }
 
 /// One torque in thousandths or thousands of its unit; all of them together show in the masses alone.
-void add_torque_units(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_torque_units(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (const double by : {1e-3, 1e3})
       out.push_back(
@@ -57,7 +57,7 @@ void add_torque_units(const Chain<double>& chain, std::vector<ColumnReading>& ou
            fmt::format("scale = {:g} for tau{}", by, j + 1), [j, by](Log& log) { scale(log.tau[j], by); }});
 }
 
-void add_signs(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_signs(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j) {
     out.push_back({fmt::format("tau{} has the other sign", j + 1), fmt::format("sign = -1 for tau{}", j + 1),
                    [j](Log& log) { scale(log.tau[j], -1.0); }});
@@ -71,7 +71,7 @@ void add_signs(const Chain<double>& chain, std::vector<ColumnReading>& out) {
   }
 }
 
-void add_swaps(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_swaps(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k) {
       out.push_back({fmt::format("tau{} and tau{} are swapped", j + 1, k + 1),
@@ -87,12 +87,12 @@ void add_swaps(const Chain<double>& chain, std::vector<ColumnReading>& out) {
 }
 
 /// Whether the chain has an axis of that kind.
-bool has_axis(const Chain<double>& chain, AxisKind kind) {
+bool has_axis(const Chain& chain, AxisKind kind) {
   return std::any_of(chain.geometry.begin(), chain.geometry.end(),
                      [kind](const JointGeometry& joint) { return joint.kind == kind; });
 }
 
-void add_common_units(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_common_units(const Chain& chain, std::vector<ColumnReading>& out) {
   constexpr double kMilli = 1e-3, kDegree = std::numbers::pi / 180.0;
   const auto on_axes = [&chain](AxisKind kind, double by, bool positions) {
     std::vector<int> joints;
@@ -122,7 +122,7 @@ void add_common_units(const Chain<double>& chain, std::vector<ColumnReading>& ou
 }
 
 /// A joint that counts the other way: what a wrong sign of one column makes of a log is another thing.
-void add_reversed_joints(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_reversed_joints(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     out.push_back({fmt::format("joint {0} counts the other way (q{0}, dq{0} and tau{0})", j + 1),
                    fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), [j](Log& log) {
@@ -131,7 +131,7 @@ void add_reversed_joints(const Chain<double>& chain, std::vector<ColumnReading>&
                    }});
 }
 
-void add_swapped_joints(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_swapped_joints(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k)
       out.push_back(
@@ -147,7 +147,7 @@ void add_swapped_joints(const Chain<double>& chain, std::vector<ColumnReading>& 
 }
 
 /// Gravity along another axis, or none: an arm on its side, hanging, or of horizontal axes.
-void add_gravity(const Chain<double>& chain, std::vector<ColumnReading>& out) {
+void add_gravity(const Chain& chain, std::vector<ColumnReading>& out) {
   constexpr double kG = 9.81, kApart = 1.0;  // m/s^2
   std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};
   for (int axis = 0; axis < 3; ++axis)
@@ -156,7 +156,7 @@ void add_gravity(const Chain<double>& chain, std::vector<ColumnReading>& out) {
     if ((gravity - chain.gravity).norm() < kApart) continue;
     const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
     out.push_back({fmt::format("gravity is {}", text), fmt::format("gravity = {}", text), [](Log&) {},
-                   [gravity](Chain<double>& other) { other.gravity = gravity; }});
+                   [gravity](Chain& other) { other.gravity = gravity; }});
   }
 }
 
@@ -167,7 +167,7 @@ std::vector<ColumnReading> with_cures_into(const char* where, std::vector<Column
 
 }  // namespace
 
-std::vector<ColumnReading> column_readings(const Chain<double>& chain) {
+std::vector<ColumnReading> column_readings(const Chain& chain) {
   std::vector<ColumnReading> readings;
   add_units(chain, readings);
   add_torque_units(chain, readings);
@@ -176,7 +176,7 @@ std::vector<ColumnReading> column_readings(const Chain<double>& chain) {
   return with_cures_into("[log.columns]", std::move(readings));
 }
 
-std::vector<ColumnReading> common_readings(const Chain<double>& chain) {
+std::vector<ColumnReading> common_readings(const Chain& chain) {
   std::vector<ColumnReading> readings;
   add_common_units(chain, readings);
   add_swapped_joints(chain, readings);
@@ -184,7 +184,7 @@ std::vector<ColumnReading> common_readings(const Chain<double>& chain) {
   return with_cures_into("[log.columns]", std::move(readings));
 }
 
-std::vector<ColumnReading> gravity_readings(const Chain<double>& chain) {
+std::vector<ColumnReading> gravity_readings(const Chain& chain) {
   std::vector<ColumnReading> readings;
   add_gravity(chain, readings);
   return with_cures_into("the robot file", std::move(readings));

@@ -11,19 +11,19 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 /// Runge-Kutta of order 4 is stable up to rate * step = 2.78; the friction of a joint pulls the velocity to
 /// zero at the rate dF/ddq / M.
 int substeps(const FastDynamics& robot, const JointState& start, double duration) {
   constexpr double kLongest = 0.005, kStable = 2.0, kMost = 256.0;
-  JointMatrix<double> inertia;
+  JointMatrix inertia;
   Vector bias;
   robot.inertia_and_bias(start.q, start.dq, inertia, bias);
-  const JointMatrix<double> inverse = inertia.inverse();
+  const JointMatrix inverse = inertia.inverse();
   double rate = kStable / kLongest;
   for (int j = 0; j < robot.joints(); ++j) {
-    const Friction<double>& f = robot.chain().friction[j];
+    const Friction& f = robot.chain().friction[j];
     rate = std::max(rate, inverse(j, j) * steepest(f));
   }
   return static_cast<int>(std::clamp(std::ceil(duration * rate / kStable), 1.0, kMost));

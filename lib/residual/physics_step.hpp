@@ -6,13 +6,13 @@
 namespace faultline {
 
 struct JointState {
-  JointVector<double> q;
-  JointVector<double> dq;
+  JointVector q;
+  JointVector dq;
 };
 
 /// The state `duration` seconds later under constant torque, by Runge-Kutta steps of order 4 that are at most
 /// 5 ms long and short enough for its friction near zero velocity. NaN in gives NaN out.
-JointState physics_step(const FastDynamics& robot, const JointState& start, const JointVector<double>& tau,
+JointState physics_step(const FastDynamics& robot, const JointState& start, const JointVector& tau,
                         double duration);
 
 }  // namespace faultline

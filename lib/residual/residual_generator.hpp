@@ -42,7 +42,7 @@ struct ResidualGenerator {
   bool uses_mean_torque = false;  ///< inputs also hold the mean torque over the step
   std::vector<char> turns;  ///< 1 for a revolute joint that goes round: seen by sine and cosine, differences
                             ///< taken modulo a turn
-  Chain<double> chain;      ///< the identified robot
+  Chain chain;              ///< the identified robot
   Scaler inputs, outputs;   ///< of the network
   Mlp mlp;                  ///< empty for kind physics
   HealthyResiduals healthy;
@@ -71,7 +71,7 @@ Eigen::MatrixXd measured_change(const ResidualGenerator& generator, const Transi
 void to_json(nlohmann::json& json, const ResidualGenerator& generator);
 /// The chain is not in the JSON: it belongs to the robot, which the model keeps. Throws Error(input) when
 /// something is missing or does not fit the robot; `where` names the file.
-ResidualGenerator residual_generator_from_json(const nlohmann::json& json, const Chain<double>& chain,
+ResidualGenerator residual_generator_from_json(const nlohmann::json& json, const Chain& chain,
                                                const std::string& where);
 
 }  // namespace faultline

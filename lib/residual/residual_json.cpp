@@ -100,8 +100,7 @@ void to_json(json& out, const ResidualGenerator& generator) {
   out["mlp"] = generator.mlp;
 }
 
-ResidualGenerator residual_generator_from_json(const json& in, const Chain<double>& chain,
-                                               const std::string& where) {
+ResidualGenerator residual_generator_from_json(const json& in, const Chain& chain, const std::string& where) {
   ResidualGenerator generator;
   generator.kind = kind_from(text_from_json(in, "kind", where), where);
   const std::string target = text_from_json(in, "target", where);

@@ -9,14 +9,14 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-MatrixXd torque_space(const Chain<double>& chain, const Transitions& transitions, const MatrixXd& velocity) {
+MatrixXd torque_space(const Chain& chain, const Transitions& transitions, const MatrixXd& velocity) {
   const FastDynamics robot(chain);
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
+  JointMatrix inertia;
+  JointVector bias;
   MatrixXd torque(velocity.rows(), velocity.cols());
   for (Index i = 0; i < velocity.cols(); ++i) {
     robot.inertia_and_bias(transitions.q.col(i), transitions.dq.col(i), inertia, bias);
-    const JointVector<double> rate = velocity.col(i) / transitions.duration[i];
+    const JointVector rate = velocity.col(i) / transitions.duration[i];
     torque.col(i) = inertia * rate;
   }
   return torque;

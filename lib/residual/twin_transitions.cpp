@@ -25,8 +25,8 @@ VectorXd scattered(const VectorXd& centre, const VectorXd& half, double spread, 
 
 }  // namespace
 
-Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape,
-                             const Chain<double>& chain, int count, const TwinPatternOptions& options) {
+Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape, const Chain& chain,
+                             int count, const TwinPatternOptions& options) {
   const VectorXd q_half = half_range(logged.q), dq_half = half_range(logged.dq),
                  tau_half = half_range(logged.mean_tau);
   const FastDynamics robot(chain);

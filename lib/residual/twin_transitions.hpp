@@ -19,7 +19,7 @@ struct TwinPatternOptions {
 /// `count` transitions that the identified robot would make from starts scattered around `logged` ones, so
 /// that a network also learns the states between and beyond the moves of a few healthy logs, where a faulty
 /// robot goes. Throws nothing; transitions that run away to non-finite numbers are left out.
-Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape,
-                             const Chain<double>& chain, int count, const TwinPatternOptions& options = {});
+Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape, const Chain& chain,
+                             int count, const TwinPatternOptions& options = {});
 
 }  // namespace faultline

@@ -16,7 +16,7 @@ constexpr const char* viscous_unit(AxisKind kind) {
 }
 
 /// Of each joint, whether it slides.
-inline std::vector<bool> sliding_joints(const Chain<double>& chain) {
+inline std::vector<bool> sliding_joints(const Chain& chain) {
   std::vector<bool> slides;
   for (const auto& joint : chain.geometry) slides.push_back(joint.kind == AxisKind::prismatic);
   return slides;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/robot/chain.hpp"
 
+#include <cmath>
+
 namespace faultline {
 namespace {
 
@@ -11,39 +13,44 @@ Eigen::Matrix3d point_inertia(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-LinkInertia<double> uniform_rod(double mass, double length, const Eigen::Vector3d& direction) {
-  LinkInertia<double> link;
+LinkInertia uniform_rod(double mass, double length, const Eigen::Vector3d& direction) {
+  LinkInertia link;
   link.mass = mass;
   link.first_moment = 0.5 * mass * length * direction;
   link.inertia = mass * length * length / 3.0 * point_inertia(direction);
   return link;
 }
 
-LinkInertia<double> point_mass(double mass) {
-  LinkInertia<double> link;
+LinkInertia point_mass(double mass) {
+  LinkInertia link;
   link.mass = mass;
   return link;
 }
 
-LinkInertia<double> general_body(double mass, const Eigen::Vector3d& centre,
-                                 const Eigen::Matrix3d& inertia_at_centre) {
-  LinkInertia<double> link;
+LinkInertia general_body(double mass, const Eigen::Vector3d& centre,
+                         const Eigen::Matrix3d& inertia_at_centre) {
+  LinkInertia link;
   link.mass = mass;
   link.first_moment = mass * centre;
   link.inertia = inertia_at_centre + mass * point_inertia(centre);
   return link;
 }
 
-LinkInertia<double> seen_from(const LinkInertia<double>& body, const Eigen::Matrix3d& rotation,
-                              const Eigen::Vector3d& position) {
+LinkInertia seen_from(const LinkInertia& body, const Eigen::Matrix3d& rotation,
+                      const Eigen::Vector3d& position) {
   const Eigen::Vector3d turned = rotation * body.first_moment, &p = position;
-  LinkInertia<double> seen;
+  LinkInertia seen;
   seen.mass = body.mass;
   seen.first_moment = turned + body.mass * p;
   seen.inertia = rotation * body.inertia * rotation.transpose() + body.mass * point_inertia(p) +
                  2.0 * p.dot(turned) * Eigen::Matrix3d::Identity() - p * turned.transpose() -
                  turned * p.transpose();
   return seen;
+}
+
+double steepest(const Friction& f, double torque) {
+  return f.viscous + (std::abs(f.coulomb) + std::abs(f.load) * torque) / f.width +
+         std::abs(f.bend) / f.bend_width + std::abs(f.skew);
 }
 
 }  // namespace faultline

@@ -15,7 +15,7 @@ constexpr double kFastest = 1e5;  // 1/rad or 1/m, of a ripple
 
 }  // namespace
 
-void read_extra_torque(const TomlTable& table, Chain<double>& chain) {
+void read_extra_torque(const TomlTable& table, Chain& chain) {
   const int n = chain.joints();
   for (const TomlTable& ripple : table.tables("ripple")) {
     const auto joint = ripple.integer("joint", 0);
@@ -38,7 +38,7 @@ void read_extra_torque(const TomlTable& table, Chain<double>& chain) {
   }
 }
 
-std::string extra_torque_text(const Chain<double>& chain, const std::string& prefix) {
+std::string extra_torque_text(const Chain& chain, const std::string& prefix) {
   std::string text;
   for (const Ripple& r : chain.ripples)
     text += fmt::format("\n[[{}ripple]]\njoint = {}\nrate = {}\ncosine = {}\nsine = {}\n", prefix,

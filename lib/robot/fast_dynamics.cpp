@@ -81,8 +81,8 @@ void FastDynamics::add_prismatic(double* inertia, double* bias) const {
   }
 }
 
-void FastDynamics::momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
-                                      JointVector<double>& momentum, JointVector<double>& force) const {
+void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
+                                      JointVector& force) const {
   if (!planar_) return spatial_.momentum_and_force(q, dq, momentum, force);
   momentum.resize(joints_);
   force.resize(joints_);
@@ -136,8 +136,8 @@ void FastDynamics::momentum_and_force(const JointVector<double>& q, const JointV
   for (int i = 0; i < joints_; ++i) momentum[i] += bodies_.rotor_inertia[i] * dq[i];
 }
 
-void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
-                                    JointMatrix<double>& inertia, JointVector<double>& bias) const {
+void FastDynamics::inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                                    JointVector& bias) const {
   if (planar_) {
     inertia.resize(joints_, joints_);
     bias.resize(joints_);
@@ -148,23 +148,23 @@ void FastDynamics::inertia_and_bias(const JointVector<double>& q, const JointVec
   if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
 }
 
-JointVector<double> FastDynamics::body_torque(const JointVector<double>& q, const JointVector<double>& dq,
-                                              const JointVector<double>& ddq) const {
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
+JointVector FastDynamics::body_torque(const JointVector& q, const JointVector& dq,
+                                      const JointVector& ddq) const {
+  JointMatrix inertia;
+  JointVector bias;
   inertia_and_bias(q, dq, inertia, bias);
   bias.noalias() += inertia.lazyProduct(ddq);
   return bias;
 }
 
-void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& torque) const {
+void FastDynamics::friction(const JointVector& dq, JointVector& torque) const {
   torque.resize(joints_);
   if (!has_friction_) {
     torque.setZero();
     return;
   }
   for (int i = 0; i < joints_; ++i) {
-    const Friction<double>& f = chain_.friction[i];
+    const Friction& f = chain_.friction[i];
     torque[i] = f.viscous * dq[i] + f.offset;
     if (f.coulomb != 0.0) torque[i] += f.coulomb * fast_tanh(dq[i] / f.width);
     if (f.bend != 0.0) torque[i] += f.bend * fast_tanh(dq[i] / f.bend_width);
@@ -172,8 +172,8 @@ void FastDynamics::friction(const JointVector<double>& dq, JointVector<double>& 
   }
 }
 
-void FastDynamics::drag(const JointVector<double>& q, const JointVector<double>& dq,
-                        const JointVector<double>& tau, JointVector<double>& torque) const {
+void FastDynamics::drag(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                        JointVector& torque) const {
   friction(dq, torque);
   if (!has_extra_) return;
   add_extra_torque(chain_, q, dq, torque);
@@ -181,11 +181,10 @@ void FastDynamics::drag(const JointVector<double>& q, const JointVector<double>&
     torque[i] = tau[i] - carried_torque(chain_.friction[i], dq[i], tau[i] - torque[i]);
 }
 
-void FastDynamics::acceleration(const JointVector<double>& q, const JointVector<double>& dq,
-                                const JointVector<double>& tau, JointVector<double>& ddq,
-                                unsigned locked) const {
-  JointMatrix<double> inertia;
-  JointVector<double> bias, lost;
+void FastDynamics::acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                                JointVector& ddq, unsigned locked) const {
+  JointMatrix inertia;
+  JointVector bias, lost;
   inertia_and_bias(q, dq, inertia, bias);
   drag(q, dq, tau, lost);
   ddq.resize(joints_);

@@ -16,12 +16,12 @@ namespace faultline {
 /// construction; safe to share between threads.
 class FastDynamics {
  public:
-  explicit FastDynamics(const Chain<double>& chain);
+  explicit FastDynamics(const Chain& chain);
 
   int joints() const { return joints_; }
   /// True when the fast path is in use.
   bool planar() const { return planar_; }
-  const Chain<double>& chain() const { return chain_; }
+  const Chain& chain() const { return chain_; }
   /// Whether the torque of the bodies can depend on a joint's position or its velocity.
   bool depends_on_position(int joint) const {
     return !planar_ || (depends_on_velocity(joint) && (gravity_in_plane_ || joint != revolute_joint_[0]));
@@ -31,24 +31,22 @@ class FastDynamics {
   }
 
   /// M(q) and h(q, dq) + G(q).
-  void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
-                        JointMatrix<double>& inertia, JointVector<double>& bias) const;
+  void inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                        JointVector& bias) const;
   /// M ddq + h + G.
-  JointVector<double> body_torque(const JointVector<double>& q, const JointVector<double>& dq,
-                                  const JointVector<double>& ddq) const;
+  JointVector body_torque(const JointVector& q, const JointVector& dq, const JointVector& ddq) const;
   /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G, without what
   /// joints share.
-  void momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
-                          JointVector<double>& momentum, JointVector<double>& force) const;
+  void momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
+                          JointVector& force) const;
   /// F(dq).
-  void friction(const JointVector<double>& dq, JointVector<double>& torque) const;
+  void friction(const JointVector& dq, JointVector& torque) const;
   /// All that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
-  void drag(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
-            JointVector<double>& torque) const;
+  void drag(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& torque) const;
   /// ddq = M^-1 (tau - drag - h - G). Joints whose bit is set in `locked` (bit 0 the first) do not
   /// accelerate.
-  void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
-                    const JointVector<double>& tau, JointVector<double>& ddq, unsigned locked = 0) const;
+  void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& ddq,
+                    unsigned locked = 0) const;
 
  private:
   template <typename T>
@@ -71,7 +69,7 @@ class FastDynamics {
   void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
   void add_prismatic(double* inertia, double* bias) const;
 
-  Chain<double> chain_;
+  Chain chain_;
   int joints_ = 0;
   bool planar_ = false;
   bool has_friction_ = false;

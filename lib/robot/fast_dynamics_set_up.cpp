@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kParallel = 1e-13;
 
-bool has_parallel_axes(const Chain<double>& chain) {
+bool has_parallel_axes(const Chain& chain) {
   const Eigen::Vector3d& normal = chain.geometry[0].axis;
   for (const JointGeometry& joint : chain.geometry)
     if (joint.axis.cross(normal).norm() > kParallel) return false;
@@ -27,7 +27,7 @@ struct PlanarBody {
 
 }  // namespace
 
-FastDynamics::FastDynamics(const Chain<double>& chain) : chain_(chain), joints_(chain.joints()) {
+FastDynamics::FastDynamics(const Chain& chain) : chain_(chain), joints_(chain.joints()) {
   for (const auto& f : chain_.friction)
     has_friction_ = has_friction_ || f.viscous != 0.0 || f.coulomb != 0.0 || f.offset != 0.0 ||
                     f.bend != 0.0 || f.skew != 0.0;
@@ -61,7 +61,7 @@ void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {
       prismatic_joint_[prismatic_++] = i;
     }
     if (revolute_ == 0) continue;
-    const LinkInertia<double>& link = chain_.links[i];
+    const LinkInertia& link = chain_.links[i];
     const Eigen::Vector2d moment = plane * link.first_moment;
     PlanarBody& body = bodies[revolute_ - 1];
     body.mass += link.mass;

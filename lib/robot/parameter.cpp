@@ -21,8 +21,8 @@ bool set_parameter(Robot& robot, const std::string& name, double value) {
     return false;
   const std::string what = name.substr(0, digits);
   const int i = joint - 1;
-  Chain<double>& chain = robot.chain;
-  LinkInertia<double>& link = chain.links[i];
+  Chain& chain = robot.chain;
+  LinkInertia& link = chain.links[i];
   if (what == "fv")
     chain.friction[i].viscous = value;
   else if (what == "fc")

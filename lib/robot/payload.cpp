@@ -15,15 +15,15 @@ constexpr double kOnePayload = 1e-9;  // 1 - cosine between torques of two paylo
 constexpr double kUnfelt_Nm = 1e-9;   // of 1 kg
 
 /// Torques that 1 kg at the end of a link takes in some states, one after another.
-Eigen::VectorXd torques_of_payload(const Chain<double>& chain, int link) {
+Eigen::VectorXd torques_of_payload(const Chain& chain, int link) {
   const int n = chain.joints();
-  Chain<double> alone = chain;
-  for (LinkInertia<double>& body : alone.links) body = {};
+  Chain alone = chain;
+  for (LinkInertia& body : alone.links) body = {};
   alone.rotor_inertia.assign(static_cast<std::size_t>(n), 0.0);
   alone = with_payload(alone, link, 1.0);
   Random random(1);
   Eigen::VectorXd out(kStates * n);
-  JointVector<double> q(n), dq(n), ddq(n);
+  JointVector q(n), dq(n), ddq(n);
   for (int k = 0; k < kStates; ++k) {
     for (int i = 0; i < n; ++i) {
       q[i] = random.uniform(-2.0, 2.0);
@@ -41,7 +41,7 @@ bool are_one(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-Eigen::Vector3d link_end(const Chain<double>& chain, int link) {
+Eigen::Vector3d link_end(const Chain& chain, int link) {
   const JointGeometry& joint = chain.geometry[link];
   if (link + 1 < chain.joints()) {
     const JointGeometry& next = chain.geometry[link + 1];
@@ -52,17 +52,17 @@ Eigen::Vector3d link_end(const Chain<double>& chain, int link) {
          (joint.direction.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : joint.direction);
 }
 
-Chain<double> with_payload(const Chain<double>& chain, int link, double kg) {
-  Chain<double> loaded = chain;
-  const LinkInertia<double> body = general_body(kg, link_end(chain, link), Eigen::Matrix3d::Zero());
-  LinkInertia<double>& carrier = loaded.links[link];
+Chain with_payload(const Chain& chain, int link, double kg) {
+  Chain loaded = chain;
+  const LinkInertia body = general_body(kg, link_end(chain, link), Eigen::Matrix3d::Zero());
+  LinkInertia& carrier = loaded.links[link];
   carrier.mass += body.mass;
   carrier.first_moment += body.first_moment;
   carrier.inertia += body.inertia;
   return loaded;
 }
 
-std::vector<int> payload_links(const Chain<double>& chain) {
+std::vector<int> payload_links(const Chain& chain) {
   std::vector<int> out;
   std::vector<Eigen::VectorXd> later;
   for (int link = chain.joints() - 1; link >= 0; --link) {

@@ -45,7 +45,7 @@ struct LogMeaning {
 struct Robot {
   std::string name;
   std::string axes;  ///< parallel axes such as "RRP", base to tip; "" for a chain given axis by axis
-  Chain<double> chain;
+  Chain chain;
   std::vector<LinkShape> shapes;
   /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
   /// friction), fo1.. (friction offset), fl1.. (friction's share of the load), jr1.. (rotor inertia seen at

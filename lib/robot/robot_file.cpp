@@ -73,7 +73,7 @@ void read_link(Robot& robot, int i, const TomlTable& table) {
   }
   robot.chain.length[i] = not_negative(table, "length", robot.shapes[i] == LinkShape::rod ? 1.0 : 0.0);
   const double mass = not_negative(table, "mass", 1.0);
-  LinkInertia<double>& link = robot.chain.links[i];
+  LinkInertia& link = robot.chain.links[i];
   if (robot.shapes[i] == LinkShape::rod) {
     link = uniform_rod(mass, robot.chain.length[i], link_direction(robot, i));
   } else if (robot.shapes[i] == LinkShape::point) {
@@ -112,29 +112,28 @@ void check_load(const TomlTable& table, const std::string& key, double load) {
 void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
   const int n = robot.joints();
   const TomlTable friction = table.table("friction");
-  const auto set = [&](const TomlTable& from, const char* key, double Friction<double>::*member,
-                       bool any_sign) {
+  const auto set = [&](const TomlTable& from, const char* key, double Friction::*member, bool any_sign) {
     if (!from.has(key)) return;
     const auto values = from.each(key, n);
     if (!any_sign) check_signs(from, key, values, !std::string(key).ends_with("width"));
     for (int i = 0; i < n; ++i) robot.chain.friction[i].*member = values[i];
   };
-  set(table, "width", &Friction<double>::width, false);
-  set(friction, "viscous", &Friction<double>::viscous, false);
-  set(friction, "coulomb", &Friction<double>::coulomb, false);
-  set(friction, "offset", &Friction<double>::offset, true);
-  set(friction, "width", &Friction<double>::width, false);
-  set(friction, "bend", &Friction<double>::bend, true);
-  set(friction, "bend_width", &Friction<double>::bend_width, false);
-  set(friction, "skew", &Friction<double>::skew, true);
-  set(friction, "load", &Friction<double>::load, false);
-  for (const Friction<double>& f : robot.chain.friction) check_load(friction, "load", f.load);
+  set(table, "width", &Friction::width, false);
+  set(friction, "viscous", &Friction::viscous, false);
+  set(friction, "coulomb", &Friction::coulomb, false);
+  set(friction, "offset", &Friction::offset, true);
+  set(friction, "width", &Friction::width, false);
+  set(friction, "bend", &Friction::bend, true);
+  set(friction, "bend_width", &Friction::bend_width, false);
+  set(friction, "skew", &Friction::skew, true);
+  set(friction, "load", &Friction::load, false);
+  for (const Friction& f : robot.chain.friction) check_load(friction, "load", f.load);
   if (table.has("rotor_inertia")) {
     robot.chain.rotor_inertia = table.each("rotor_inertia", n);
     check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    Friction<double>& f = robot.chain.friction[i];
+    Friction& f = robot.chain.friction[i];
     const TomlTable own = joints[i].table("friction");
     f.viscous = not_negative(own, "viscous", f.viscous);
     f.coulomb = not_negative(own, "coulomb", f.coulomb);
@@ -168,7 +167,7 @@ void read_identified(Robot& robot, const TomlTable& table) {
                                 robot.joints(), joints.size()));
   for (int i = 0; i < robot.joints(); ++i) {
     const TomlTable& joint = joints[i];
-    Chain<double>& chain = robot.chain;
+    Chain& chain = robot.chain;
     chain.length[i] = joint.number("length");
     chain.links[i].mass = joint.number("mass");
     chain.links[i].first_moment = vector3(joint, "first_moment", {0, 0, 0});

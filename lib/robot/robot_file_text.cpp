@@ -11,7 +11,7 @@ namespace faultline {
 namespace {
 
 /// The parts of friction that few joints have.
-std::string rare_friction_text(const Friction<double>& f, const char* separator) {
+std::string rare_friction_text(const Friction& f, const char* separator) {
   std::string text;
   if (f.bend != 0.0 || f.skew != 0.0)
     text = fmt::format("{0}bend = {1}{0}bend_width = {2}{0}skew = {3}", separator, toml_number(f.bend),
@@ -29,7 +29,7 @@ std::string by_joint_text(const char* key, const std::vector<double>& values) {
 
 std::string toml_joint(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
-  const Friction<double>& f = robot.chain.friction[i];
+  const Friction& f = robot.chain.friction[i];
   std::string text = "\n[[joint]]\n";
   text += fmt::format("kind = \"{}\"\n", to_string(joint.kind));
   text += fmt::format("axis = {}\noffset = {}\n", toml_numbers(joint.axis), toml_numbers(joint.offset));
@@ -42,7 +42,7 @@ std::string toml_joint(const Robot& robot, int i) {
 }
 
 std::string toml_link(const Robot& robot, int i) {
-  const LinkInertia<double>& link = robot.chain.links[i];
+  const LinkInertia& link = robot.chain.links[i];
   const LinkShape shape = robot.shapes[i];
   std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", to_string(shape));
   if (robot.identified) return text;  // [identified] has the rest
@@ -76,8 +76,8 @@ std::string identified_text(const Robot& robot) {
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
   text += drive_text(robot);
   for (int i = 0; i < robot.joints(); ++i) {
-    const LinkInertia<double>& link = robot.chain.links[i];
-    const Friction<double>& f = robot.chain.friction[i];
+    const LinkInertia& link = robot.chain.links[i];
+    const Friction& f = robot.chain.friction[i];
     text += fmt::format(
         "\n[[identified.joint]]\nlength = {}\nmass = {}\nfirst_moment = {}\ninertia = {}\nviscous = {}\n"
         "coulomb = {}\noffset = {}\nwidth = {}{}\nrotor_inertia = {}\n",

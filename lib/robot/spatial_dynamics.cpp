@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "lib/robot/link_pose.hpp"
+#include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {
@@ -33,7 +33,7 @@ struct Body {
   }
 };
 
-Body body_at(const LinkInertia<double>& link, const Matrix3d& rotation, const Vector3d& position) {
+Body body_at(const LinkInertia& link, const Matrix3d& rotation, const Vector3d& position) {
   const Vector3d first = rotation * link.first_moment;
   Body out{link.mass, first + link.mass * position, rotation * link.inertia * rotation.transpose()};
   const Vector3d moved = 0.5 * (out.first + first);  // first + mass position / 2
@@ -68,17 +68,15 @@ struct SpatialDynamics::Bodies {
   std::array<Body, kMaxJoints> body;
 };
 
-SpatialDynamics::SpatialDynamics(const Chain<double>& chain)
-    : joints_(chain.joints()), gravity_(chain.gravity) {
+SpatialDynamics::SpatialDynamics(const Chain& chain) : joints_(chain.joints()), gravity_(chain.gravity) {
   for (int i = 0; i < joints_; ++i) {
     const JointGeometry& joint = chain.geometry[i];
-    link_[i] = {joint.kind == AxisKind::revolute, joint.axis, detail::link_pose(chain, i, 0.0).position,
+    link_[i] = {joint.kind == AxisKind::revolute, joint.axis, link_pose(chain, i, 0.0).position,
                 chain.links[i], chain.rotor_inertia.empty() ? 0.0 : chain.rotor_inertia[i]};
   }
 }
 
-SpatialDynamics::Bodies SpatialDynamics::in_base(const JointVector<double>& q,
-                                                 const JointVector<double>& dq) const {
+SpatialDynamics::Bodies SpatialDynamics::in_base(const JointVector& q, const JointVector& dq) const {
   Bodies out;
   Matrix3d rotation = Matrix3d::Identity();
   Vector3d position = Vector3d::Zero();  // from the first joint
@@ -88,7 +86,7 @@ SpatialDynamics::Bodies SpatialDynamics::in_base(const JointVector<double>& q,
     const Vector3d along = rotation * link.axis;
     if (i > 0) position += rotation * link.position;
     if (link.turns) {
-      rotation = (rotation * detail::rotation_about(link.axis, q[i])).eval();
+      rotation = (rotation * rotation_about(link.axis, q[i])).eval();
       out.axis[i] = {along, position.cross(along)};
     } else {
       position += q[i] * along;
@@ -101,8 +99,8 @@ SpatialDynamics::Bodies SpatialDynamics::in_base(const JointVector<double>& q,
   return out;
 }
 
-void SpatialDynamics::inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
-                                       JointMatrix<double>& inertia, JointVector<double>& bias) const {
+void SpatialDynamics::inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                                       JointVector& bias) const {
   const int n = joints_;
   Bodies at = in_base(q, dq);
   std::array<Wrench, kMaxJoints> wrench;
@@ -131,8 +129,8 @@ void SpatialDynamics::inertia_and_bias(const JointVector<double>& q, const Joint
   }
 }
 
-void SpatialDynamics::momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
-                                         JointVector<double>& momentum, JointVector<double>& force) const {
+void SpatialDynamics::momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
+                                         JointVector& force) const {
   const Bodies at = in_base(q, dq);
   momentum.resize(joints_);
   force.resize(joints_);

@@ -15,24 +15,24 @@ namespace faultline {
 class SpatialDynamics {
  public:
   SpatialDynamics() = default;
-  explicit SpatialDynamics(const Chain<double>& chain);
+  explicit SpatialDynamics(const Chain& chain);
 
-  void inertia_and_bias(const JointVector<double>& q, const JointVector<double>& dq,
-                        JointMatrix<double>& inertia, JointVector<double>& bias) const;
+  void inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                        JointVector& bias) const;
   /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G.
-  void momentum_and_force(const JointVector<double>& q, const JointVector<double>& dq,
-                          JointVector<double>& momentum, JointVector<double>& force) const;
+  void momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
+                          JointVector& force) const;
 
  private:
   struct Link {
     bool turns = true;
     Eigen::Vector3d axis, position;  ///< in the link before, at q = 0
-    LinkInertia<double> body;
+    LinkInertia body;
     double rotor_inertia = 0.0;
   };
 
   struct Bodies;
-  Bodies in_base(const JointVector<double>& q, const JointVector<double>& dq) const;
+  Bodies in_base(const JointVector& q, const JointVector& dq) const;
 
   int joints_ = 0;
   Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();

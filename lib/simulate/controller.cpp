@@ -10,8 +10,8 @@
 namespace faultline {
 namespace {
 
-Chain<double> nominal_chain(const Robot& robot, const ControllerSpec& spec) {
-  Chain<double> chain = spec.nominal ? *spec.nominal : robot.chain;
+Chain nominal_chain(const Robot& robot, const ControllerSpec& spec) {
+  Chain chain = spec.nominal ? *spec.nominal : robot.chain;
   if (chain.joints() != robot.joints())
     throw Error(ErrorCode::usage, "controller.nominal",
                 fmt::format("expected a model with {} joints, found {}", robot.joints(), chain.joints()));
@@ -40,19 +40,19 @@ Controller::Controller(const Robot& robot, const ControllerSpec& spec, double co
   const double w = spec.bandwidth_rad_s > 0.0 ? spec.bandwidth_rad_s : std::min(15.0, 0.4 / control_period_s);
   kp_ = w * w;
   kd_ = 2.0 * spec.damping * w;
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
-  const JointVector<double> zero = JointVector<double>::Zero(robot.joints());
+  JointMatrix inertia;
+  JointVector bias;
+  const JointVector zero = JointVector::Zero(robot.joints());
   nominal_.inertia_and_bias(zero, zero, inertia, bias);
   inertia_ = inertia.diagonal();
 }
 
-void Controller::torque(const Reference& reference, const JointVector<double>& q,
-                        const JointVector<double>& dq, JointVector<double>& tau) const {
+void Controller::torque(const Reference& reference, const JointVector& q, const JointVector& dq,
+                        JointVector& tau) const {
   const int n = nominal_.joints();
   const bool full = spec_.kind == ControllerKind::computed_torque;
-  JointMatrix<double> inertia;
-  JointVector<double> pull(n), rates(n);
+  JointMatrix inertia;
+  JointVector pull(n), rates(n);
   for (int i = 0; i < n; ++i) {
     pull[i] = kp_ * (reference.q[i] - q[i]) + kd_ * (reference.dq[i] - dq[i]);
     if (full) pull[i] += reference.ddq[i];

@@ -25,7 +25,7 @@ struct ControllerSpec {
   /// exact.
   std::vector<double> mass_error{};
   /// The controller's model; empty: the robot simulated. `mass_error` comes on top.
-  std::optional<Chain<double>> nominal{};
+  std::optional<Chain> nominal{};
 };
 
 /// Turns a reference and a reading into the commanded torque. No state, no heap allocation per call.
@@ -34,15 +34,15 @@ class Controller {
   /// Throws Error(usage) when `spec` does not fit the robot.
   Controller(const Robot& robot, const ControllerSpec& spec, double control_period_s);
 
-  void torque(const Reference& reference, const JointVector<double>& q, const JointVector<double>& dq,
-              JointVector<double>& tau) const;
+  void torque(const Reference& reference, const JointVector& q, const JointVector& dq,
+              JointVector& tau) const;
 
  private:
   ControllerSpec spec_;
   FastDynamics nominal_;
-  double kp_ = 0.0;              ///< 1/s^2
-  double kd_ = 0.0;              ///< 1/s
-  JointVector<double> inertia_;  ///< diagonal of M in the middle, which scales the gains of PD
+  double kp_ = 0.0;      ///< 1/s^2
+  double kd_ = 0.0;      ///< 1/s
+  JointVector inertia_;  ///< diagonal of M in the middle, which scales the gains of PD
 };
 
 }  // namespace faultline

@@ -25,7 +25,7 @@ Drives::Drives(int joints, const DriveSpec& spec, Random random)
     if (roughness_[j] > 0.0) rough_[j] = roughness_[j] * random_.normal();
 }
 
-void Drives::act(double length_s, JointVector<double>& commanded) {
+void Drives::act(double length_s, JointVector& commanded) {
   for (int j = 0; j < commanded.size(); ++j)
     commanded[j] = (1.0 + gain_[j]) * commanded[j] + offset_[j] + mean_roughness(j, length_s);
 }

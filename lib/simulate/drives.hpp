@@ -22,7 +22,7 @@ class Drives {
   Drives(int joints, const DriveSpec& spec, Random random);
 
   /// `commanded` becomes what arrives, in the mean, over the next `length_s`.
-  void act(double length_s, JointVector<double>& commanded);
+  void act(double length_s, JointVector& commanded);
 
  private:
   double mean_roughness(int joint, double length_s);

@@ -36,8 +36,7 @@ void check_warm_up(int joints, const WarmUpSpec& spec) {
   check_beside(joints, spec.share, spec.time_s, "warm_up.time_s", "a time");
 }
 
-ExtraFriction::ExtraFriction(const Chain<double>& healthy, const StickSlipSpec& stick_slip,
-                             const WarmUpSpec& warm_up)
+ExtraFriction::ExtraFriction(const Chain& healthy, const StickSlipSpec& stick_slip, const WarmUpSpec& warm_up)
     : breakaway_(or_all(stick_slip.share, healthy.joints(), 0.0)),
       breakaway_speed_(or_all(stick_slip.speed, healthy.joints(), 1.0)),
       cold_(or_all(warm_up.share, healthy.joints(), 0.0)),
@@ -52,7 +51,7 @@ void ExtraFriction::set_time(double t) {
     if (cold_[j] > 0.0) still_cold_[j] = cold_[j] * elementary::exp(-t / warm_up_s_[j]);
 }
 
-double ExtraFriction::torque(int joint, double speed, const Friction<double>& now) const {
+double ExtraFriction::torque(int joint, double speed, const Friction& now) const {
   const double cold_coulomb = still_cold_[joint] * healthy_[joint].coulomb;
   double coulomb = cold_coulomb;
   if (breakaway_[joint] > 0.0) {
@@ -62,7 +61,7 @@ double ExtraFriction::torque(int joint, double speed, const Friction<double>& no
   return still_cold_[joint] * healthy_[joint].viscous * speed + coulomb * elementary::tanh(speed / now.width);
 }
 
-Friction<double> ExtraFriction::worst(int joint, Friction<double> now) const {
+Friction ExtraFriction::worst(int joint, Friction now) const {
   now.viscous += cold_[joint] * healthy_[joint].viscous;
   now.coulomb += cold_[joint] * healthy_[joint].coulomb;
   if (breakaway_[joint] > 0.0) {

@@ -29,19 +29,19 @@ void check_warm_up(int joints, const WarmUpSpec& spec);
 class ExtraFriction {
  public:
   /// `healthy` is the chain without faults; the specs fit it.
-  ExtraFriction(const Chain<double>& healthy, const StickSlipSpec& stick_slip, const WarmUpSpec& warm_up);
+  ExtraFriction(const Chain& healthy, const StickSlipSpec& stick_slip, const WarmUpSpec& warm_up);
 
   bool any() const { return any_; }
   /// Sets the time into the run that torque() is for.
   void set_time(double t);
   /// Against the motion, N m or N, beside the friction `now` of the moment's chain.
-  double torque(int joint, double speed, const Friction<double>& now) const;
+  double torque(int joint, double speed, const Friction& now) const;
   /// A friction at least as large and as steep as `now` with all that is beyond it, at any time.
-  Friction<double> worst(int joint, Friction<double> now) const;
+  Friction worst(int joint, Friction now) const;
 
  private:
   std::vector<double> breakaway_, breakaway_speed_, cold_, warm_up_s_;
-  std::vector<Friction<double>> healthy_;
+  std::vector<Friction> healthy_;
   std::vector<double> still_cold_;  ///< share above the model's friction, now
   bool any_ = false;
 };

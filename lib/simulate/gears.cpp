@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -22,10 +23,10 @@ double value_of(const std::vector<double>& list, int joint) { return list.empty(
 constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg: less is none, and no spring's step is that short
 
 /// A link that has no inertia of its own cannot hang on a spring.
-void check_links(const Chain<double>& chain, const Gears& gears) {
-  const JointMatrix<double> inertia =
-      inertia_matrix(gears.link_side(chain), JointVector<double>(JointVector<double>::Zero(chain.joints())));
-  const JointMatrix<double> mobility = inertia.inverse();
+void check_links(const Chain& chain, const Gears& gears) {
+  const JointMatrix inertia =
+      inertia_matrix(gears.link_side(chain), JointVector(JointVector::Zero(chain.joints())));
+  const JointMatrix mobility = inertia.inverse();
   for (int j = 0; j < chain.joints(); ++j)
     if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
       bad_gears(
@@ -52,7 +53,7 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
   check_not_negative(joints, spec.damping, "gears.damping");
   check_not_negative(joints, spec.play, "gears.play");
   check_not_negative(joints, spec.motor_inertia, "gears.motor_inertia");
-  const Chain<double> chain = with_motors(robot, spec).chain;
+  const Chain chain = with_motors(robot, spec).chain;
   for (int j = 0; j < joints; ++j) {
     if (!(value_of(spec.stiffness, j) > 0.0)) {
       const bool plays = value_of(spec.play, j) > 0.0;
@@ -74,7 +75,7 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
   check_links(chain, Gears(chain, spec));
 }
 
-Gears::Gears(const Chain<double>& chain, const GearSpec& spec)
+Gears::Gears(const Chain& chain, const GearSpec& spec)
     : stiffness_(or_all(spec.stiffness, chain.joints(), 0.0)),
       damping_(or_all(spec.damping, chain.joints(), 0.0)),
       play_(or_all(spec.play, chain.joints(), 0.0)),
@@ -97,7 +98,7 @@ double Gears::twist_under(int joint, double torque) const {
   return torque / stiffness_[joint] + std::copysign(0.5 * play_[joint], torque);
 }
 
-Chain<double> Gears::link_side(Chain<double> chain) const {
+Chain Gears::link_side(Chain chain) const {
   for (int j = 0; j < chain.joints(); ++j) {
     if (!has_spring(j)) continue;
     chain.friction[j] = {};
@@ -107,14 +108,14 @@ Chain<double> Gears::link_side(Chain<double> chain) const {
   return chain;
 }
 
-double Gears::vibration_rate(const JointVector<double>& link_mobility) const {
+double Gears::vibration_rate(const JointVector& link_mobility) const {
   double square = 0.0;  // the trace of K (M^-1 + J^-1) is no less than its largest eigenvalue
   for (int j = 0; j < link_mobility.size(); ++j)
     if (has_spring(j)) square += stiffness_[j] * (link_mobility[j] + 1.0 / motor_inertia_[j]);
   return std::sqrt(square);
 }
 
-double Gears::damping_rate(const JointVector<double>& link_mobility) const {
+double Gears::damping_rate(const JointVector& link_mobility) const {
   double rate = 0.0;
   for (int j = 0; j < link_mobility.size(); ++j)
     if (has_spring(j)) rate += damping_[j] * (link_mobility[j] + 1.0 / motor_inertia_[j]);

@@ -27,7 +27,7 @@ void check_gears(const Robot& robot, const GearSpec& spec);
 class Gears {
  public:
   /// `chain` is that of a robot with_motors(); `spec` fits it.
-  Gears(const Chain<double>& chain, const GearSpec& spec);
+  Gears(const Chain& chain, const GearSpec& spec);
 
   /// Bit j: joint j (from 0) has a spring.
   unsigned springs() const { return springs_; }
@@ -42,11 +42,11 @@ class Gears {
   double twist_under(int joint, double torque) const;
 
   /// The chain without what is on the motors' side.
-  Chain<double> link_side(Chain<double> chain) const;
+  Chain link_side(Chain chain) const;
   /// Bound of the rate of the springs' vibrations (1/s) between motors and links of that mobility (diagonal
   /// of M^-1), and of their damping.
-  double vibration_rate(const JointVector<double>& link_mobility) const;
-  double damping_rate(const JointVector<double>& link_mobility) const;
+  double vibration_rate(const JointVector& link_mobility) const;
+  double damping_rate(const JointVector& link_mobility) const;
 
  private:
   std::vector<double> stiffness_, damping_, play_, motor_inertia_;

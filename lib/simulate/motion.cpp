@@ -106,14 +106,14 @@ void Motion::plan_moves(const MotionSpec& spec, const JointRanges& ranges, doubl
   Random random(seed);
   std::size_t visited = 0;
   const auto next_point = [&] {
-    JointVector<double> point(joints_);
+    JointVector point(joints_);
     for (int i = 0; i < joints_; ++i)
       point[i] = spec.points.empty() ? random.uniform(ranges.low[i], ranges.high[i])
                                      : spec.points[visited % spec.points.size()][i];
     ++visited;
     return point;
   };
-  JointVector<double> from = next_point();
+  JointVector from = next_point();
   double t = random.uniform(spec.dwell_min_s, spec.dwell_max_s);
   do {
     Move move{t, random.uniform(spec.move_min_s, spec.move_max_s), from, next_point()};
@@ -129,7 +129,7 @@ void Motion::plan_harmonics(const MotionSpec& spec, const JointRanges& ranges, s
   Random random(seed);
   base_rate_ = 2.0 * std::numbers::pi / spec.fourier_period_s;
   centre_.resize(joints_);
-  harmonics_.assign(spec.harmonics, {JointVector<double>::Zero(joints_), JointVector<double>::Zero(joints_)});
+  harmonics_.assign(spec.harmonics, {JointVector::Zero(joints_), JointVector::Zero(joints_)});
   for (int i = 0; i < joints_; ++i) {
     double slope = 0.0;
     for (int k = 0; k < spec.harmonics; ++k) {

@@ -50,7 +50,7 @@ struct JointRanges {
 
 /// The reference at one moment.
 struct Reference {
-  JointVector<double> q, dq, ddq;
+  JointVector q, dq, ddq;
 };
 
 /// The reference trajectory of one run, a function of time.
@@ -66,10 +66,10 @@ class Motion {
   struct Move {
     double start_s = 0.0;
     double length_s = 0.0;
-    JointVector<double> from, to;
+    JointVector from, to;
   };
   struct Harmonic {
-    JointVector<double> sine, cosine;
+    JointVector sine, cosine;
   };
 
   void plan_moves(const MotionSpec& spec, const JointRanges& ranges, double duration_s, std::uint64_t seed);
@@ -83,7 +83,7 @@ class Motion {
   double blend_ = 0.25;
   std::vector<Move> moves_;
   std::vector<Harmonic> harmonics_;
-  JointVector<double> centre_;
+  JointVector centre_;
   double base_rate_ = 0.0;  ///< rad/s of the first harmonic
   SampledMotion replay_;
 };

@@ -10,18 +10,18 @@ namespace faultline {
 
 /// The longest step that is safe from a state in which the drives turn with `rate` and accelerate with `ddq`:
 /// friction is stiff only where a velocity may pass near zero within the step.
-double Plant::safe_step(const JointVector<double>& rate, const JointVector<double>& ddq) const {
+double Plant::safe_step(const JointVector& rate, const JointVector& ddq) const {
   if (step_ == sliding_step_) return step_;
-  const std::vector<Friction<double>>& friction = (geared_ ? geared_->drives : dynamics_).chain().friction;
+  const std::vector<Friction>& friction = (geared_ ? geared_->drives : dynamics_).chain().friction;
   for (int i = 0; i < rate.size(); ++i) {
-    const Friction<double>& f = friction[i];
+    const Friction& f = friction[i];
     if (f.coulomb != 0.0 && std::abs(rate[i]) < 8.0 * f.width + 2.0 * sliding_step_ * std::abs(ddq[i]))
       return step_;
   }
   return sliding_step_;
 }
 
-void Plant::advance(double from, double to, const JointVector<double>& tau) {
+void Plant::advance(double from, double to, const JointVector& tau) {
   extra_friction_.set_time(0.5 * (from + to));
   const auto move_on = [&](double length) {
     return geared_ ? integrate_geared(length, tau) : integrate(length, tau);
@@ -44,12 +44,12 @@ double Plant::stop_torque(int joint, double at, double rate) const {
   return high ? std::max(push, 0.0) : std::min(push, 0.0);
 }
 
-void Plant::accelerate(const JointVector<double>& at, const JointVector<double>& rate,
-                       const JointVector<double>& tau, JointVector<double>& out) const {
+void Plant::accelerate(const JointVector& at, const JointVector& rate, const JointVector& tau,
+                       JointVector& out) const {
   const bool stops = stop_low_.size() > 0, extra = extra_friction_.any();
   if (!altered_ && !stops && !extra) return dynamics_.acceleration(at, rate, tau, out);
   const int n = dynamics_.joints();
-  JointVector<double> net(n);
+  JointVector net(n);
   for (int i = 0; i < n; ++i) {
     net[i] = gain_[i] * tau[i] + external_[i];
     if (extra) net[i] -= extra_friction_.torque(i, rate[i], dynamics_.chain().friction[i]);
@@ -58,10 +58,11 @@ void Plant::accelerate(const JointVector<double>& at, const JointVector<double>&
   dynamics_.acceleration(at, rate, net, out, locked_);
 }
 
-void Plant::integrate(double length, const JointVector<double>& tau) {
-  const auto acceleration = [&](double, const JointVector<double>& at, const JointVector<double>& rate,
-                                JointVector<double>& out) { accelerate(at, rate, tau, out); };
-  JointVector<double> a1(dq.size());
+void Plant::integrate(double length, const JointVector& tau) {
+  const auto acceleration = [&](double, const JointVector& at, const JointVector& rate, JointVector& out) {
+    accelerate(at, rate, tau, out);
+  };
+  JointVector a1(dq.size());
   while (length > 1e-12) {
     accelerate(q, dq, tau, a1);
     const double h = length / std::max(1.0, std::ceil(length / safe_step(dq, a1) - 1e-9));

@@ -35,57 +35,57 @@ class Plant {
   Plant(const Robot& robot, const JointStops& stops, const std::vector<SimulatedFault>& faults,
         double max_step_s, const MachineSpec& machine = {});
 
-  JointVector<double> q, dq;  ///< of the links
+  JointVector q, dq;  ///< of the links
 
   /// Motors and links move with `speed`, the motors are at `position`; gears that give way hang as at rest.
-  void start(const JointVector<double>& position, const JointVector<double>& speed);
+  void start(const JointVector& position, const JointVector& speed);
   /// Moves from `from` to `to` seconds under a constant commanded torque; faults that begin or end in between
   /// do so at their very moment. The friction's warmth is that of the middle.
-  void advance(double from, double to, const JointVector<double>& tau);
+  void advance(double from, double to, const JointVector& tau);
 
   /// Position and speed of the motors, which the encoders read; with rigid gears those of the links.
-  const JointVector<double>& motor_q() const { return geared_ ? geared_->q : q; }
-  const JointVector<double>& motor_dq() const { return geared_ ? geared_->dq : dq; }
+  const JointVector& motor_q() const { return geared_ ? geared_->q : q; }
+  const JointVector& motor_dq() const { return geared_ ? geared_->dq : dq; }
 
  private:
   /// The motors' side of a plant whose gears give way; a joint without a spring moves with its link.
   struct Geared {
     Gears gears;
     FastDynamics drives;  ///< the whole chain, for the friction of the motors
-    JointVector<double> q{}, dq{};
+    JointVector q{}, dq{};
   };
   /// Positions or rates of the links and then of the motors.
   using BothSides = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
 
   void set_stops(const JointStops& stops);
   void enter(double now);
-  void choose_steps(Chain<double>& chain);
-  double safe_step(const JointVector<double>& rate, const JointVector<double>& ddq) const;
+  void choose_steps(Chain& chain);
+  double safe_step(const JointVector& rate, const JointVector& ddq) const;
   void impact(unsigned newly_locked);
-  void integrate(double length, const JointVector<double>& tau);
-  void accelerate(const JointVector<double>& at, const JointVector<double>& rate,
-                  const JointVector<double>& tau, JointVector<double>& out) const;
-  void integrate_geared(double length, const JointVector<double>& tau);
-  void accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector<double>& tau,
+  void integrate(double length, const JointVector& tau);
+  void accelerate(const JointVector& at, const JointVector& rate, const JointVector& tau,
+                  JointVector& out) const;
+  void integrate_geared(double length, const JointVector& tau);
+  void accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector& tau,
                          BothSides& out) const;
   bool is_beyond_stop(int joint, double at) const { return at > stop_high_[joint] || at < stop_low_[joint]; }
   double stop_torque(int joint, double at, double rate) const;
   unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }
 
-  Chain<double> healthy_;
+  Chain healthy_;
   std::vector<SimulatedFault> faults_;
   std::vector<double> changes_;  ///< onsets and ends, ascending
   std::size_t next_change_ = 0;
-  JointVector<double> stop_low_, stop_high_, stop_stiffness_, stop_damping_;
+  JointVector stop_low_, stop_high_, stop_stiffness_, stop_damping_;
   double max_step_ = 0.001;
 
   FastDynamics dynamics_;  ///< of the links, with all that is rigidly joined to them
   std::optional<Geared> geared_;
   ExtraFriction extra_friction_;
-  JointVector<double> gain_;          ///< share of the torque that arrives
-  JointVector<double> external_;      ///< added torque on the links
-  JointVector<double> drive_offset_;  ///< added torque of drives with springs
-  bool altered_ = false;              ///< gain_ or external_ matter
+  JointVector gain_;          ///< share of the torque that arrives
+  JointVector external_;      ///< added torque on the links
+  JointVector drive_offset_;  ///< added torque of drives with springs
+  bool altered_ = false;      ///< gain_ or external_ matter
   unsigned locked_ = 0;
   double step_ = 0.001;          ///< where friction is stiff
   double sliding_step_ = 0.001;  ///< elsewhere

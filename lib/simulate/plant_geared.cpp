@@ -13,15 +13,15 @@ constexpr int kRestIterations = 100;  // each as much nearer as the spring is st
 
 }  // namespace
 
-void Plant::start(const JointVector<double>& position, const JointVector<double>& speed) {
+void Plant::start(const JointVector& position, const JointVector& speed) {
   q = position;
   dq = speed;
   if (!geared_) return;
   geared_->q = position;
   geared_->dq = speed;
-  const JointVector<double> rest = JointVector<double>::Zero(q.size());
-  JointMatrix<double> inertia;
-  JointVector<double> weight;
+  const JointVector rest = JointVector::Zero(q.size());
+  JointMatrix inertia;
+  JointVector weight;
   for (int k = 0; k < kRestIterations; ++k) {
     dynamics_.inertia_and_bias(q, rest, inertia, weight);
     for (int i = 0; i < q.size(); ++i)
@@ -31,14 +31,14 @@ void Plant::start(const JointVector<double>& position, const JointVector<double>
 
 /// A joint with a spring: J th'' = arriving torque - drag - gear torque for its motor, and the gear torque
 /// drives its link. A rigid one: as without gears, and its motor moves with its link.
-void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector<double>& tau,
+void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector& tau,
                               BothSides& out) const {
   const int n = dynamics_.joints();
   const Gears& gears = geared_->gears;
-  const JointVector<double> link = at.head(n), link_rate = rate.head(n), motor = at.tail(n),
-                            motor_rate = rate.tail(n);
-  const std::vector<Friction<double>>& friction = geared_->drives.chain().friction;
-  JointVector<double> arrives(n), drag(n), net(n), ddq(n);
+  const JointVector link = at.head(n), link_rate = rate.head(n), motor = at.tail(n),
+                    motor_rate = rate.tail(n);
+  const std::vector<Friction>& friction = geared_->drives.chain().friction;
+  JointVector arrives(n), drag(n), net(n), ddq(n);
   for (int i = 0; i < n; ++i)
     arrives[i] = gain_[i] * tau[i] + drive_offset_[i] - extra_friction_.torque(i, motor_rate[i], friction[i]);
   geared_->drives.drag(motor, motor_rate, arrives, drag);
@@ -56,7 +56,7 @@ void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const 
     if (!gears.has_spring(i)) out[n + i] = ddq[i];
 }
 
-void Plant::integrate_geared(double length, const JointVector<double>& tau) {
+void Plant::integrate_geared(double length, const JointVector& tau) {
   const auto n = q.size();
   const auto acceleration = [&](double, const BothSides& at, const BothSides& rate, BothSides& out) {
     accelerate_geared(at, rate, tau, out);

@@ -2,6 +2,7 @@
 // What a plant is from one change to the next: faults that act, stops, steps. Its motion is in plant.cpp.
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -24,24 +25,24 @@ constexpr double kMostSubSteps = 10.0;
 constexpr double kLively = 10.0;  // rad/s^2 or m/s^2
 
 /// Largest diagonal of M^-1 for each joint over some postures.
-JointVector<double> mobility(const FastDynamics& dynamics) {
+JointVector mobility(const FastDynamics& dynamics) {
   const int n = dynamics.joints();
   Random random(1);
-  JointVector<double> most = JointVector<double>::Zero(n), q(n), bias;
-  const JointVector<double> rest = JointVector<double>::Zero(n);
-  JointMatrix<double> inertia;
+  JointVector most = JointVector::Zero(n), q(n), bias;
+  const JointVector rest = JointVector::Zero(n);
+  JointMatrix inertia;
   for (int k = 0; k < 16; ++k) {
     for (int i = 0; i < n; ++i) q[i] = k ? random.uniform(-3.0, 3.0) : 0.0;
     dynamics.inertia_and_bias(q, rest, inertia, bias);
-    const JointMatrix<double> inverse = inertia.inverse();
+    const JointMatrix inverse = inertia.inverse();
     most = most.cwiseMax(inverse.diagonal());
   }
   return most;
 }
 
 /// What a drive usually has to give: the weight and a lively acceleration at q = 0.
-JointVector<double> usual_torque(const Chain<double>& chain) {
-  const JointVector<double> zero = JointVector<double>::Zero(chain.joints());
+JointVector usual_torque(const Chain& chain) {
+  const JointVector zero = JointVector::Zero(chain.joints());
   return kLively * inertia_matrix(chain, zero).diagonal() + gravity_torque(chain, zero).cwiseAbs();
 }
 
@@ -60,7 +61,7 @@ Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<Simu
   }
   std::sort(changes_.begin(), changes_.end());
   if (!stops.low.empty() || !stops.high.empty()) set_stops(stops);
-  q = dq = JointVector<double>::Zero(robot.joints());
+  q = dq = JointVector::Zero(robot.joints());
   const Gears gears(healthy_, machine.gears);
   if (gears.springs() != 0u) geared_.emplace(Geared{gears, dynamics_, q, dq});
   enter(-1.0);
@@ -71,9 +72,9 @@ void Plant::set_stops(const JointStops& stops) {
   if (static_cast<int>(stops.low.size()) != n || static_cast<int>(stops.high.size()) != n)
     throw Error(ErrorCode::usage, "limits.stop_low, stop_high",
                 fmt::format("expected {} numbers in each", n));
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
-  const JointVector<double> zero = JointVector<double>::Zero(n);
+  JointMatrix inertia;
+  JointVector bias;
+  const JointVector zero = JointVector::Zero(n);
   dynamics_.inertia_and_bias(zero, zero, inertia, bias);
   stop_low_ = Eigen::Map<const Eigen::VectorXd>(stops.low.data(), n);
   stop_high_ = Eigen::Map<const Eigen::VectorXd>(stops.high.data(), n);
@@ -83,15 +84,15 @@ void Plant::set_stops(const JointStops& stops) {
 
 /// The steps this moment's mechanics allow, near rest and sliding; raises friction widths that would ask for
 /// more than kMostSubSteps.
-void Plant::choose_steps(Chain<double>& chain) {
-  const JointVector<double> links = mobility(FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain));
-  JointVector<double> drives = links;
+void Plant::choose_steps(Chain& chain) {
+  const JointVector links = mobility(FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain));
+  JointVector drives = links;
   for (int i = 0; i < chain.joints(); ++i)
     if (springs() >> i & 1u) drives[i] = 1.0 / geared_->gears.motor_inertia(i);
-  const JointVector<double> usual = usual_torque(chain);
+  const JointVector usual = usual_torque(chain);
   double sliding = 0.0, near_rest = 0.0;
   for (int i = 0; i < chain.joints(); ++i) {
-    Friction<double> f = extra_friction_.worst(i, chain.friction[i]);
+    Friction f = extra_friction_.worst(i, chain.friction[i]);
     f.width = std::max(
         f.width, drives[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
     chain.friction[i].width = f.width;
@@ -116,10 +117,10 @@ void Plant::choose_steps(Chain<double>& chain) {
 /// The mechanics of the moment `now`: which faults act, and the velocity that a joint just locked has lost.
 void Plant::enter(double now) {
   const int n = healthy_.joints();
-  Chain<double> chain = healthy_;
+  Chain chain = healthy_;
   const unsigned was_locked = locked_;
-  gain_ = JointVector<double>::Ones(n);
-  external_ = drive_offset_ = JointVector<double>::Zero(n);
+  gain_ = JointVector::Ones(n);
+  external_ = drive_offset_ = JointVector::Zero(n);
   locked_ = 0;
   altered_ = false;
   for (const SimulatedFault& fault : faults_) {
@@ -146,10 +147,10 @@ void Plant::enter(double now) {
 void Plant::impact(unsigned newly_locked) {
   const int n = healthy_.joints();
   if (newly_locked & ~springs()) {
-    JointMatrix<double> inertia;
-    JointVector<double> bias;
+    JointMatrix inertia;
+    JointVector bias;
     dynamics_.inertia_and_bias(q, dq, inertia, bias);
-    JointVector<double> momenta = inertia * dq;
+    JointVector momenta = inertia * dq;
     solve_small(n, inertia.data(), momenta.data(), locked_ & ~springs());
     dq = momenta;
   }

@@ -110,9 +110,9 @@ class Sensors {
   Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random);
 
   /// Reads at time t; `q` and `dq` keep the reading until the next call (a stuck encoder repeats it).
-  void read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq);
+  void read(double t, const JointVector& true_q, const JointVector& true_dq);
 
-  JointVector<double> q, dq;
+  JointVector q, dq;
 
  private:
   std::vector<double> q_noise_, dq_noise_, resolution_;
@@ -128,10 +128,10 @@ Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<Simulated
       random_(random) {
   for (const SimulatedFault& fault : faults)
     if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
-  q = dq = JointVector<double>::Zero(joints);
+  q = dq = JointVector::Zero(joints);
 }
 
-void Sensors::read(double t, const JointVector<double>& true_q, const JointVector<double>& true_dq) {
+void Sensors::read(double t, const JointVector& true_q, const JointVector& true_dq) {
   for (int i = 0; i < q.size(); ++i) {
     double position = true_q[i], speed = true_dq[i];
     bool stuck = false;
@@ -155,7 +155,7 @@ void Sensors::read(double t, const JointVector<double>& true_q, const JointVecto
 struct ControlTick {
   double time_s = 0.0;
   const Sensors& sensors;
-  const JointVector<double>& tau;
+  const JointVector& tau;
   const Reference& reference;
 };
 
@@ -172,7 +172,7 @@ void record(Log& log, int row, const ControlTick& tick) {
 }
 
 EndReason state_of(const Plant& plant, const std::vector<double>& overspeed) {
-  const JointVector<double>& drives = plant.motor_dq();
+  const JointVector& drives = plant.motor_dq();
   for (int i = 0; i < plant.dq.size(); ++i) {
     if (!(std::abs(plant.dq[i]) < kBeyondAnyRobot && std::abs(drives[i]) < kBeyondAnyRobot))
       return EndReason::diverged;
@@ -234,7 +234,7 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
   Reference reference;
   motion.at(0.0, reference);
   plant.start(reference.q, reference.dq);
-  JointVector<double> tau = JointVector<double>::Zero(joints);
+  JointVector tau = JointVector::Zero(joints);
   const int rows = static_cast<int>(std::floor(spec.duration_s / spec.sample_period_s + 1e-6)) + 1;
   SimulatedRun run;
   run.log = empty_log(robot, spec, rows);

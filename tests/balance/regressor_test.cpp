@@ -11,16 +11,16 @@
 namespace faultline {
 namespace {
 
-JointVector<double> draw(Random& random, int n) {
-  JointVector<double> v(n);
+JointVector draw(Random& random, int n) {
+  JointVector v(n);
   for (int i = 0; i < n; ++i) v[i] = random.uniform(-2.0, 2.0);
   return v;
 }
 
 /// R, P about crossed and oblique axes, R again; every link with a full inertia; gravity not along an axis.
-Chain<double> crossed_chain(Random& random) {
+Chain crossed_chain(Random& random) {
   Robot robot = preset_robot("RRP");
-  Chain<double> chain = robot.chain;
+  Chain chain = robot.chain;
   chain.geometry[1].axis = Eigen::Vector3d::UnitX();
   chain.geometry[1].kind = AxisKind::prismatic;
   chain.geometry[2].kind = AxisKind::revolute;
@@ -36,7 +36,7 @@ Chain<double> crossed_chain(Random& random) {
   return chain;
 }
 
-Eigen::VectorXd stacked(const Chain<double>& chain) {
+Eigen::VectorXd stacked(const Chain& chain) {
   Eigen::VectorXd all(chain.joints() * kLinkParameters);
   for (int i = 0; i < chain.joints(); ++i)
     all.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
@@ -46,7 +46,7 @@ Eigen::VectorXd stacked(const Chain<double>& chain) {
 TEST(Regressor, TorqueEqualsInverseDynamics) {
   Random random(5);
   for (int k = 0; k < 20; ++k) {
-    const Chain<double> chain = crossed_chain(random);
+    const Chain chain = crossed_chain(random);
     const auto q = draw(random, 3), dq = draw(random, 3), ddq = draw(random, 3);
     LinkRegressor y;
     torque_regressor(chain, q, dq, ddq, y);
@@ -57,7 +57,7 @@ TEST(Regressor, TorqueEqualsInverseDynamics) {
 TEST(Regressor, MomentumEqualsInertiaTimesVelocity) {
   Random random(6);
   for (int k = 0; k < 20; ++k) {
-    const Chain<double> chain = crossed_chain(random);
+    const Chain chain = crossed_chain(random);
     const auto q = draw(random, 3), dq = draw(random, 3);
     LinkRegressor y;
     momentum_regressor(link_frames(chain, q), dq, y);
@@ -68,13 +68,13 @@ TEST(Regressor, MomentumEqualsInertiaTimesVelocity) {
 TEST(Regressor, ForceIsTheSlopeOfTheLagrangian) {
   Random random(7);
   for (int k = 0; k < 20; ++k) {
-    const Chain<double> chain = crossed_chain(random);
+    const Chain chain = crossed_chain(random);
     const auto q = draw(random, 3), dq = draw(random, 3);
     LinkRegressor y;
     force_regressor(link_frames(chain, q), dq, y);
-    const JointVector<double> force = y * stacked(chain);
+    const JointVector force = y * stacked(chain);
     for (int i = 0; i < 3; ++i) {
-      JointVector<double> up = q, down = q;
+      JointVector up = q, down = q;
       up[i] += 1e-5;
       down[i] -= 1e-5;
       const double slope = (kinetic_energy(chain, up, dq) - potential_energy(chain, up) -
@@ -85,14 +85,14 @@ TEST(Regressor, ForceIsTheSlopeOfTheLagrangian) {
   }
 }
 
-void expect_same_momentum_and_force(const Chain<double>& chain, Random& random) {
+void expect_same_momentum_and_force(const Chain& chain, Random& random) {
   const auto q = draw(random, chain.joints()), dq = draw(random, chain.joints());
   LinkRegressor momentum, force;
   momentum_regressor(link_frames(chain, q), dq, momentum);
   force_regressor(link_frames(chain, q), dq, force);
   const Eigen::VectorXd rotors =
       Eigen::Map<const Eigen::VectorXd>(chain.rotor_inertia.data(), chain.joints()).cwiseProduct(dq);
-  JointVector<double> p, f;
+  JointVector p, f;
   FastDynamics(chain).momentum_and_force(q, dq, p, f);
   EXPECT_LT((momentum * stacked(chain) + rotors - p).norm(), 1e-11);
   EXPECT_LT((force * stacked(chain) - f).norm(), 1e-11);
@@ -104,7 +104,7 @@ TEST(Regressor, ParallelAxesHaveTheSameMomentumAndForceByTheirOwnForm) {
     for (const Eigen::Vector3d& gravity :
          {Eigen::Vector3d(0.0, 0.0, -9.81), Eigen::Vector3d(3.0, -9.0, -1.0)}) {
       SCOPED_TRACE(axes);
-      Chain<double> chain = preset_robot(axes).chain;
+      Chain chain = preset_robot(axes).chain;
       chain.gravity = gravity;
       chain.rotor_inertia.assign(chain.joints(), 0.3);
       ASSERT_TRUE(FastDynamics(chain).planar());
@@ -115,7 +115,7 @@ TEST(Regressor, ParallelAxesHaveTheSameMomentumAndForceByTheirOwnForm) {
 TEST(Regressor, AxesThatCrossHaveTheSameMomentumAndForceInTheBaseFrame) {
   Random random(9);
   for (int k = 0; k < 20; ++k) {
-    Chain<double> chain = crossed_chain(random);
+    Chain chain = crossed_chain(random);
     chain.rotor_inertia = {0.1, 0.2, 0.3};
     ASSERT_FALSE(FastDynamics(chain).planar());
     expect_same_momentum_and_force(chain, random);

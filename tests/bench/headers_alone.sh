@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 compile() {
-  c++ -std=c++20 -fsyntax-only -w -I. -isystem /usr/include/eigen3 -DTOML_HEADER_ONLY=0 -DTOML_SHARED_LIB=1 -x c++ "$1" ||
+  c++ -std=c++20 -fsyntax-only -w -I. -isystem /usr/include/eigen3 $(pkg-config --cflags hdf5) -DTOML_HEADER_ONLY=0 -DTOML_SHARED_LIB=1 -x c++ "$1" ||
     echo "does not compile alone: $1"
 }
 export -f compile

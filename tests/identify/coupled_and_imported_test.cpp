@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 const Log& run() {
   static const Log log = testing::simulate_closed_form({}, {});

@@ -22,7 +22,7 @@ constexpr double kDuration_s = 10.0;
 
 /// Torque of friction alone of joint `j` at `dq`.
 double friction_at(const Identification& id, int j, double dq) {
-  JointVector<double> speed = JointVector<double>::Zero(3);
+  JointVector speed = JointVector::Zero(3);
   speed[j] = dq;
   return friction_torque(id.robot.chain, speed)[j];
 }

@@ -31,8 +31,8 @@ TEST(ParameterSpace, NominalLengthsReproduceTheTorquesOfTheRealScara) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
   set_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
   const ParameterSpace space = parameter_space(nominal);
-  const Chain<double> chain = chain_from(space, parameters_of(space, truth.chain, 0.0));
-  JointVector<double> q(3), dq(3), ddq(3);
+  const Chain chain = chain_from(space, parameters_of(space, truth.chain, 0.0));
+  JointVector q(3), dq(3), ddq(3);
   q << 0.3, -1.2, 0.1;
   dq << 1.0, 2.0, -0.5;
   ddq << -3.0, 1.0, 2.0;
@@ -55,8 +55,8 @@ TEST(ParameterSpace, RotorsFeltApartFromTheLinksAreBaseParameters) {
   const auto p = parameters_of(space, truth.chain, 0.0);
   EXPECT_NEAR(p[4], 0.02, 1e-12);
   EXPECT_NEAR(p[5], 0.1, 1e-12);
-  const Chain<double> chain = chain_from(space, p);
-  JointVector<double> q(3), dq(3), ddq(3);
+  const Chain chain = chain_from(space, p);
+  JointVector q(3), dq(3), ddq(3);
   q << 0.3, -1.2, 0.1;
   dq << 1.0, 2.0, -0.5;
   ddq << -3.0, 1.0, 2.0;

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 constexpr double kFirst_m = 0.25, kSecond_m = 0.2;
 

@@ -107,17 +107,15 @@ TEST(LearnResidual, TooShortOrForeignLogsAreRefused) {
 
 TEST(PhysicsStep, ConservesEnergyAndStaysStableInStiffFriction) {
   const Robot robot = bench_robot();
-  JointState x{JointVector<double>::Constant(3, 0.4), JointVector<double>::Constant(3, 1.2)};
-  const double before =
-      kinetic_energy<double>(robot.chain, x.q, x.dq) + potential_energy<double>(robot.chain, x.q);
-  x = physics_step(FastDynamics(robot.chain), x, JointVector<double>::Zero(3), 0.073);
-  EXPECT_NEAR(kinetic_energy<double>(robot.chain, x.q, x.dq) + potential_energy<double>(robot.chain, x.q),
-              before, 1e-8);
+  JointState x{JointVector::Constant(3, 0.4), JointVector::Constant(3, 1.2)};
+  const double before = kinetic_energy(robot.chain, x.q, x.dq) + potential_energy(robot.chain, x.q);
+  x = physics_step(FastDynamics(robot.chain), x, JointVector::Zero(3), 0.073);
+  EXPECT_NEAR(kinetic_energy(robot.chain, x.q, x.dq) + potential_energy(robot.chain, x.q), before, 1e-8);
 
   Robot stiff = robot;
   for (auto& friction : stiff.chain.friction) friction = {.viscous = 1.0, .coulomb = 20.0, .width = 0.01};
-  const JointState held = physics_step(FastDynamics(stiff.chain), {x.q, JointVector<double>::Zero(3)},
-                                       JointVector<double>::Zero(3), 0.073);
+  const JointState held =
+      physics_step(FastDynamics(stiff.chain), {x.q, JointVector::Zero(3)}, JointVector::Zero(3), 0.073);
   EXPECT_LT(held.dq.cwiseAbs().maxCoeff(), 0.01);
 }
 

@@ -10,15 +10,15 @@
 /// Chains with general bodies, offsets and any axes.
 namespace faultline {
 
-inline JointVector<double> draw(Random& random, int n, double scale) {
-  JointVector<double> v(n);
+inline JointVector draw(Random& random, int n, double scale) {
+  JointVector v(n);
   for (int i = 0; i < n; ++i) v[i] = random.uniform(-scale, scale);
   return v;
 }
 
 inline Eigen::Vector3d draw3(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
 
-inline Chain<double> with_general_bodies(Chain<double> chain, Random& random) {
+inline Chain with_general_bodies(Chain chain, Random& random) {
   for (int i = 0; i < chain.joints(); ++i) {
     Eigen::Matrix3d root;
     root << draw3(random), draw3(random), draw3(random);
@@ -31,8 +31,8 @@ inline Chain<double> with_general_bodies(Chain<double> chain, Random& random) {
 }
 
 /// Two revolute axes and a prismatic one that cross at right angles, as in the wrist of a surgical arm.
-inline Chain<double> crossed_wrist(Random& random) {
-  Chain<double> chain = with_general_bodies(preset_robot("RRP").chain, random);
+inline Chain crossed_wrist(Random& random) {
+  Chain chain = with_general_bodies(preset_robot("RRP").chain, random);
   chain.geometry[1].axis = Eigen::Vector3d::UnitY();
   chain.geometry[1].direction.setZero();
   chain.geometry[1].offset = {0.0, 0.0, 0.3};
@@ -41,13 +41,13 @@ inline Chain<double> crossed_wrist(Random& random) {
   return chain;
 }
 
-inline std::vector<Chain<double>> assorted_chains() {
+inline std::vector<Chain> assorted_chains() {
   Random random(21);
-  std::vector<Chain<double>> chains;
+  std::vector<Chain> chains;
   for (const char* axes : {"RRP", "RRPR", "RPRR", "RR", "R", "P"})
     chains.push_back(with_general_bodies(preset_robot(axes).chain, random));
   chains.push_back(crossed_wrist(random));
-  Chain<double> skew = with_general_bodies(preset_robot("RRPR").chain, random);
+  Chain skew = with_general_bodies(preset_robot("RRPR").chain, random);
   for (JointGeometry& joint : skew.geometry) {
     joint.axis = draw3(random).normalized();
     joint.offset = 0.3 * draw3(random);

@@ -11,14 +11,14 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
-using Matrix = JointMatrix<double>;
+using Vector = JointVector;
+using Matrix = JointMatrix;
 
-double energy(const Chain<double>& chain, const Vector& q, const Vector& dq) {
+double energy(const Chain& chain, const Vector& q, const Vector& dq) {
   return kinetic_energy(chain, q, dq) + potential_energy(chain, q);
 }
 
-void step_free(const Chain<double>& chain, Vector& q, Vector& dq, double h) {
+void step_free(const Chain& chain, Vector& q, Vector& dq, double h) {
   const Vector zero = Vector::Zero(chain.joints());
   const auto f = [&](const Vector& x, const Vector& v) {
     return Vector(forward_dynamics(chain, x, v, zero));
@@ -31,7 +31,7 @@ void step_free(const Chain<double>& chain, Vector& q, Vector& dq, double h) {
 
 TEST(ChainProperties, FreeMotionKeepsEnergy) {
   Random random(22);
-  for (const Chain<double>& chain : assorted_chains()) {
+  for (const Chain& chain : assorted_chains()) {
     Vector q = draw(random, chain.joints(), 1.0), dq = draw(random, chain.joints(), 1.0);
     const double before = energy(chain, q, dq);
     const double scale = std::abs(kinetic_energy(chain, q, dq)) + 1.0;
@@ -42,7 +42,7 @@ TEST(ChainProperties, FreeMotionKeepsEnergy) {
 
 TEST(ChainProperties, FreeScaraKeepsMomentumAboutItsFirstAxis) {
   Random random(23);
-  const Chain<double> chain = preset_robot("RRP").chain;
+  const Chain chain = preset_robot("RRP").chain;
   Vector q = draw(random, 3, 1.0), dq = draw(random, 3, 2.0);
   const double first = momentum(chain, q, dq)[0], second = momentum(chain, q, dq)[1];
   for (int k = 0; k < 1000; ++k) step_free(chain, q, dq, 5e-4);
@@ -52,7 +52,7 @@ TEST(ChainProperties, FreeScaraKeepsMomentumAboutItsFirstAxis) {
 
 TEST(ChainProperties, InertiaIsSymmetricPositiveDefinite) {
   Random random(24);
-  for (const Chain<double>& chain : assorted_chains()) {
+  for (const Chain& chain : assorted_chains()) {
     for (int k = 0; k < 20; ++k) {
       const Matrix m = inertia_matrix(chain, draw(random, chain.joints(), 3.0));
       EXPECT_EQ((m - m.transpose()).cwiseAbs().maxCoeff(), 0.0);
@@ -62,7 +62,7 @@ TEST(ChainProperties, InertiaIsSymmetricPositiveDefinite) {
 }
 
 /// dM/dq_k by central differences, for every k.
-std::vector<Matrix> inertia_slopes(const Chain<double>& chain, const Vector& q) {
+std::vector<Matrix> inertia_slopes(const Chain& chain, const Vector& q) {
   std::vector<Matrix> slopes;
   for (int k = 0; k < chain.joints(); ++k) {
     Vector low = q, high = q;
@@ -86,7 +86,7 @@ Matrix christoffel_matrix(const std::vector<Matrix>& slopes, const Vector& dq) {
 
 TEST(ChainProperties, MdotMinusTwoCIsSkewAndCdqIsTheBias) {
   Random random(25);
-  for (const Chain<double>& chain : assorted_chains()) {
+  for (const Chain& chain : assorted_chains()) {
     const int n = chain.joints();
     const Vector q = draw(random, n, 2.0), dq = draw(random, n, 2.0);
     const auto slopes = inertia_slopes(chain, q);
@@ -105,7 +105,7 @@ TEST(ChainProperties, MdotMinusTwoCIsSkewAndCdqIsTheBias) {
 
 TEST(ChainProperties, ForwardUndoesInverse) {
   Random random(26);
-  for (Chain<double> chain : assorted_chains()) {
+  for (Chain chain : assorted_chains()) {
     for (auto& f : chain.friction) f = {0.4, 0.7, 0.1, 0.05};
     const int n = chain.joints();
     const Vector q = draw(random, n, 2.0), dq = draw(random, n, 2.0), ddq = draw(random, n, 5.0);
@@ -116,7 +116,7 @@ TEST(ChainProperties, ForwardUndoesInverse) {
 
 TEST(ChainProperties, InverseEqualsEulerLagrangeOfTheEnergies) {
   Random random(27);
-  for (const Chain<double>& chain : assorted_chains()) {
+  for (const Chain& chain : assorted_chains()) {
     const int n = chain.joints();
     const Vector q = draw(random, n, 1.5), dq = draw(random, n, 1.5), ddq = draw(random, n, 3.0);
     // d/dt (dL/d dq) - dL/dq along q(t) = q + dq t + ddq t^2 / 2, with p = M dq from the kinetic energy.
@@ -140,7 +140,7 @@ TEST(ChainProperties, InverseEqualsEulerLagrangeOfTheEnergies) {
 
 /// Kinetic energy from the speeds of the bodies' points, with no use of M: each link as the seven point
 /// masses that have its mass, centre and inertia tensor.
-double energy_of_points(const Chain<double>& chain, const Vector& q, const Vector& dq) {
+double energy_of_points(const Chain& chain, const Vector& q, const Vector& dq) {
   const double h = 1e-6;
   const auto places = [&](const Vector& at, int link, const Eigen::Vector3d& point) {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -157,7 +157,7 @@ double energy_of_points(const Chain<double>& chain, const Vector& q, const Vecto
   };
   double total = 0.0;
   for (int i = 0; i < chain.joints(); ++i) {
-    const LinkInertia<double>& link = chain.links[i];
+    const LinkInertia& link = chain.links[i];
     const Eigen::Vector3d centre = link.first_moment / link.mass;
     const Eigen::Matrix3d at_centre =
         link.inertia -
@@ -186,7 +186,7 @@ double energy_of_points(const Chain<double>& chain, const Vector& q, const Vecto
 
 TEST(ChainProperties, KineticEnergyIsThatOfTheMovingPoints) {
   Random random(28);
-  for (const Chain<double>& chain : assorted_chains()) {
+  for (const Chain& chain : assorted_chains()) {
     const Vector q = draw(random, chain.joints(), 2.0), dq = draw(random, chain.joints(), 2.0);
     const double expected = energy_of_points(chain, q, dq);
     EXPECT_NEAR(kinetic_energy(chain, q, dq), expected, 1e-6 * (1.0 + expected));

@@ -11,8 +11,8 @@
 namespace faultline {
 namespace {
 
-JointVector<double> draw(Random& random, int n, double scale) {
-  JointVector<double> v(n);
+JointVector draw(Random& random, int n, double scale) {
+  JointVector v(n);
   for (int i = 0; i < n; ++i) v[i] = random.uniform(-scale, scale);
   return v;
 }

@@ -14,14 +14,14 @@ namespace faultline {
 namespace {
 
 using testing::kExtraTorqueRobot;
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 Vector draw(Random& random, double scale) {
   return Vector::NullaryExpr(3, [&] { return random.uniform(-scale, scale); });
 }
 
 TEST(ExtraTorque, InverseAndForwardDynamicsUndoEachOther) {
-  const Chain<double> chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
+  const Chain chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const FastDynamics fast(chain);
   Random random(3);
   for (int k = 0; k < 50; ++k) {
@@ -35,7 +35,7 @@ TEST(ExtraTorque, InverseAndForwardDynamicsUndoEachOther) {
 }
 
 TEST(ExtraTorque, EachPartBrakesAsItsEquationSays) {
-  Chain<double> chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
+  Chain chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const Vector q = Vector::Constant(3, 0.1);
   Vector dq(3), torque = Vector::Zero(3);
   dq << 0.5, -0.2, 0.3;

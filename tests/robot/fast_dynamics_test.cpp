@@ -10,8 +10,8 @@
 namespace faultline {
 namespace {
 
-JointVector<double> draw(Random& random, int n, double scale) {
-  JointVector<double> v(n);
+JointVector draw(Random& random, int n, double scale) {
+  JointVector v(n);
   for (int i = 0; i < n; ++i) v[i] = random.uniform(-scale, scale);
   return v;
 }
@@ -19,7 +19,7 @@ JointVector<double> draw(Random& random, int n, double scale) {
 Eigen::Vector3d draw3(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
 
 /// Every link a general body with off-axis centre and full tensor, offsets everywhere, friction and rotors.
-Chain<double> scrambled(Chain<double> chain, Random& random) {
+Chain scrambled(Chain chain, Random& random) {
   for (int i = 0; i < chain.joints(); ++i) {
     Eigen::Matrix3d root;
     root << draw3(random), draw3(random), draw3(random);
@@ -35,17 +35,17 @@ Chain<double> scrambled(Chain<double> chain, Random& random) {
   return chain;
 }
 
-void expect_equals_general(const Chain<double>& chain, Random& random) {
+void expect_equals_general(const Chain& chain, Random& random) {
   const FastDynamics fast(chain);
   const int n = chain.joints();
-  JointMatrix<double> m;
-  JointVector<double> bias, friction, ddq;
+  JointMatrix m;
+  JointVector bias, friction, ddq;
   for (int k = 0; k < 20; ++k) {
     const auto q = draw(random, n, 3.0), dq = draw(random, n, 2.0), tau = draw(random, n, 10.0);
     fast.inertia_and_bias(q, dq, m, bias);
     fast.friction(dq, friction);
     fast.acceleration(q, dq, tau, ddq);
-    const JointVector<double> needed = rigid_body_torque(chain, q, dq, tau, chain.gravity);
+    const JointVector needed = rigid_body_torque(chain, q, dq, tau, chain.gravity);
     EXPECT_LT((fast.body_torque(q, dq, tau) - needed).norm(), 1e-12 * needed.norm());
     EXPECT_LT((m - inertia_matrix(chain, q)).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((bias - bias_torque(chain, q, dq)).cwiseAbs().maxCoeff(), 1e-11);
@@ -59,7 +59,7 @@ TEST(FastDynamics, EqualsTheGeneralPathForEveryPreset) {
   for (const char* axes : {"RRP", "RRPR", "RPRR", "RR", "R", "P"}) {
     SCOPED_TRACE(axes);
     for (int k = 0; k < 5; ++k) {
-      Chain<double> chain = scrambled(preset_robot(axes).chain, random);
+      Chain chain = scrambled(preset_robot(axes).chain, random);
       EXPECT_TRUE(FastDynamics(chain).planar());
       expect_equals_general(chain, random);
       chain.gravity = 9.81 * draw3(random).normalized();
@@ -71,7 +71,7 @@ TEST(FastDynamics, EqualsTheGeneralPathForEveryPreset) {
 TEST(FastDynamics, EqualsTheGeneralPathAlongAnyCommonNormal) {
   Random random(12);
   for (int k = 0; k < 10; ++k) {
-    Chain<double> chain = scrambled(preset_robot("RRPR").chain, random);
+    Chain chain = scrambled(preset_robot("RRPR").chain, random);
     const Eigen::Vector3d normal = draw3(random).normalized();
     for (JointGeometry& joint : chain.geometry) {
       joint.axis = normal;
@@ -86,7 +86,7 @@ TEST(FastDynamics, EqualsTheGeneralPathForAxesThatCross) {
   for (const char* axes : {"RRP", "PRRR", "RPRR", "RRRRRR"}) {
     SCOPED_TRACE(axes);
     for (int k = 0; k < 5; ++k) {
-      Chain<double> chain = scrambled(preset_robot(axes).chain, random);
+      Chain chain = scrambled(preset_robot(axes).chain, random);
       for (JointGeometry& joint : chain.geometry) joint.axis = draw3(random).normalized();
       chain.gravity = 9.81 * draw3(random).normalized();
       EXPECT_FALSE(FastDynamics(chain).planar());
@@ -100,12 +100,12 @@ TEST(FastDynamics, EqualsTheGeneralPathForAxesThatCross) {
 
 TEST(FastDynamics, LockedJointStaysAndTheRestObeysTheirOwnEquations) {
   Random random(14);
-  const Chain<double> chain = scrambled(preset_robot("RRP").chain, random);
+  const Chain chain = scrambled(preset_robot("RRP").chain, random);
   const FastDynamics fast(chain);
   const auto q = draw(random, 3, 2.0), tau = draw(random, 3, 5.0);
   auto dq = draw(random, 3, 2.0);
   dq[1] = 0.0;
-  JointVector<double> ddq;
+  JointVector ddq;
   fast.acceleration(q, dq, tau, ddq, 1u << 1);
   EXPECT_EQ(ddq[1], 0.0);
   const auto needed = inverse_dynamics(chain, q, dq, ddq);

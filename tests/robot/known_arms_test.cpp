@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 TEST(KnownArms, VerticalRRIsTheTextbookDoublePendulum) {
   // Point masses at the ends of massless rods; angles from the downward vertical, q1 = theta1,

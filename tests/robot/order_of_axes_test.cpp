@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 TEST(OrderOfAxes, EightJointsOfParallelAxesReachAsAPlanarArmDoes) {
   const Robot robot = preset_robot("RRRRRRRR");

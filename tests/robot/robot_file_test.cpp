@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-void expect_same_chain(const Chain<double>& a, const Chain<double>& b) {
+void expect_same_chain(const Chain& a, const Chain& b) {
   ASSERT_EQ(a.joints(), b.joints());
   EXPECT_EQ(a.gravity, b.gravity);
   EXPECT_EQ(a.length, b.length);

@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 /// Error after a second of q'' = -q in so many steps.
 double error_of(int steps) {

@@ -14,7 +14,7 @@ namespace {
 
 TEST(Drives, GiveWhatIsCommandedUnlessToldOtherwise) {
   Drives drives(2, {}, Random(1));
-  JointVector<double> torque(2);
+  JointVector torque(2);
   torque << 3.0, -4.0;
   drives.act(0.001, torque);
   EXPECT_EQ(torque[0], 3.0);
@@ -23,7 +23,7 @@ TEST(Drives, GiveWhatIsCommandedUnlessToldOtherwise) {
 
 TEST(Drives, GainAndOffsetAddToTheCommand) {
   Drives drives(2, {.gain = {0.1, 0.0}, .offset = {0.0, 0.5}}, Random(1));
-  JointVector<double> torque(2);
+  JointVector torque(2);
   torque << 3.0, -4.0;
   drives.act(0.001, torque);
   EXPECT_DOUBLE_EQ(torque[0], 3.3);
@@ -36,7 +36,7 @@ std::pair<double, double> moments(double length_s, double memory_s) {
   double square = 0.0, product = 0.0, last = 0.0;
   constexpr int kCount = 200000;
   for (int k = 0; k < kCount; ++k) {
-    JointVector<double> torque = JointVector<double>::Zero(1);
+    JointVector torque = JointVector::Zero(1);
     drives.act(length_s, torque);
     square += torque[0] * torque[0] / kCount;
     product += torque[0] * last / kCount;

@@ -90,7 +90,7 @@ TEST(WarmUp, AColdJointSlowsDownFaster) {
 TEST(WarmUp, WhatAFaultAddsIsNeverCold) {
   const Robot robot = dry_joint();
   const ExtraFriction extra(robot.chain, {}, {.share = {0.6}, .time_s = {4.0}});
-  Friction<double> now = robot.chain.friction[0];
+  Friction now = robot.chain.friction[0];
   now.coulomb += 5.0;
   EXPECT_NEAR(extra.torque(0, 1.0, now), 0.6 * kCoulomb, 1e-12);
 }
@@ -99,7 +99,7 @@ TEST(ExtraFriction, AColdJointAndOneThatRubsBreakAwayLater) {
   const Robot robot = dry_joint();
   ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.1}}, {.share = {0.6}, .time_s = {4.0}});
   extra.set_time(4.0);
-  Friction<double> now = robot.chain.friction[0];
+  Friction now = robot.chain.friction[0];
   now.coulomb += 5.0;
   const double v = 0.05, cold = 0.6 * std::exp(-1.0) * kCoulomb;
   const double expected = cold + 0.5 * std::exp(-0.25) * (kCoulomb + 5.0 + cold);
@@ -110,7 +110,7 @@ TEST(ExtraFriction, IsNeverSteeperThanItsWorst) {
   const Robot robot = dry_joint(kViscous);
   const ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.02}},
                             {.share = {0.6}, .time_s = {4.0}});
-  const Friction<double> now = robot.chain.friction[0], worst = extra.worst(0, now);
+  const Friction now = robot.chain.friction[0], worst = extra.worst(0, now);
   const auto total = [&](double v) {
     return now.viscous * v + now.coulomb * std::tanh(v / now.width) + extra.torque(0, v, now);
   };

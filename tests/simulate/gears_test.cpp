@@ -129,7 +129,7 @@ TEST(Gears, AnArmWithSomeSpringsKeepsItsEnergy) {
   MachineSpec machine;
   machine.gears = {.stiffness = {300.0, 0.0, 5e4}, .motor_inertia = {0.5, 0.4, 6.0}};
   Plant plant(robot, {}, {}, kTick_s, machine);
-  JointVector<double> q(3), dq(3), tau(3);
+  JointVector q(3), dq(3), tau(3);
   q << 0.3, 0.9, -0.1;
   dq << 1.5, -2.0, 0.2;
   tau << 0.0, 0.0, 2.5 * 9.81;

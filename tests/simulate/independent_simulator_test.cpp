@@ -27,7 +27,7 @@ TEST(IndependentSimulator, OurPlantRepeatsItsHeldHealthyLog) {
   Robot robot = preset_robot("RRP");
   set_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
   Plant plant(robot, {}, {}, 1e-3);
-  JointVector<double> tau(3);
+  JointVector tau(3);
   double worst = 0.0;
   for (int k = 0; k + 1 < log.rows(); ++k) {
     for (int i = 0; i < 3; ++i) {

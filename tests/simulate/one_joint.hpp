@@ -16,6 +16,6 @@ inline Robot one_joint() {
   return robot;
 }
 
-inline JointVector<double> one(double value) { return JointVector<double>::Constant(1, value); }
+inline JointVector one(double value) { return JointVector::Constant(1, value); }
 
 }  // namespace faultline

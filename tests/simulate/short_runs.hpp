@@ -31,16 +31,16 @@ inline SimulationSpec with_fault(FaultKind kind, int joint, double onset_s, doub
   return spec;
 }
 
-inline JointVector<double> row_of(const JointSignals& signals, int row) {
-  JointVector<double> values(static_cast<int>(signals.size()));
+inline JointVector row_of(const JointSignals& signals, int row) {
+  JointVector values(static_cast<int>(signals.size()));
   for (int i = 0; i < values.size(); ++i) values[i] = signals[i][row];
   return values;
 }
 
 /// Torque that the motion between two rows asks for on the healthy robot, by central differences of dq.
-inline JointVector<double> torque_needed(const Chain<double>& chain, const Log& log, int row) {
+inline JointVector torque_needed(const Chain& chain, const Log& log, int row) {
   const double dt = log.time[row + 1] - log.time[row - 1];
-  const JointVector<double> ddq = (row_of(log.dq, row + 1) - row_of(log.dq, row - 1)) / dt;
+  const JointVector ddq = (row_of(log.dq, row + 1) - row_of(log.dq, row - 1)) / dt;
   return inverse_dynamics(chain, row_of(log.q, row), row_of(log.dq, row), ddq);
 }
 

@@ -22,7 +22,7 @@ TEST(Simulate, HealthyRunFollowsItsReferenceAndTheDynamics) {
   for (int k = 1; k < run.log.rows() - 1; k += 37) {
     EXPECT_LT((row_of(run.log.q, k) - row_of(run.log.q_ref, k)).norm(), 2e-3);
     travelled += std::abs(run.log.dq[0][k]);
-    const JointVector<double> applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
+    const JointVector applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
     EXPECT_LT((torque_needed(robot.chain, run.log, k) - applied).cwiseAbs().maxCoeff(), 0.15) << "row " << k;
   }
   EXPECT_GT(travelled, 10.0);

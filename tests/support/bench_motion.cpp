@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 struct Wanted {
   Vector q, dq, ddq;
@@ -84,8 +84,8 @@ Log bench_log(const Robot& robot, const BenchMotion& options) {
     for (int control = 0; control < options.control_steps; ++control) {
       const double t = row * options.log_period_s + control * h;
       const Wanted wanted = motion.at(t);
-      const Vector asked = inverse_dynamics<double>(
-          robot.chain, x.q, x.dq, wanted.ddq + 8.0 * (wanted.dq - x.dq) + 16.0 * (wanted.q - x.q));
+      const Vector asked = inverse_dynamics(robot.chain, x.q, x.dq,
+                                            wanted.ddq + 8.0 * (wanted.dq - x.dq) + 16.0 * (wanted.q - x.q));
       if (control == 0) log_row(log, t, x, asked);
       Vector applied = asked;
       if (options.free_joint > 0 && t >= options.fault_s) applied[options.free_joint - 1] = 0.0;

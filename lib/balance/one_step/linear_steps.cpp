@@ -34,9 +34,9 @@ struct Part {
 
 /// The torque within one interval.
 struct IntervalTorque {
-  JointVector<double> begin, slope;  ///< at its start, and by the time
+  JointVector begin, slope;  ///< at its start, and by the time
 
-  JointVector<double> at(double s) const { return begin + s * slope; }
+  JointVector at(double s) const { return begin + s * slope; }
 };
 
 /// Derivatives of the state behind some time by the state before it and by each number of the law.
@@ -116,7 +116,7 @@ void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd
   const int n = part.law->joints();
   const double h = (part.end_s - part.begin_s) / substeps;
   stop_locked(*part.law, state);
-  JointVector<double> q(n), dq(n), ddq(n);
+  JointVector q(n), dq(n), ddq(n);
   VectorXd rate = VectorXd::Zero(2 * n), sum(2 * n);
   for (int s = 0; s < substeps; ++s) {
     const double at = part.begin_s + s * h;
@@ -143,8 +143,8 @@ Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int sub
     if (part.law->is_locked(j)) out.by_state(n + j, n + j) = 0.0;
   MotionSlopes begin, middle, end, mean;
   const auto slopes_at = [&](double at, MotionSlopes& slopes) {
-    const JointVector<double> q = state.head(n), dq = state.tail(n), tau = torque.at(at);
-    JointVector<double> ddq(n);
+    const JointVector q = state.head(n), dq = state.tail(n), tau = torque.at(at);
+    JointVector ddq(n);
     part.law->acceleration(q, dq, tau, ddq);
     part.law->slopes(q, dq, tau, ddq, slopes);
   };
@@ -191,7 +191,7 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
   IntervalTorque out;
   out.begin = log.tau.row(k).transpose();
   if (plan.force != nullptr) out.begin += plan.force->col(k);
-  out.slope = JointVector<double>::Zero(log.joints());
+  out.slope = JointVector::Zero(log.joints());
   if (!setting.torque_is_held && k + 1 < log.rows())
     out.slope = (log.tau.row(k + 1) - log.tau.row(k)).transpose() / setting.period_s;
   return out;
@@ -208,7 +208,7 @@ int substeps_of(const StepSetting& setting, const MotionPlan& plan, const Vector
       per_s = std::max(per_s, std::abs(begin[n + j]) / kTurn);
   for (const MotionLaw* law : {plan.usual, plan.within}) {
     if (law == nullptr) continue;
-    const JointVector<double> rate = law->friction_rate(begin.head(n));
+    const JointVector rate = law->friction_rate(begin.head(n));
     for (int j = 0; j < n; ++j)
       if (share_near_rest(begin[n + j], end[n + j], body.friction_width()[j]) > 0.0)
         per_s = std::max(per_s, rate[j]);

@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 
 constexpr double kNudge = 1e-6;  // rad, m, rad/s or m/s: of a derivative by difference; its error is as small
 
-Chain<double> chain_with_friction(const MotionBody& body, const VectorXd& numbers) {
+Chain chain_with_friction(const MotionBody& body, const VectorXd& numbers) {
   const MotionLayout at = body.layout();
-  Chain<double> chain = chain_of(body.rigid(), numbers.head(at.base));
+  Chain chain = chain_of(body.rigid(), numbers.head(at.base));
   chain.friction.assign(at.joints, {});
   for (int j = 0; j < at.joints; ++j) {
     chain.friction[j].viscous = numbers[at.viscous(j)];
@@ -36,8 +36,8 @@ MotionBody::MotionBody(RigidColumns rigid, VectorXd friction_width)
   unit_ = unit_dynamics(rigid_);
 }
 
-void MotionBody::torque_by_parameter(const JointVector<double>& q, const JointVector<double>& dq,
-                                     const JointVector<double>& ddq, Eigen::Ref<MatrixXd> out) const {
+void MotionBody::torque_by_parameter(const JointVector& q, const JointVector& dq, const JointVector& ddq,
+                                     Eigen::Ref<MatrixXd> out) const {
   for (std::size_t p = 0; p < unit_.size(); ++p)
     out.col(static_cast<Eigen::Index>(p)) = unit_[p].body_torque(q, dq, ddq);
   if (!unit_.empty()) return;
@@ -55,36 +55,35 @@ MotionLaw::MotionLaw(const MotionBody& body, const VectorXd& numbers, unsigned l
       force_(numbers.segment(body.layout().force(0), body.layout().joints)),
       locked_(locked) {}
 
-void MotionLaw::acceleration(const JointVector<double>& q, const JointVector<double>& dq,
-                             const JointVector<double>& tau, JointVector<double>& ddq) const {
-  const JointVector<double> acting = gain_.cwiseProduct(tau) + force_;
+void MotionLaw::acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                             JointVector& ddq) const {
+  const JointVector acting = gain_.cwiseProduct(tau) + force_;
   dynamics_.acceleration(q, dq, acting, ddq, locked_);
 }
 
-JointVector<double> MotionLaw::friction_rate(const JointVector<double>& q) const {
+JointVector MotionLaw::friction_rate(const JointVector& q) const {
   const int n = joints();
-  JointMatrix<double> inertia;
-  JointVector<double> bias, out(n);
-  dynamics_.inertia_and_bias(q, JointVector<double>::Zero(n), inertia, bias);
-  const JointMatrix<double> inverse = inertia.llt().solve(JointMatrix<double>::Identity(n, n));
+  JointMatrix inertia;
+  JointVector bias, out(n);
+  dynamics_.inertia_and_bias(q, JointVector::Zero(n), inertia, bias);
+  const JointMatrix inverse = inertia.llt().solve(JointMatrix::Identity(n, n));
   for (int j = 0; j < n; ++j) {
-    const Friction<double>& f = dynamics_.chain().friction[j];
+    const Friction& f = dynamics_.chain().friction[j];
     out[j] = inverse(j, j) * std::max(0.0, f.viscous + f.coulomb / f.width);
   }
   return out;
 }
 
-void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& dq,
-                       const JointVector<double>& tau, const JointVector<double>& ddq,
-                       MotionSlopes& out) const {
+void MotionLaw::slopes(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                       const JointVector& ddq, MotionSlopes& out) const {
   const int n = joints();
   const MotionLayout at = body_->layout();
   StateMatrix by_state = StateMatrix::Zero(n, 2 * n);
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
+  JointMatrix inertia;
+  JointVector bias;
   dynamics_.inertia_and_bias(q, dq, inertia, bias);
-  const JointVector<double> torque = bias + inertia.lazyProduct(ddq);
-  JointVector<double> moved = q;
+  const JointVector torque = bias + inertia.lazyProduct(ddq);
+  JointVector moved = q;
   for (int j = 0; j < n; ++j) {
     if (!dynamics_.depends_on_position(j)) continue;
     moved[j] = q[j] + kNudge;
@@ -96,7 +95,7 @@ void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& 
   body_->torque_by_parameter(q, dq, ddq, out.torque.leftCols(at.base));
   out.torque.leftCols(at.base) *= -1.0;
   for (int j = 0; j < n; ++j) {
-    const Friction<double>& f = dynamics_.chain().friction[j];
+    const Friction& f = dynamics_.chain().friction[j];
     const double saturated = elementary::tanh(dq[j] / f.width);
     if (dynamics_.depends_on_velocity(j)) {
       moved[j] = dq[j] + kNudge;
@@ -112,8 +111,8 @@ void MotionLaw::slopes(const JointVector<double>& q, const JointVector<double>& 
   out.inverse.setZero(n, n);
   for (int i = 0; i < n; ++i) {
     if (is_locked(i)) continue;
-    JointMatrix<double> copy = inertia;
-    JointVector<double> column = JointVector<double>::Unit(n, i);
+    JointMatrix copy = inertia;
+    JointVector column = JointVector::Unit(n, i);
     solve_small(n, copy.data(), column.data(), locked_);
     out.inverse.col(i) = column;
   }

@@ -33,8 +33,8 @@ class MotionBody {
   const Eigen::VectorXd& friction_width() const { return friction_width_; }
   MotionLayout layout() const { return {rigid_.base(), rigid_.joints()}; }
   /// Torque M ddq + h + G by base parameter, joints x base.
-  void torque_by_parameter(const JointVector<double>& q, const JointVector<double>& dq,
-                           const JointVector<double>& ddq, Eigen::Ref<Eigen::MatrixXd> out) const;
+  void torque_by_parameter(const JointVector& q, const JointVector& dq, const JointVector& ddq,
+                           Eigen::Ref<Eigen::MatrixXd> out) const;
 
  private:
   RigidColumns rigid_;
@@ -48,9 +48,9 @@ using StateMatrix =
 
 /// Derivatives of an acceleration at one state. Those by a number are inverse * torque.
 struct MotionSlopes {
-  StateMatrix by_state;         ///< joints x 2 joints: by q, then dq
-  JointMatrix<double> inverse;  ///< of the inertia matrix; rows and columns of locked joints are 0
-  Eigen::MatrixXd torque;       ///< joints x numbers: torque that one more of each number gives
+  StateMatrix by_state;    ///< joints x 2 joints: by q, then dq
+  JointMatrix inverse;     ///< of the inertia matrix; rows and columns of locked joints are 0
+  Eigen::MatrixXd torque;  ///< joints x numbers: torque that one more of each number gives
 };
 
 /// What moves the robot for a while: numbers as MotionLayout says, and joints that do not move.
@@ -63,18 +63,18 @@ class MotionLaw {
   bool is_locked(int joint) const { return (locked_ >> joint & 1u) != 0; }
   const MotionBody& body() const { return *body_; }
   /// Acceleration under the logged torque `tau`.
-  void acceleration(const JointVector<double>& q, const JointVector<double>& dq,
-                    const JointVector<double>& tau, JointVector<double>& ddq) const;
+  void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                    JointVector& ddq) const;
   /// How fast each joint's friction changes its velocity near rest, 1/s.
-  JointVector<double> friction_rate(const JointVector<double>& q) const;
+  JointVector friction_rate(const JointVector& q) const;
   /// Derivatives of the acceleration `ddq` at this state.
-  void slopes(const JointVector<double>& q, const JointVector<double>& dq, const JointVector<double>& tau,
-              const JointVector<double>& ddq, MotionSlopes& out) const;
+  void slopes(const JointVector& q, const JointVector& dq, const JointVector& tau, const JointVector& ddq,
+              MotionSlopes& out) const;
 
  private:
   const MotionBody* body_;
   FastDynamics dynamics_;
-  JointVector<double> gain_, force_;
+  JointVector gain_, force_;
   unsigned locked_ = 0;
 };
 

@@ -42,7 +42,7 @@ MatrixXd OneStepModel::force_std(const UniformLog& log, const Trajectory& motion
   const int n = joints(), base = layout().base;
   MatrixXd out(n, log.rows() - 1), term(n, base);
   for (int k = 0; k + 1 < log.rows(); ++k) {
-    const JointVector<double> ddq = (motion.col(k + 1) - motion.col(k)).tail(n) / setting.period_s;
+    const JointVector ddq = (motion.col(k + 1) - motion.col(k)).tail(n) / setting.period_s;
     body.torque_by_parameter(motion.col(k).head(n), motion.col(k).tail(n), ddq, term);
     const VectorXd square = log.tau.row(k).transpose().cwiseAbs2() +
                             (term * theta.head(base).asDiagonal()).rowwise().squaredNorm();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <concepts>
 #include <type_traits>
 
 /// The elementary functions of this project, for all of lib/, formats/ and apps/: one path of plain IEEE
@@ -26,24 +25,10 @@ double atan2(double y, double x);
 double hypot(double x, double y);
 double erfc(double x);
 
-template <typename S>
 struct SinCos {
-  S sin, cos;
+  double sin, cos;
 };
 /// Both, for little more than one of them costs; the same bits as sin() and cos().
-SinCos<double> sin_cos(double x);
-
-/// A number that carries derivatives, such as a Ceres Jet: it has functions of its own, in its namespace.
-template <typename S>
-concept WithDerivatives = !std::convertible_to<S, double>;
-
-template <WithDerivatives S>
-S tanh(const S& x) {
-  return tanh(x);
-}
-template <WithDerivatives S>
-SinCos<S> sin_cos(const S& x) {
-  return {sin(x), cos(x)};
-}
+SinCos sin_cos(double x);
 
 }  // namespace faultline::elementary

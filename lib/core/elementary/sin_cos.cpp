@@ -75,7 +75,7 @@ double cos(double x) {
   return (a.quadrant + 1) & 2 ? -value : value;
 }
 
-SinCos<double> sin_cos(double x) {
+SinCos sin_cos(double x) {
   const double size = std::abs(x);
   if (size <= kHalfRightAngle) return {size < kTiny ? x : sine_of(x, 0.0), cosine_of(x, 0.0)};
   if (!(size <= kCosLargest)) return {of_other(x), of_other(x)};

@@ -37,14 +37,14 @@ bool is_complete(const Log& segment, int row) {
 /// Position, velocity and acceleration between two rows that are `h` seconds apart, by the cubic through
 /// both.
 struct Between {
-  JointVector<double> q, dq, ddq;
+  JointVector q, dq, ddq;
 
   Between(const RawStretch& motion, int k, double s) {
     const double h = motion.time[k + 1] - motion.time[k];
-    const JointVector<double> q0 = motion.q.col(k), q1 = motion.q.col(k + 1), v0 = h * motion.dq.col(k),
-                              v1 = h * motion.dq.col(k + 1), rise = q1 - q0;
+    const JointVector q0 = motion.q.col(k), q1 = motion.q.col(k + 1), v0 = h * motion.dq.col(k),
+                      v1 = h * motion.dq.col(k + 1), rise = q1 - q0;
     constexpr double kDegree = 3.0;  // of the polynomial
-    const JointVector<double> b = kDegree * rise - 2.0 * v0 - v1, c = v0 + v1 - 2.0 * rise;
+    const JointVector b = kDegree * rise - 2.0 * v0 - v1, c = v0 + v1 - 2.0 * rise;
     q = q0 + s * (v0 + s * (b + s * c));
     dq = (v0 + s * (2.0 * b + kDegree * s * c)) / h;
     ddq = (2.0 * b + 2.0 * kDegree * s * c) / (h * h);
@@ -52,8 +52,8 @@ struct Between {
 };
 
 /// Mean torque that the drives give from row k to the next.
-JointVector<double> mean_torque(const Chain<double>& chain, const RawStretch& motion, int k) {
-  JointVector<double> mean = JointVector<double>::Zero(chain.joints());
+JointVector mean_torque(const Chain& chain, const RawStretch& motion, int k) {
+  JointVector mean = JointVector::Zero(chain.joints());
   for (std::size_t i = 0; i < kGaussPoint.size(); ++i) {
     const Between at(motion, k, kGaussPoint[i]);
     mean += kGaussWeight[i] * inverse_dynamics(chain, at.q, at.dq, at.ddq);
@@ -111,7 +111,7 @@ class OpenStretch {
     Eigen::MatrixXd mean(robot_.chain.joints(), done_ + torque.cols() - first);
     for (int i = 0; i < mean.cols(); ++i)
       mean.col(i) = first + i + 1 < rows() ? mean_torque(robot_.chain, motion, first + i)
-                                           : JointVector<double>::Constant(robot_.chain.joints(), kNaN);
+                                           : JointVector::Constant(robot_.chain.joints(), kNaN);
     for (int i = 0; i < torque.cols(); ++i) {
       const int at = done_ + i - first;
       torque.col(i) = mean.col(at);

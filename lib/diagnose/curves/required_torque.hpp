@@ -13,7 +13,7 @@ namespace faultline {
 
 /// The robot as it was on the day of a log, and what its drives make of a logged torque.
 struct RobotOfTheDay {
-  Chain<double> chain;
+  Chain chain;
   std::vector<double> gain, offset;  ///< by joint: the drive gives gain * logged torque + offset, N m or N
   double torque_phi = 0.0;           ///< MotionModel::torque_phi
 };

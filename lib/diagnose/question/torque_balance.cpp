@@ -35,15 +35,15 @@ struct Rows {
   Eigen::MatrixXd body, braking;  // joints x rows
 };
 
-Rows needed_in(const Stretch& s, const Chain<double>& chain) {
+Rows needed_in(const Stretch& s, const Chain& chain) {
   const int n = s.joints(), rows = s.rows();
   Rows out{Eigen::MatrixXd(n, rows), Eigen::MatrixXd(n, rows)};
   for (int k = 0; k < rows; ++k) {
     const int before = std::max(k - 1, 0), after = std::min(k + 1, rows - 1);
-    const JointVector<double> q = s.q_smooth.col(k), dq = s.dq_smooth.col(k);
-    const JointVector<double> ddq =
+    const JointVector q = s.q_smooth.col(k), dq = s.dq_smooth.col(k);
+    const JointVector ddq =
         (s.dq_smooth.col(after) - s.dq_smooth.col(before)) / (s.time[after] - s.time[before]);
-    const JointVector<double> body = rigid_body_torque(chain, q, dq, ddq, chain.gravity);
+    const JointVector body = rigid_body_torque(chain, q, dq, ddq, chain.gravity);
     out.body.col(k) = body;
     out.braking.col(k) = inverse_dynamics(chain, q, dq, ddq) - body;
   }
@@ -108,7 +108,7 @@ bool is_other_quantity(const DerivativeAgreement& velocity) {
 }  // namespace
 
 std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot) {
-  const Chain<double>& chain = robot.chain();
+  const Chain& chain = robot.chain();
   std::vector<JointBalance> out(chain.joints());
   MemorySource source(log, "excerpt");
   try {

@@ -14,7 +14,7 @@ struct KnownRobot {
   const Robot& robot;
   const UsualMotion& usual;
 
-  const Chain<double>& chain() const { return robot.chain; }
+  const Chain& chain() const { return robot.chain; }
   int joints() const { return robot.joints(); }
   double torque_phi() const { return robot.torque_phi.value_or(0.0); }
 };

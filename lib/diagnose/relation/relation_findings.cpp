@@ -168,7 +168,7 @@ double confidence_of(const RelationEpisode& episode) {
   return episode.times_limit > kWellBeyond ? kSure : kLess;
 }
 
-FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& chain) {
+FaultFinding finding_of(const RelationEpisode& episode, const Chain& chain) {
   FaultFinding finding;
   const bool lost = is_lost_torque(episode);
   finding.label = {lost ? FaultKind::torque_loss : FaultKind::unknown, episode.joint + 1};
@@ -184,8 +184,7 @@ FaultFinding finding_of(const RelationEpisode& episode, const Chain<double>& cha
 }
 
 std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
-                                         const std::vector<RelationEpisode>& episodes,
-                                         const Chain<double>& chain) {
+                                         const std::vector<RelationEpisode>& episodes, const Chain& chain) {
   std::vector<FaultFinding> found;
   const std::vector<FaultFinding> by_motion = motion;
   for (const RelationEpisode& episode : episodes) {

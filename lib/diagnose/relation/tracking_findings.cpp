@@ -26,7 +26,7 @@ const char* what_strayed(const Tracked& tracked) {
 }
 
 template <typename Tracked>
-const char* unit_of(const Tracked& tracked, const Chain<double>& chain) {
+const char* unit_of(const Tracked& tracked, const Chain& chain) {
   const AxisKind axis = chain.geometry[tracked.joint].kind;
   return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
@@ -53,7 +53,7 @@ bool rests_as_asked(const RelationEpisode& episode) {
          episode.first_rms < kStill * episode.first_predicted_rms;
 }
 
-EvidenceItem difference(const RelationEpisode& episode, const Chain<double>& chain) {
+EvidenceItem difference(const RelationEpisode& episode, const Chain& chain) {
   return {fmt::format("{}_difference", what_strayed(episode)), episode.strongest, unit_of(episode, chain),
           fmt::format("difference of the {} where it is clearest", what_strayed(episode))};
 }
@@ -65,7 +65,7 @@ std::string next_check_of(int joint) {
       joint);
 }
 
-FaultFinding tracking_finding(const RelationEpisode& episode, const Chain<double>& chain) {
+FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain) {
   const bool still = stands_still(episode);
   FaultFinding finding;
   finding.label = {still ? FaultKind::locked : FaultKind::unknown, episode.joint + 1};
@@ -124,7 +124,7 @@ JointTracking tracking_of(int joint, const Model& model, const std::vector<doubl
 }  // namespace
 
 std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes,
-                                            const Chain<double>& chain) {
+                                            const Chain& chain) {
   std::vector<FaultFinding> found;
   for (const RelationEpisode& episode : episodes) {
     if (rests_as_asked(episode)) continue;

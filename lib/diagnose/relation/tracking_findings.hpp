@@ -14,8 +14,7 @@ namespace faultline {
 
 /// A finding for each joint that does not: locked where it stands still while its reference moves, else
 /// unknown. What position and velocity show at the same time is one.
-std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes,
-                                            const Chain<double>& chain);
+std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes, const Chain& chain);
 
 /// Rows of a log that were held against a reference, of the joint that was for longest; `judged_s` by
 /// relation.

@@ -68,10 +68,10 @@ VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDire
   return out;
 }
 
-JointMatrix<double> inertia_at(const CoarseLog& log, int sample) {
+JointMatrix inertia_at(const CoarseLog& log, int sample) {
   const RigidColumns& rigid = log.model->body.rigid();
   return inertia_matrix(chain_of(rigid, log.numbers.head(rigid.base())),
-                        JointVector<double>(log.about.col(sample).head(log.joints())));
+                        JointVector(log.about.col(sample).head(log.joints())));
 }
 
 /// Covariance of what a prediction lacks; a joint that locks takes its speed, and that of those it carries
@@ -92,7 +92,7 @@ MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const Linear
   MatrixXd out = process_covariance(steps, log.model->layout(), std);
   if (guess.kind != FaultKind::locked || from <= 0 || from >= log.samples()) return out;
   auto block = out.middleCols((from - 1) * steps.states, steps.states);
-  const JointMatrix<double> inertia = inertia_at(log, from - 1);
+  const JointMatrix inertia = inertia_at(log, from - 1);
   const double rest = log.time_s(from) - guess.onset_s;  // for which a jump of a velocity acts
   for (int i = 0; i < n; ++i) {
     if (i == j || inertia(i, j) == 0.0) continue;
@@ -156,7 +156,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   in.process = process_of(log, guess, out.steps, from, how.forgiven);
   in.variance = log.variance.colwise() + forgiven_variance(m, how.forgiven);
   if (guess.kind == FaultKind::stuck_encoder) {
-    const JointMatrix<double> inertia = inertia_at(log, std::max(0, from - 1));
+    const JointMatrix inertia = inertia_at(log, std::max(0, from - 1));
     for (int i = 0; i < n; ++i) {
       if (inertia(i, j) == 0.0) continue;  // without its reading, the motion of the joint cannot be predicted
       in.variance.row(i).tail(log.samples() - from).setConstant(kMissingReading);

@@ -129,12 +129,12 @@ class DriftSums {
 
 InertiaRows inertia_rows(const LogFit& fit) {
   const BalanceModel& m = fit.model();
-  const Chain<double> chain = chain_of(m.rigid, m.theta);
+  const Chain chain = chain_of(m.rigid, m.theta);
   InertiaRows out;
   out.column.assign(fit.joints(), MatrixXd(fit.count(), fit.joints()));
   for (int t = 0; t < fit.count(); ++t) {
-    const JointVector<double> q = fit.rows().q.row(t).transpose();
-    const JointMatrix<double> inertia = inertia_matrix(chain, q);
+    const JointVector q = fit.rows().q.row(t).transpose();
+    const JointMatrix inertia = inertia_matrix(chain, q);
     for (int j = 0; j < fit.joints(); ++j) out.column[j].row(t) = inertia.col(j).transpose();
   }
   return out;

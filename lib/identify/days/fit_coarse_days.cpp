@@ -102,7 +102,7 @@ struct Balance {
   MatrixXd momentum, force;
 };
 
-Balance balance_at(const RigidColumns& rigid, const JointVector<double>& q, const JointVector<double>& dq) {
+Balance balance_at(const RigidColumns& rigid, const JointVector& q, const JointVector& dq) {
   const int n = rigid.joints();
   const LinkFrames frames = link_frames(rigid.chain, q);
   const auto lift = rigid.lift.topRows(n * kLinkParameters);
@@ -180,8 +180,7 @@ double prediction_miss(const std::vector<UniformLog>& logs, OneStepModel model, 
 /// The robot's own numbers (MotionLayout::learned()) to start a fit from: those of momentum differences
 /// between neighbouring samples or the identified ones, whichever predict the readings of these logs better.
 VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& model,
-                      const VectorXd& identified_base,
-                      const std::vector<Friction<double>>& identified_friction) {
+                      const VectorXd& identified_base, const std::vector<Friction>& identified_friction) {
   const MotionLayout at = model.layout();
   VectorXd identified(at.learned());
   identified.head(at.base) = identified_base;
@@ -199,12 +198,12 @@ VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& m
 bool keeps_inertia(const std::vector<UniformLog>& logs, const OneStepModel& m, const VectorXd& theta) {
   const int base = m.layout().base;
   const RigidColumns& rigid = m.body.rigid();
-  const Chain<double> before = chain_of(rigid, m.theta.head(base)), after = chain_of(rigid, theta.head(base));
+  const Chain before = chain_of(rigid, m.theta.head(base)), after = chain_of(rigid, theta.head(base));
   for (const UniformLog& log : logs) {
     const int step = std::max(1, log.rows() / kInertiaRows);
     for (int k = 0; k < log.rows(); k += step) {
-      const JointVector<double> q = log.q.row(k).transpose();
-      const JointMatrix<double> rest = inertia_matrix(after, q) - kKeptInertia * inertia_matrix(before, q);
+      const JointVector q = log.q.row(k).transpose();
+      const JointMatrix rest = inertia_matrix(after, q) - kKeptInertia * inertia_matrix(before, q);
       if (rest.llt().info() != Eigen::Success) return false;
     }
   }
@@ -293,7 +292,7 @@ VectorXd carried_masses(const std::vector<UniformLog>& logs, const OneStepModel&
   for (const UniformLog& log : logs) {
     const Trajectory x = readings(log);
     for (int k = 0; k + 1 < log.rows(); ++k) {
-      const JointVector<double> ddq = (x.col(k + 1) - x.col(k)).tail(n) / log.period_s;
+      const JointVector ddq = (x.col(k + 1) - x.col(k)).tail(n) / log.period_s;
       m.body.torque_by_parameter(x.col(k).head(n), x.col(k).tail(n), ddq, torque);
       const MatrixXd unit = m.payload.transpose() * torque.transpose();
       num += unit * (torque * m.theta.head(base)).asDiagonal();

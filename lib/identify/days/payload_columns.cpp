@@ -13,8 +13,8 @@ MatrixXd payload_columns(const ParameterSpace& space) {
   const MatrixXd map = base_map(space);
   MatrixXd out(space.rigid(), n);
   for (int link = 0; link < n; ++link) {
-    Chain<double> chain = space.chain;
-    for (LinkInertia<double>& l : chain.links) l = {};
+    Chain chain = space.chain;
+    for (LinkInertia& l : chain.links) l = {};
     chain = with_payload(chain, link, 1.0);
     VectorXd numbers = VectorXd::Zero(n * (kLinkParameters + 1));
     for (int i = 0; i < n; ++i)

@@ -25,8 +25,7 @@ bool is_possible(ExtraKind kind, double value) {
   return value >= 0.0 && (kind != ExtraKind::load_friction || value < kMostLoad);
 }
 
-std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain,
-                                      const std::vector<double>& gear_compliance) {
+std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<double>& gear_compliance) {
   std::vector<ExtraTerm> out;
   for (int j = 0; j < chain.joints(); ++j)
     if (chain.friction[j].load != 0.0) out.push_back({ExtraKind::load_friction, j, j});
@@ -79,15 +78,14 @@ Place place_of(AnyChain& chain, const ExtraTerm& term) {
 
 }  // namespace
 
-double* extra_value(Chain<double>& chain, const ExtraTerm& term) { return place_of<double*>(chain, term); }
-const double* extra_value(const Chain<double>& chain, const ExtraTerm& term) {
+double* extra_value(Chain& chain, const ExtraTerm& term) { return place_of<double*>(chain, term); }
+const double* extra_value(const Chain& chain, const ExtraTerm& term) {
   return place_of<const double*>(chain, term);
 }
 
-JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
-                                 const JointVector<double>& q, const JointVector<double>& dq,
-                                 const JointVector<double>& ddq, const JointVector<double>& carried) {
-  JointVector<double> out = JointVector<double>::Zero(chain.joints());
+JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointVector& q,
+                         const JointVector& dq, const JointVector& ddq, const JointVector& carried) {
+  JointVector out = JointVector::Zero(chain.joints());
   const int j = term.joint;
   switch (term.kind) {
     case ExtraKind::load_friction:

@@ -34,16 +34,15 @@ bool is_possible(ExtraKind kind, double value);
 
 /// The terms of every load friction, shared drive and ripple that `chain` has, and for every compliance in
 /// `gear_compliance` (by joint; may be empty) that is not 0.
-std::vector<ExtraTerm> extra_terms_of(const Chain<double>& chain, const std::vector<double>& gear_compliance);
+std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<double>& gear_compliance);
 
 /// Where the chain keeps a term's value; null where it has none, as of compliance.
-double* extra_value(Chain<double>& chain, const ExtraTerm& term);
-const double* extra_value(const Chain<double>& chain, const ExtraTerm& term);
+double* extra_value(Chain& chain, const ExtraTerm& term);
+const double* extra_value(const Chain& chain, const ExtraTerm& term);
 
 /// The torque on every joint that a unit of a term is, at one state, where gears carry `carried`.
 /// Compliance has none.
-JointVector<double> extra_torque(const Chain<double>& chain, const ExtraTerm& term,
-                                 const JointVector<double>& q, const JointVector<double>& dq,
-                                 const JointVector<double>& ddq, const JointVector<double>& carried);
+JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointVector& q,
+                         const JointVector& dq, const JointVector& ddq, const JointVector& carried);
 
 }  // namespace faultline

@@ -19,7 +19,7 @@ struct Body {
 };
 
 /// Second moments, first moment and mass as one matrix.
-Eigen::MatrixXd pseudo_inertia(const LinkInertia<double>& link) {
+Eigen::MatrixXd pseudo_inertia(const LinkInertia& link) {
   Eigen::Matrix4d j;
   j.topLeftCorner<3, 3>() = 0.5 * link.inertia.trace() * Eigen::Matrix3d::Identity() - link.inertia;
   j.topRightCorner<3, 1>() = link.first_moment;
@@ -28,9 +28,9 @@ Eigen::MatrixXd pseudo_inertia(const LinkInertia<double>& link) {
   return j;
 }
 
-double mass_of(const LinkInertia<double>& link) { return std::max(link.mass, kLeastMass); }
+double mass_of(const LinkInertia& link) { return std::max(link.mass, kLeastMass); }
 
-Body general_body_of(const LinkInertia<double>& link) {
+Body general_body_of(const LinkInertia& link) {
   Body body;
   body.numbers = Eigen::MatrixXd::Identity(kLinkParameters, kLinkParameters);
   for (int k = 0; k < kLinkParameters; ++k)
@@ -47,9 +47,9 @@ Body general_body_of(const LinkInertia<double>& link) {
 }
 
 /// Mass, first moment along the link and inertia about every axis across it.
-Body rod_of(const LinkInertia<double>& link, const Eigen::Vector3d& along) {
+Body rod_of(const LinkInertia& link, const Eigen::Vector3d& along) {
   Body body;
-  LinkInertia<double> mass, moment, inertia;
+  LinkInertia mass, moment, inertia;
   mass.mass = 1.0;
   moment.first_moment = along;
   inertia.inertia = Eigen::Matrix3d::Identity() - along * along.transpose();
@@ -66,7 +66,7 @@ Body rod_of(const LinkInertia<double>& link, const Eigen::Vector3d& along) {
   return body;
 }
 
-Body point_of(const LinkInertia<double>& link) {
+Body point_of(const LinkInertia& link) {
   Body body;
   body.numbers = to_vector(point_mass(1.0));
   body.block = positive_number(0, mass_of(link));
@@ -74,7 +74,7 @@ Body point_of(const LinkInertia<double>& link) {
 }
 
 Body body_of(const Robot& robot, int i) {
-  const LinkInertia<double>& link = robot.chain.links[i];
+  const LinkInertia& link = robot.chain.links[i];
   switch (robot.shapes[i]) {
     case LinkShape::rod:
       return rod_of(link, link_direction(robot, i));

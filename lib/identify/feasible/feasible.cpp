@@ -24,10 +24,10 @@ constexpr double kLeastFriction = 1e-6;       // N m s/rad, N m, N s/m or N
 constexpr double kFeasibleLeastScale = 1e-4;  // of the robot file's bodies: they stay positive
 constexpr double kRounding = 1e-9;            // kg or kg m^2: not negative
 
-bool positive_definite(const Chain<double>& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+bool positive_definite(const Chain& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   Random random(11);
   for (int k = 0; k < kProbes; ++k) {
-    JointVector<double> q(chain.joints());
+    JointVector q(chain.joints());
     for (int j = 0; j < chain.joints(); ++j) q[j] = random.uniform(low[j], high[j]);
     const Eigen::MatrixXd m = inertia_matrix(chain, q);
     if (!m.allFinite() || !(m.diagonal().minCoeff() > 0.0)) return false;

@@ -6,6 +6,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/extra_torque.hpp"
 
 namespace faultline {
 namespace {
@@ -14,8 +15,8 @@ constexpr double kDifference = 1e-5;     ///< rad or m, of the slopes with respe
 constexpr double kLongestStep_s = 0.01;  ///< of an integration step where no Coulomb friction turns
 constexpr double kTurns = 6.0;           ///< widths of the Coulomb friction: beyond, it is constant
 
-Chain<double> direction_chain(const ParameterSpace& space, int base) {
-  Chain<double> chain = space.chain;
+Chain direction_chain(const ParameterSpace& space, int base) {
+  Chain chain = space.chain;
   chain.rotor_inertia.assign(chain.joints(), 0.0);
   chain.friction.assign(chain.joints(), {});
   chain.shared_drives.clear();
@@ -27,7 +28,7 @@ Chain<double> direction_chain(const ParameterSpace& space, int base) {
 }
 
 /// In place, by Gauss and Jordan; the matrix is positive definite, so no pivoting.
-void invert(JointMatrix<double>& m) {
+void invert(JointMatrix& m) {
   const Eigen::Index n = m.rows();
   for (Eigen::Index k = 0; k < n; ++k) {
     const double pivot = 1.0 / m(k, k);
@@ -58,10 +59,10 @@ void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b
 
 /// The equations of motion at one state and their slopes there.
 struct SegmentModel::Workspace {
-  JointVector<double> q, dq, ddq;
-  JointVector<double> carried;  ///< torque behind all friction
-  JointVector<double> passed;   ///< what of a torque on the drive is carried on: 1 where the load takes none
-  JointMatrix<double> inverse_inertia;
+  JointVector q, dq, ddq;
+  JointVector carried;  ///< torque behind all friction
+  JointVector passed;   ///< what of a torque on the drive is carried on: 1 where the load takes none
+  JointMatrix inverse_inertia;
   Eigen::MatrixXd by_state, by_parameter;  ///< of ddq: n x 2n, n x free
   Eigen::MatrixXd rhs_state, rhs_parameter;
   LinkRegressor regressor;
@@ -85,8 +86,8 @@ SegmentModel::SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& p
   }
 }
 
-void SegmentModel::accelerate(const JointVector<double>& tau, Workspace& w) const {
-  JointVector<double> bias, drag;
+void SegmentModel::accelerate(const JointVector& tau, Workspace& w) const {
+  JointVector bias, drag;
   dynamics_.inertia_and_bias(w.q, w.dq, w.inverse_inertia, bias);
   dynamics_.drag(w.q, w.dq, tau, drag);
   w.carried = tau - drag;
@@ -123,7 +124,7 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
     w.rhs_state.col(j).setZero();
     w.rhs_state.col(n + j).setZero();
     if (!idle) {
-      JointVector<double> up = w.q, down = w.q;
+      JointVector up = w.q, down = w.q;
       up[j] += kDifference;
       down[j] -= kDifference;
       w.rhs_state.col(j) =
@@ -135,7 +136,7 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
       w.rhs_state.col(n + j) =
           dynamics_.body_torque(w.q, down, w.ddq) - dynamics_.body_torque(w.q, up, w.ddq);
     }
-    const Friction<double>& f = dynamics_.chain().friction[j];
+    const Friction& f = dynamics_.chain().friction[j];
     const double bent = elementary::tanh(w.dq[j] / f.width);
     const double dry = f.coulomb + f.load * std::abs(w.carried[j]);
     w.rhs_state(j, n + j) -= w.passed[j] * (f.viscous + dry * (1.0 - bent * bent) / f.width);
@@ -164,7 +165,7 @@ void SegmentModel::base_slope(std::size_t direction, const Workspace& w,
       slope[it.index() - links] -= it.value() * w.ddq[it.index() - links];
 }
 
-void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const {
+void SegmentModel::slopes_by_parameter(const JointVector& tau_step, Workspace& w) const {
   const int n = space_.joints();
   std::size_t direction = 0;
   w.rhs_parameter.setZero();
@@ -180,7 +181,7 @@ void SegmentModel::slopes_by_parameter(const JointVector<double>& tau_step, Work
       column = -extra_torque(dynamics_.chain(), space_.extra_at(p), w.q, w.dq, w.ddq, w.carried);
     } else {
       const int joint = space_.joint_of(p);
-      const Friction<double>& f = dynamics_.chain().friction[joint];
+      const Friction& f = dynamics_.chain().friction[joint];
       const double u = w.dq[joint] / f.width, bent = elementary::tanh(u);
       const double dry = f.coulomb + f.load * std::abs(w.carried[joint]);
       column[joint] = p >= space_.log_width(0) ? dry * (1.0 - bent * bent) * u
@@ -211,8 +212,8 @@ void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
   std::swap(w.s, w.next);
 }
 
-void SegmentModel::step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
-                        bool with_sensitivity, Workspace& w) const {
+void SegmentModel::step(double h, const JointVector& tau, const JointVector& tau_step, bool with_sensitivity,
+                        Workspace& w) const {
   // Runge-Kutta of fourth order: places of its stages in the step, and their weights.
   constexpr double kAt[4] = {0.0, 0.5, 0.5, 1.0}, kShare[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   const int n = space_.joints();
@@ -265,8 +266,8 @@ void SegmentModel::run(const Excerpt& e, const Eigen::VectorXd& start, bool with
   for (int k = 0; k + 1 < rows; ++k) {
     const double dt = e.time[k + 1] - e.time[k];
     const int pieces = steps(e, k);
-    const JointVector<double> tau_step = e.tau.col(k + 1) - e.tau.col(k);
-    const JointVector<double> tau = e.tau.col(k) + parameters_[space_.timing()] * tau_step;
+    const JointVector tau_step = e.tau.col(k + 1) - e.tau.col(k);
+    const JointVector tau = e.tau.col(k) + parameters_[space_.timing()] * tau_step;
     for (int i = 0; i < pieces; ++i) step(dt / pieces, tau, tau_step, with_sensitivity, w);
     motion.state.col(k + 1) = w.x;
     if (with_sensitivity) motion.sensitivity.middleRows(2 * n * (k + 1), 2 * n) = w.s;

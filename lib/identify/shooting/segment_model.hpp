@@ -34,15 +34,15 @@ class SegmentModel {
  private:
   struct Workspace;
   int steps(const Excerpt& excerpt, int row) const;
-  void accelerate(const JointVector<double>& tau, Workspace& w) const;
+  void accelerate(const JointVector& tau, Workspace& w) const;
   void add_extra_slopes(Workspace& w) const;
   void pass_torque(Workspace& w) const;
   void slopes_by_state(Workspace& w) const;
   void base_slope(std::size_t direction, const Workspace& w, Eigen::Ref<Eigen::VectorXd> slope) const;
-  void slopes_by_parameter(const JointVector<double>& tau_step, Workspace& w) const;
+  void slopes_by_parameter(const JointVector& tau_step, Workspace& w) const;
   void carry_sensitivity(double h, Workspace& w) const;
-  void step(double h, const JointVector<double>& tau, const JointVector<double>& tau_step,
-            bool with_sensitivity, Workspace& w) const;
+  void step(double h, const JointVector& tau, const JointVector& tau_step, bool with_sensitivity,
+            Workspace& w) const;
 
   const ParameterSpace& space_;
   Eigen::VectorXd parameters_;

@@ -17,11 +17,9 @@ namespace {
 constexpr double kDiverged = 1e6;  ///< residual that stands for a motion that diverged
 
 /// Longest step at which the integration follows the friction of `chain` around zero velocity, s.
-double stable_step(const Chain<double>& chain, const JointVector<double>& q,
-                   const JointVector<double>& torque) {
-  const JointMatrix<double> m = inertia_matrix(chain, q);
-  const JointMatrix<double> inverse =
-      m.ldlt().solve(JointMatrix<double>::Identity(chain.joints(), chain.joints()));
+double stable_step(const Chain& chain, const JointVector& q, const JointVector& torque) {
+  const JointMatrix m = inertia_matrix(chain, q);
+  const JointMatrix inverse = m.ldlt().solve(JointMatrix::Identity(chain.joints(), chain.joints()));
   double rate = 1e-9;
   for (int j = 0; j < chain.joints(); ++j)
     rate = std::max(
@@ -47,19 +45,19 @@ ShootingEvaluation::ShootingEvaluation(const ShootingProblem& problem, int threa
   robust_.resize(excerpts_.size());
   for (std::size_t i = 0; i < excerpts_.size(); ++i) robust_[i] = excerpts_[i].weight;
   reduced.resize(excerpts_.size());
-  const Chain<double> chain = chain_from(space_, parameters_);
+  const Chain chain = chain_from(space_, parameters_);
   longest_step_s_ = std::min(
       0.01, std::max(0.0006, stable_step(chain, excerpts_[0].start.head(space_.joints()), largest_torque())));
 }
 
-JointVector<double> ShootingEvaluation::largest_torque() const {
-  JointVector<double> most = JointVector<double>::Zero(space_.joints());
+JointVector ShootingEvaluation::largest_torque() const {
+  JointVector most = JointVector::Zero(space_.joints());
   for (const Excerpt& e : excerpts_) most = most.cwiseMax(e.tau.cwiseAbs().rowwise().maxCoeff());
   return most;
 }
 
 double ShootingEvaluation::narrowest_width(int joint) const {
-  const Chain<double> chain = chain_from(space_, parameters_);
+  const Chain chain = chain_from(space_, parameters_);
   return std::max(1e-4, 0.5 * chain.friction[joint].width * longest_step_s_ /
                             stable_step(chain, excerpts_[0].start.head(space_.joints()), largest_torque()));
 }

@@ -48,7 +48,7 @@ class ShootingEvaluation : public ceres::EvaluationCallback {
   void reweight(const std::vector<Eigen::MatrixXd>& residuals, const Eigen::VectorXd& noise);
 
  private:
-  JointVector<double> largest_torque() const;
+  JointVector largest_torque() const;
   Eigen::VectorXd start_of(int i) const;
   void evaluate(const SegmentModel& model, int i, bool jacobians);
   /// Takes the triangular factor of `stacked`, which it destroys.

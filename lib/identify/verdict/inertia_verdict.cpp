@@ -40,8 +40,7 @@ struct LeastInertia {
   double at_joint = 0.0;  ///< its inertia with the others at rest
 };
 
-LeastInertia least_inertia(const ParameterSpace& space, const Identification& id,
-                           const JointVector<double>& q) {
+LeastInertia least_inertia(const ParameterSpace& space, const Identification& id, const JointVector& q) {
   const Eigen::MatrixXd matrix = inertia_matrix(chain_from(space, id.estimate), q);
   const SymmetricEigen eigen = symmetric_eigen(matrix);
   Eigen::Index least = 0;
@@ -70,7 +69,7 @@ LeastInertia worst_within(const std::vector<Range>& ranges, bool sure, const Ide
   Random random(1);
   LeastInertia worst;
   for (int k = 0; k < kPoses; ++k) {
-    JointVector<double> q(static_cast<Eigen::Index>(ranges.size()));
+    JointVector q(static_cast<Eigen::Index>(ranges.size()));
     for (std::size_t j = 0; j < ranges.size(); ++j) q[j] = random.uniform(ranges[j][0], ranges[j][1]);
     const LeastInertia least = least_inertia(id.space, id, q);
     const bool counts = !sure || least.value + kSurelyNegative * least.std < 0.0;

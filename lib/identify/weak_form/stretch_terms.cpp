@@ -110,7 +110,7 @@ class Columns {
   using Rows = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
   /// The chain without extra torques: the setting may know nothing of them.
-  static Chain<double> chain_of(const ParameterSpace& space, const ExtraSetting& setting) {
+  static Chain chain_of(const ParameterSpace& space, const ExtraSetting& setting) {
     ParameterSpace plain = space;
     plain.extra.clear();
     if (setting.parameters.size() == 0) return plain.chain;
@@ -126,9 +126,9 @@ class Columns {
   Eigen::MatrixXd carried_torque() const {
     Eigen::MatrixXd out(space_.joints(), s_.rows() - 1);
     for (int k = 0; k < out.cols(); ++k) {
-      const JointVector<double> q = 0.5 * (s_.q_smooth.col(k) + s_.q_smooth.col(k + 1)),
-                                dq = 0.5 * (s_.dq_smooth.col(k) + s_.dq_smooth.col(k + 1)),
-                                ddq = (s_.dq_smooth.col(k + 1) - s_.dq_smooth.col(k)) / step(k);
+      const JointVector q = 0.5 * (s_.q_smooth.col(k) + s_.q_smooth.col(k + 1)),
+                        dq = 0.5 * (s_.dq_smooth.col(k) + s_.dq_smooth.col(k + 1)),
+                        ddq = (s_.dq_smooth.col(k + 1) - s_.dq_smooth.col(k)) / step(k);
       out.col(k) = dynamics_.body_torque(q, dq, ddq);
     }
     return out;
@@ -175,7 +175,7 @@ class Columns {
   /// Torque in the gear of joint `j` over sample `k`: what the drive's own friction and rotor leave of its
   /// torque.
   double gear_torque(int j, int k) const {
-    const Friction<double>& f = chain_.friction[j];
+    const Friction& f = chain_.friction[j];
     const int shift = setting_.shift.empty() ? 0 : setting_.shift[j];
     const double torque =
         (1.0 - setting_.phi) * logged(j, k - shift) + setting_.phi * logged(j, k + 1 - shift);
@@ -190,8 +190,8 @@ class Columns {
     const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
     Eigen::MatrixXd before = Eigen::MatrixXd::Zero(n, n), after = before;  // a column for each gear
     for (int k = 0; k + 1 < out.cols(); ++k) {
-      const JointVector<double> q = s_.q_smooth.col(k + 1);
-      const JointMatrix<double> inertia = inertia_matrix(chain_, q);
+      const JointVector q = s_.q_smooth.col(k + 1);
+      const JointMatrix inertia = inertia_matrix(chain_, q);
       const double between = 0.5 * (step(k) + step(k + 1));
       for (Eigen::Index i = 0; i < terms; ++i) {
         const int j = space_.extra[i].joint;
@@ -208,7 +208,7 @@ class Columns {
   const ParameterSpace& space_;
   const Stretch& s_;
   const ExtraSetting& setting_;
-  Chain<double> chain_;
+  Chain chain_;
   FastDynamics dynamics_;
 };
 

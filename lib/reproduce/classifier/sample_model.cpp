@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 constexpr int kSteps = 10;  // of Runge-Kutta, over a sample
 

@@ -21,13 +21,13 @@ class SampleModel {
   SampleModel(const Robot& robot, ControllerReading controller, TorqueBetween between);
 
   /// The state a sample later. `output` is the class (table_1_class); `next_tau` matters for linear only.
-  JointState next(const JointState& now, const JointVector<double>& tau, const JointVector<double>& next_tau,
+  JointState next(const JointState& now, const JointVector& tau, const JointVector& next_tau,
                   int output) const;
 
   const FastDynamics& dynamics() const { return dynamics_; }
 
  private:
-  JointVector<double> set_point(const JointState& now, const JointVector<double>& tau) const;
+  JointVector set_point(const JointState& now, const JointVector& tau) const;
 
   FastDynamics dynamics_;
   ControllerReading reading_;

@@ -42,8 +42,8 @@ Sample sample(const Transitions& transitions, int i) {
 /// From torque to the state a sample later: dt^2 M^-1 for q, dt M^-1 for dq.
 MatrixXd state_per_torque(const SampleModel& model, const VectorXd& state) {
   const auto n = state.size() / 2;
-  JointMatrix<double> inertia;
-  JointVector<double> bias;
+  JointMatrix inertia;
+  JointVector bias;
   model.dynamics().inertia_and_bias(state.head(n), state.tail(n), inertia, bias);
   const MatrixXd inverse = inertia.inverse();
   MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
@@ -55,7 +55,7 @@ MatrixXd state_per_torque(const SampleModel& model, const VectorXd& state) {
 /// What the trend is linear in.
 VectorXd regressors(const SampleModel& model, const Sample& s, const VectorXd& state, int output) {
   const auto n = state.size() / 2;
-  JointVector<double> applied = s.tau, ddq;
+  JointVector applied = s.tau, ddq;
   if (output < kFaultClasses - 1) applied[output] = 0.0;
   model.dynamics().acceleration(state.head(n), state.tail(n), applied, ddq);
   VectorXd all(1 + 3 * n);

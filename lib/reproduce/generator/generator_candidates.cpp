@@ -31,13 +31,13 @@ GeneratorCandidate mlp(std::string name, const GeneratorRecipe& recipe, const St
           first_seed_only};
 }
 
-Errors physics_errors(const Chain<double>& chain, double torque_phi, const IdentifiedBench& on) {
+Errors physics_errors(const Chain& chain, double torque_phi, const IdentifiedBench& on) {
   GeneratorRecipe recipe{.torque_phi = torque_phi, .assumed = chain};
   recipe.fit.kind = ResidualKind::physics;
   return errors_of(untrained_generator(on.bench.experiment.robot, recipe), on.bench);
 }
 
-Errors hybrid_errors(const Chain<double>& chain, double torque_phi, const GeneratorScale& scale,
+Errors hybrid_errors(const Chain& chain, double torque_phi, const GeneratorScale& scale,
                      const IdentifiedBench& on) {
   GeneratorRecipe recipe = mlp_recipe(scale.trajectories, scale.iterations);
   recipe.fit.kind = ResidualKind::hybrid;
@@ -49,7 +49,7 @@ Errors hybrid_errors(const Chain<double>& chain, double torque_phi, const Genera
 }
 
 /// Masses 5 % too large and no friction.
-Chain<double> wrong_chain() {
+Chain wrong_chain() {
   Robot robot = bench_robot();
   set_masses_and_lengths(robot, {1.05, 0.84, 0.525}, {1.0, 0.8, 0.0});
   return robot.chain;

@@ -21,7 +21,7 @@ struct GeneratorRecipe {
   double torque_phi = 0.0;
   ResidualOptions fit{.target = PredictedQuantity::state};
   /// Robot that kinds physics and hybrid integrate; the true one when empty.
-  std::optional<Chain<double>> assumed{};
+  std::optional<Chain> assumed{};
 };
 
 /// Healthy trajectories of 25 samples, with noise if `sigma` is not 0; use generator_training or

@@ -90,7 +90,7 @@ OneStepModel known_steps(const Robot& robot, const HealthyLogs& healthy) {
   for (int p = 0; p < space.rigid(); ++p)
     if (!space.base[p].is_rotor) steps.theta[at++] = truth[p];
   for (int j = 0; j < space.joints(); ++j) {
-    const Friction<double>& friction = robot.chain.friction[j];
+    const Friction& friction = robot.chain.friction[j];
     steps.theta[steps.layout().viscous(j)] = friction.viscous;
     steps.theta[steps.layout().coulomb(j)] = friction.coulomb;
     width[j] = friction.width;

@@ -24,7 +24,7 @@ Identification identify_robot(const HealthyLogs& healthy);
 /// One-step predictions of the true robot, with the noise of the readings that these logs show.
 OneStepModel known_steps(const Robot& robot, const HealthyLogs& healthy);
 
-/// `diagnose` on one run: when the bank raised alarms, and what each of those who name them says.
+/// `diagnose` on one run: when the regression raised alarms, and what each of those who name them says.
 struct ProductAlarms {
   Alarms mlp;    ///< named by the MLP alone
   Alarms rbfn;   ///< by the RBFN alone

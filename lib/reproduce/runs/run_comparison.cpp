@@ -28,10 +28,11 @@ struct Pair {
   const char* theirs;
   const char* decision;
 };
-constexpr Pair kPairs[] = {{kBestCases, kBestMlp, kLogOdds},      {kBestCases, kBestRbfn, kLogOdds},
-                           {kBestCases, kBestAverage, kLogOdds},  {kBestCases, kBestMlp, kConsecutive},
-                           {kBestCases, kBestRbfn, kConsecutive}, {kBestCases, kBestAverage, kConsecutive},
-                           {kBankCases, kBankMlp, kBank},         {kBankCases, kBankRbfn, kBank}};
+constexpr Pair kPairs[] = {
+    {kBestCases, kBestMlp, kLogOdds},          {kBestCases, kBestRbfn, kLogOdds},
+    {kBestCases, kBestAverage, kLogOdds},      {kBestCases, kBestMlp, kConsecutive},
+    {kBestCases, kBestRbfn, kConsecutive},     {kBestCases, kBestAverage, kConsecutive},
+    {kProductCases, kProductMlp, kRegression}, {kProductCases, kProductRbfn, kRegression}};
 
 void add(ResultRow& row, const PairedDifference& difference) {
   for (const double value : {difference.value, difference.low, difference.high})

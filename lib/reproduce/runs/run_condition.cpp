@@ -159,8 +159,9 @@ DetectorResult watch_with_filters(const std::string& detector, const FilteredRob
 std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test) {
   const double threshold = learned.model.explain.limits.of(FaultKind::free_swinging);
   std::vector<DetectorResult> results;
-  for (const char* name : {detector_name::kBankMlp, detector_name::kBankRbfn, detector_name::kBankCases})
-    results.push_back({name, decision_name::kBank, threshold, {}});
+  for (const char* name :
+       {detector_name::kProductMlp, detector_name::kProductRbfn, detector_name::kProductCases})
+    results.push_back({name, decision_name::kRegression, threshold, {}});
   for (const ExperimentRun& run : test) {
     const ProductAlarms alarms = product_alarms(learned, run.log);
     results[0].score.add(run, alarms.mlp);
@@ -214,7 +215,7 @@ ConditionRuns measured(const RunBench& bench, double sigma) {
 
 /// Held: physics of the identified robot. Else what the torque did between two samples is unknown to physics,
 /// and a 12-49-6 network trained with the noise of use does better.
-ResidualGenerator best_generator(const RunBench& bench, const Chain<double>& identified, double sigma) {
+ResidualGenerator best_generator(const RunBench& bench, const Chain& identified, double sigma) {
   GeneratorRecipe recipe;
   recipe.sigma = sigma;
   recipe.trajectories = bench.plan.generator_trajectories;
@@ -244,9 +245,9 @@ ConditionResult run_condition(const RunBench& bench, double sigma) {
   const bool learns = contains(plan.learned_sigmas, sigma);
   Learned learned;
   if (learns) learned = learn_product(healthy, plan.quick, e.seed);
-  const Chain<double> identified = learns ? learned.model.robot.chain
-                                   : held ? identify_robot(healthy).robot.chain
-                                          : e.robot.chain;
+  const Chain identified = learns ? learned.model.robot.chain
+                           : held ? identify_robot(healthy).robot.chain
+                                  : e.robot.chain;
   watch_with_networks(train_best_detector(best_generator(bench, identified, sigma), runs.training,
                                           plan.patterns_per_class, e.seed),
                       runs, "best recipe", true, result);

@@ -69,16 +69,16 @@ inline constexpr const char* kBestRbfn = "best recipe, RBFN";
 inline constexpr const char* kBestAverage = "best recipe, average of both";
 inline constexpr const char* kBestCases = "best recipe, both and cases";
 inline constexpr const char* kFilters = "filters for free joints, identified robot";
-inline constexpr const char* kBankMlp = "learn and diagnose, named by MLP";
-inline constexpr const char* kBankRbfn = "learn and diagnose, named by RBFN";
-inline constexpr const char* kBankCases = "learn and diagnose, both and cases";
+inline constexpr const char* kProductMlp = "learn and diagnose, named by MLP";
+inline constexpr const char* kProductRbfn = "learn and diagnose, named by RBFN";
+inline constexpr const char* kProductCases = "learn and diagnose, both and cases";
 inline constexpr const char* kReference = "reference: filters for free joints, true robot";
 }  // namespace detector_name
 
 namespace decision_name {
 inline constexpr const char* kConsecutive = "g in a row";
 inline constexpr const char* kLogOdds = "summed log odds";
-inline constexpr const char* kBank = "bank of hypotheses";
+inline constexpr const char* kRegression = "regression over the log";
 }  // namespace decision_name
 
 }  // namespace faultline

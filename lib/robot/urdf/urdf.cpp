@@ -151,7 +151,7 @@ Eigen::Vector3d tip_of(const UrdfModel& model, const Tree& tree, int last,
 struct UrdfChain {
   std::vector<int> joints;              ///< of the model, those that move, base to tip
   std::vector<JointGeometry> geometry;  ///< by offsets alone
-  std::vector<LinkInertia<double>> bodies;
+  std::vector<LinkInertia> bodies;
   bool weighed = false;                           ///< some moving body has a mass
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< the one end of what is fixed to the last joint; or zero
 };
@@ -188,9 +188,9 @@ UrdfChain serial_chain(const UrdfModel& model) {
            Eigen::Vector3d::Zero()});
     }
     if (owner[link] == kNone || !model.links[link].body) continue;
-    const LinkInertia<double> body = seen_from(*model.links[link].body, pose[link].linear(),
-                                               pose[link].translation() - place[owner[link]]);
-    LinkInertia<double>& all = chain.bodies[owner[link]];
+    const LinkInertia body = seen_from(*model.links[link].body, pose[link].linear(),
+                                       pose[link].translation() - place[owner[link]]);
+    LinkInertia& all = chain.bodies[owner[link]];
     all = {all.mass + body.mass, all.first_moment + body.first_moment, all.inertia + body.inertia};
     chain.weighed = true;
   }
@@ -221,10 +221,10 @@ void refuse_negative(const UrdfModel& model) {
            "has a negative damping or friction; expected numbers that are not negative");
 }
 
-bool finite(const Chain<double>& chain) {
+bool finite(const Chain& chain) {
   return std::all_of(chain.geometry.begin(), chain.geometry.end(),
                      [](const JointGeometry& j) { return j.axis.allFinite() && j.offset.allFinite(); }) &&
-         std::all_of(chain.links.begin(), chain.links.end(), [](const LinkInertia<double>& link) {
+         std::all_of(chain.links.begin(), chain.links.end(), [](const LinkInertia& link) {
            return std::isfinite(link.mass) && link.first_moment.allFinite() && link.inertia.allFinite();
          });
 }
@@ -253,7 +253,7 @@ Robot robot_from_urdf(const std::string& text, const std::string& file) {
   Robot robot;
   robot.name = model.name;
   robot.shapes.assign(n, LinkShape::general);
-  Chain<double>& chain = robot.chain;
+  Chain& chain = robot.chain;
   chain.geometry = from.geometry;
   chain.length.assign(n, 0.0);
   chain.rotor_inertia.assign(n, 0.0);

@@ -16,7 +16,7 @@ enum class UrdfJointType { revolute, continuous, prismatic, fixed, floating, pla
 struct UrdfLink {
   std::string name;
   int line = 0;
-  std::optional<LinkInertia<double>> body;  ///< in the link's frame
+  std::optional<LinkInertia> body;  ///< in the link's frame
 };
 
 struct UrdfJoint {

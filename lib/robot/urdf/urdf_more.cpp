@@ -15,7 +15,7 @@
 namespace faultline {
 namespace {
 
-const double kWidth = Friction<double>{}.width;
+const double kWidth = Friction{}.width;
 constexpr double kSameBody = 1e-13;  ///< relative
 
 template <typename Of>
@@ -26,7 +26,7 @@ std::string each_joint(const Robot& robot, const char* key, Of of) {
 }
 
 std::string more_link(const Robot& robot, int i) {
-  const LinkInertia<double>& link = robot.chain.links[i];
+  const LinkInertia& link = robot.chain.links[i];
   std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\nlength = {}\n", to_string(robot.shapes[i]),
                                  toml_number(robot.chain.length[i]));
   const Eigen::Vector3d& direction = robot.chain.geometry[i].direction;
@@ -103,13 +103,13 @@ void read_more_links(Robot& robot, const TomlTable& table) {
 
 }  // namespace
 
-bool about_centre(const LinkInertia<double>& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia) {
+bool about_centre(const LinkInertia& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia) {
   centre.setZero();
   inertia = link.inertia;
   if (link.mass == 0.0) return link.first_moment.isZero(0.0);
   centre = link.first_moment / link.mass;
   inertia = link.inertia - general_body(link.mass, centre, Eigen::Matrix3d::Zero()).inertia;
-  const LinkInertia<double> again = general_body(link.mass, centre, inertia);
+  const LinkInertia again = general_body(link.mass, centre, inertia);
   const bool same = (again.inertia - link.inertia).norm() <= kSameBody * link.inertia.norm() &&
                     (again.first_moment - link.first_moment).norm() <= kSameBody * link.first_moment.norm();
   if (same && centre.allFinite() && inertia.allFinite()) return true;
@@ -119,7 +119,7 @@ bool about_centre(const LinkInertia<double>& link, Eigen::Vector3d& centre, Eige
 }
 
 std::string urdf_more_text(const Robot& robot) {
-  const Chain<double>& chain = robot.chain;
+  const Chain& chain = robot.chain;
   std::string text = fmt::format("name = {}\n", toml_quoted(robot.name));
   if (!robot.axes.empty()) text += fmt::format("axes = {}\n", toml_quoted(robot.axes));
   text += fmt::format("gravity = {}\n", toml_numbers(chain.gravity));
@@ -131,13 +131,13 @@ std::string urdf_more_text(const Robot& robot) {
   text += each_joint(robot, "offset", [&](int i) { return chain.friction[i].offset; });
   text += each_joint(robot, "width", [&](int i) { return chain.friction[i].width; });
   if (std::any_of(chain.friction.begin(), chain.friction.end(),
-                  [](const Friction<double>& f) { return f.bend != 0.0 || f.skew != 0.0; })) {
+                  [](const Friction& f) { return f.bend != 0.0 || f.skew != 0.0; })) {
     text += each_joint(robot, "bend", [&](int i) { return chain.friction[i].bend; });
     text += each_joint(robot, "skew", [&](int i) { return chain.friction[i].skew; });
     text += each_joint(robot, "bend_width", [&](int i) { return chain.friction[i].bend_width; });
   }
   if (std::any_of(chain.friction.begin(), chain.friction.end(),
-                  [](const Friction<double>& f) { return f.load != 0.0; }))
+                  [](const Friction& f) { return f.load != 0.0; }))
     text += each_joint(robot, "load", [&](int i) { return chain.friction[i].load; });
   text += extra_torque_text(chain, "");
   for (int i = 0; i < robot.joints(); ++i) text += more_link(robot, i);
@@ -156,7 +156,7 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   if (table.has("torque_phi")) robot.torque_phi = table.number("torque_phi");
   read_axes(robot, table);
   read_more_links(robot, table);
-  const Chain<double> chain = robot.chain;
+  const Chain chain = robot.chain;
   read_known(robot, table);
   if (robot.identified) robot.chain = chain;  // what was identified stands above what was known
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());

@@ -17,6 +17,6 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
 
 /// The link's body about its centre, as URDF has it; false when that cannot be turned back to the same
 /// numbers, as with a first moment without mass.
-bool about_centre(const LinkInertia<double>& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia);
+bool about_centre(const LinkInertia& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia);
 
 }  // namespace faultline

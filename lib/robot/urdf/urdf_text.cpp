@@ -34,7 +34,7 @@ std::string attribute(const std::string& text) {
 std::string triple(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
 std::string urdf_link(const Robot& robot, int i) {
-  const LinkInertia<double>& link = robot.chain.links[i];
+  const LinkInertia& link = robot.chain.links[i];
   Eigen::Vector3d centre;
   Eigen::Matrix3d inertia;
   about_centre(link, centre, inertia);
@@ -53,7 +53,7 @@ std::string urdf_link(const Robot& robot, int i) {
 /// URDF wants limits of a slide; none are known.
 std::string urdf_joint(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
-  const Friction<double>& friction = robot.chain.friction[i];
+  const Friction& friction = robot.chain.friction[i];
   Eigen::Vector3d origin = joint.offset;
   if (i > 0) origin += robot.chain.length[i - 1] * joint.direction;
   const bool turns = joint.kind == AxisKind::revolute;

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-Chain<double> chain() { return preset_robot("RR").chain; }
+Chain chain() { return preset_robot("RR").chain; }
 
 RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end_s) {
   RelationEpisode out;

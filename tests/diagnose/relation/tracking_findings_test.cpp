@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-const Chain<double>& chain() {
+const Chain& chain() {
   static const Robot robot = robot_from_toml("name = \"two\"\naxes = \"RP\"\n", "robot");
   return robot.chain;
 }

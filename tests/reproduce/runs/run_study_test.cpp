@@ -46,7 +46,7 @@ TEST(RunStudy, what_the_departures_from_the_paper_buy_has_the_right_order_of_mag
   const std::vector<std::string> paper = {"0.01", "paper's recipe, RBFN", decision_name::kConsecutive};
   const std::vector<std::string> best = {"0.01", detector_name::kBestAverage, decision_name::kLogOdds};
   const std::vector<std::string> filters = {"0.01", detector_name::kFilters, decision_name::kLogOdds};
-  const std::vector<std::string> product = {"0.01", detector_name::kBankCases, decision_name::kBank};
+  const std::vector<std::string> product = {"0.01", detector_name::kProductCases, decision_name::kRegression};
   EXPECT_GE(figure(held, best, "detected"), 0.9);
   EXPECT_GE(figure(held, best, "right joint"), 0.9);
   EXPECT_LT(figure(held, best, "median delay"), 0.5 * figure(held, paper, "median delay"));

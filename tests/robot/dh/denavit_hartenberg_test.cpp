@@ -16,7 +16,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 constexpr double kQuarter = std::numbers::pi / 2.0;
 
@@ -118,7 +118,7 @@ TEST_P(PublishedTable, TurnsAndPlacesEveryLinkAsItsClosedFormDoes) {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     for (int i = 0; i < n; ++i) {
-      const auto pose = detail::link_pose(robot.chain, i, q[i]);
+      const auto pose = link_pose(robot.chain, i, q[i]);
       position += rotation * pose.position;
       rotation = (rotation * pose.rotation).eval();
       // The table's frame i+1 as link i carries it from where it is at rest.

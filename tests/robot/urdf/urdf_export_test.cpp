@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 Robot with_friction(Robot robot, Random& random) {
   for (auto& friction : robot.chain.friction)

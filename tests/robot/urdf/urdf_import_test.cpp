@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-using Vector = JointVector<double>;
+using Vector = JointVector;
 
 /// A joint with its child link as URDF says them, and in the words of the test.
 struct Part {

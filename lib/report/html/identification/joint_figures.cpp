@@ -77,7 +77,7 @@ PlotSeries friction_curve(const Identification& id, int joint, const Cloud& clou
   PlotSeries out{.name = "identified", .x = {}, .y = {}};
   if (cloud.x.empty()) return out;
   const auto [low, high] = std::minmax_element(cloud.x.begin(), cloud.x.end());
-  JointVector<double> dq = JointVector<double>::Zero(id.space.joints());
+  JointVector dq = JointVector::Zero(id.space.joints());
   for (std::size_t i = 0; i <= kCurve; ++i) {
     dq[joint] = *low + (*high - *low) * static_cast<double>(i) / static_cast<double>(kCurve);
     out.x.push_back(dq[joint]);
