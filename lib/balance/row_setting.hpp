@@ -22,7 +22,7 @@ struct RowSetting {
   double friction_s = 0.006;    ///< the same for the velocity that friction depends on
   int decimation = 1;           ///< samples between two rows; never finer than the kernel
   bool torque_is_held = false;  ///< between recorded samples; else it runs straight
-  int torque_lag = 0;  ///< samples by which the torque acts later (positive: a later sample acts now)
+  int torque_lag = 0;  ///< of the torque that acts now, in samples: positive where it is logged too late
   bool velocity_is_difference = false;  ///< the logged velocity holds nothing that the positions do not hold
   Eigen::VectorXd fusion;  ///< by joint: decay of the average that mixes difference and logged velocity
   Eigen::VectorXd friction_width;  ///< by joint: rad/s or m/s of tanh(dq / width)

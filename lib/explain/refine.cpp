@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 constexpr double kSameFault_s = 0.3;    // s between two onsets of one kind and joint that are one fault
 constexpr double kLeastGain = 0.1;      // nats by which a move explains more
 constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
-constexpr int kMovesOfOnset = 40;       // at most: a size that creeps could go on for ever
-constexpr double kFirstMove_s = 1.28;   // of an onset; halved until nothing is gained
+constexpr int kMostRefineMoves = 40;    // of an onset or an end: a size that grows could go on for ever
+constexpr double kFirstMove_s = 1.28;   // of an onset or an end; halved each time that nothing is gained
 constexpr double kStillEnough = 0.5;    // of the evidence without an end that the one with it must have
 
 /// Whether the same fault is known from about this moment on, or a drift that goes on: it does not begin
@@ -57,7 +57,7 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   const double at = best.*when;
   for (const double d : {-.04, -.03, -.02, -.01, -.005, .005, .01, .02, .03, .04}) try_at(at + d);
   int moves = 0;
-  for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMovesOfOnset; ++moves)
+  for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMostRefineMoves; ++moves)
     if (!try_at(best.*when - step) && !try_at(best.*when + step)) step /= 2.0;
   return best;
 }

@@ -14,14 +14,14 @@ namespace faultline {
 namespace {
 
 constexpr double kWidthDoubt = 1.15;        // of ln(width): a factor of about 3
-constexpr std::size_t kTrialExcerpts = 40;  // looked at first
+constexpr std::size_t kTrialExcerpts = 40;  // looked at first, and fewer than twice as many
 constexpr int kTrialRounds = 2;             // with the noise measured anew: enough to show a regular error
 constexpr int kTrialIterations = 12;        // at most, of a solve in the trial
 constexpr double kRegular = 0.7;            // correlation of neighbouring residuals that is no noise
 constexpr double kFarAboveNoise = 3.0;      // times the log's noise: then what is regular is model error
 constexpr double kWorseTorque = 1.15;       // torque residual against that of the torque fit, and
 constexpr double kTorqueLost = 2e-4;        // of the mean square torque: less is not worth a word
-constexpr double kWork = 4e8;               // rows x joints^2 x (2 joints + free): some seconds
+constexpr double kWork = 4e7;               // rows x joints^2 x (2 joints + free): some seconds
 constexpr int kFewestRows = 4000;           // of the excerpts, however many joints there are
 
 /// Facts with doubt about parameters of the space, and a wide one about every friction width.
@@ -54,7 +54,7 @@ std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
 /// Rows that shooting can afford: the work grows with the cube of the joints.
 int affordable_rows(const ParameterSpace& space, std::size_t free, int most) {
   const double n = space.joints(), each = n * n * (2.0 * n + static_cast<double>(free));
-  return std::clamp(static_cast<int>(kWork / each / 10.0), kFewestRows, std::max(most, kFewestRows));
+  return std::clamp(static_cast<int>(kWork / each), kFewestRows, std::max(most, kFewestRows));
 }
 
 /// What is left after shooting is motion the model lacks, not noise: neighbours alike and far above it.

@@ -26,9 +26,10 @@ constexpr double kRest_s = 0.15;        // at the end of a log that a joint whic
 constexpr double kSurelyStands = 8.0;   // standard deviations of a position: a joint that stands is nearer
 constexpr double kSpringDoubt = 0.3;    // of a gear spring's way, by which its model may be off
 constexpr double kJumpTakenBack = 0.3;  // of a jump's size, by which the jump back may differ
-constexpr double kLeastTolerance = 1e-5;                 // rad or m that a joint may move while it stands
-constexpr double kLeastNoise = 1e-6;                     // rad or m: noise of a position, at least
-constexpr double kJumpScore = 10.0, kRepeatScore = 1e3;  // nats: such onsets are judged first
+constexpr double kLeastTolerance = 1e-5;  // rad or m that a joint may move while it stands
+constexpr double kLeastNoise = 1e-6;      // rad or m: noise of a position, at least
+constexpr double kJumpScore = 10.0,
+                 kRepeatScore = 1e3;  // nats: repeats are judged first, jumps where little else stands out
 
 constexpr double kShift = 1e-3;                                          // rad or m of a numeric derivative
 constexpr std::array kDrifts{.003, .006, .012, .02, .03, .04, .06, .1};  // rad/s

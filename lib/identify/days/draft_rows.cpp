@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMostDecay = 5.0;     // samples^-1: crossover of the fusion beyond which nothing is averaged
-constexpr double kDelayPrior = 4.0;    // precision of a delay in samples, weak against any motion
+constexpr double kDelayPrior = 4.0;    // of squared samples, beside rows in N m or N: weak against any motion
 constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
 constexpr std::array kLags{-1, 0, 1, 2};                         // samples, tried for RowSetting::torque_lag
 constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction

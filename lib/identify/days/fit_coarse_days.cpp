@@ -25,11 +25,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnfelt = 1e-9;          // of the squares of a torque: rounding
-constexpr double kFrictionWidth = 0.01;   // rad/s or m/s: steep against the speeds of a sample
-constexpr double kFirstDoubt = 0.3;       // of the usual torque, halved each round: a start that is wrong
-constexpr int kDoubtRounds = 7;           // with that doubt: the last one has 0.5 % of the usual torque
-constexpr int kNoiseFrom = 2;             // round from which the readings' noise is learned
+constexpr double kUnfelt = 1e-9;         // of the squares of a torque: rounding
+constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
+constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
+constexpr int kDoubtRounds = 7;          // with that doubt: the last one has 0.5 % of the usual torque
+constexpr int kNoiseFrom = 2;  // round from which the noise of the readings and how days differ are learned
 constexpr double kLeastReading = 1e-5;    // rad, m, rad/s or m/s: rounding of what a log holds
 constexpr double kFree = 100.0;           // SI units: prior standard deviation of a parameter's step
 constexpr double kKeptInertia = 0.3;      // of the inertia before: what one step may leave of it

@@ -24,7 +24,7 @@ constexpr double kFirstStep = 2.0;        // in the logarithm of a level
 constexpr double kLastStep = 0.25;        // an eighth of the noise is near enough
 constexpr double kGain = 1e-3;            // of the log likelihood: less is no progress
 constexpr int kSmootherMostRounds = 40;   // of the search, which otherwise ends with kLastStep
-constexpr double kRelativeFloor = 1e-9;   // of the range: rounding of a double that was printed
+constexpr double kRelativeFloor = 1e-9;   // of range and largest value: rounding of a double that was printed
 
 Matrix3d transition(double h) {
   Matrix3d f = Matrix3d::Identity();

@@ -14,8 +14,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kWellExplained = 0.95;                // of a joint's torque
-constexpr double kLightOfRotor = 0.01;                 // a mass that gravity does not feel comes out as rotor
+constexpr double kWellExplained = 0.95;  // of a joint's torque
+constexpr double kLightOfRotor =
+    0.01;  // of the rotor's inertia: a mass that gravity does not feel is taken for rotor
 constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg, of what hangs on a sliding axis
 
 /// RowSums over the rows of one joint (and log) that count.

@@ -11,7 +11,7 @@ namespace faultline {
 namespace {
 
 constexpr double kDependent = 3e-3;   ///< share of a scaled column that must be its own
-constexpr double kNotExcited = 1e-9;  ///< of a column's largest entry
+constexpr double kNotExcited = 1e-9;  ///< rms of a column, of the residual's scale: less is rounding
 constexpr double kMixed = 0.03;       ///< share of a column in a dependent one that confounds both
 
 double condition(const Eigen::MatrixXd& a) {

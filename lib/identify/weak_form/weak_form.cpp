@@ -16,7 +16,7 @@ constexpr int kRounds = 8;             // of fits with new weights, at most
 constexpr double kOutlierStd = 8.0;    // robust standard deviations up to which a row has its full weight
 constexpr double kFormSettled = 1e-9;  // relative change of the residual's scales below which rounds end
 
-/// 1.4826 times the median absolute value of a joint's used rows; at least 1e-9 and rounding of its torque.
+/// 1.4826 times the median absolute value of a joint's used rows; at least 1e-12 and rounding of its torque.
 Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
   std::vector<std::vector<double>> size(s.joints);
   Eigen::VectorXd least = Eigen::VectorXd::Constant(s.joints, 1e-12);
