@@ -46,7 +46,8 @@ std::string case_line(const CaseBase& base, const Case& c) {
          "\n";
 }
 
-/// A case with opinions, evidence and features; `base` tells their names, scales and weights.
+/// A case with its opinions, evidence and features; `base` holds the names, scales and weights of the
+/// features.
 std::string case_text(const CaseBase& base, const Case& c) {
   const auto opinion = [](const char* network, const Opinion& o) {
     return fmt::format("  {:<9}{} ({:.2f})\n", network, plain_words(o.label), o.confidence);

@@ -41,7 +41,8 @@ GuessedAxis guess_axis(const JointNumbers& joint, const GuessedUnits& units, con
     return {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
   if (dimension == Dimension::angle)
     return {false, header.empty() ? "its numbers are those of an angle" : "its header says " + header};
-  if (span < kRestSpan) return {false, "? it rests, so that nothing tells whether it turns or slides"};
+  if (span < kRestSpan)
+    return {false, "? the joint rests, so the log does not show whether it turns or slides"};
   if (span < kShortSpan && joint.carries)
     return {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
   if (span < kShorterSpan && joint.path > kToAndFro * joint.span)

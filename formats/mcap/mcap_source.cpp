@@ -115,7 +115,7 @@ void McapChunk::close() {
 }
 
 /// What was met while an MCAP file was read from front to back, against what its summary says of it. The data
-/// are right; a summary that says otherwise is told.
+/// are right; an issue reports a summary that contradicts them.
 class McapIndex {
  public:
   void met_message() { ++messages_; }

@@ -30,7 +30,7 @@ constexpr std::size_t kMostBlockValues = 1 << 20;
 constexpr double kApart = 1e-2;
 constexpr double kNear = 0.25;                 ///< of the distance to the last row
 constexpr double kMostShare = 0.5;             ///< of the rows that may be those of two publishers in turn
-constexpr std::int64_t kFewestJointRows = 20;  ///< before that is told
+constexpr std::int64_t kFewestJointRows = 20;  ///< rows that the check for two publishers needs
 
 double distance(const std::vector<double>& position, const std::vector<double>& other) {
   double largest = 0.0;

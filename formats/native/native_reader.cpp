@@ -103,8 +103,8 @@ void pass_copy(ByteWindow& bytes, const std::string& first, Issues& issues) {
   if (chunk != std::string_view::npos) bytes.advance(chunk);
 }
 
-/// Reads the columns from the preface of a native log, or from its second copy when the first is damaged,
-/// which is told in `issues`, and goes on to the first chunk. Throws Error(input) when none can be read or
+/// Reads the columns from the preface of a native log, or from its second copy when the first is damaged
+/// (which adds an issue), and moves `bytes` to the first chunk. Throws Error(input) when none can be read or
 /// the file is of a newer version.
 std::vector<RawColumn> read_native_preface(ByteWindow& bytes, const std::string& path, Issues& issues) {
   std::size_t size = sound_preface(bytes, 0);

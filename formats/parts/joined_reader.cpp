@@ -43,7 +43,7 @@ double RawTime::at(const RawBlock& block, int row) const {
   return nanoseconds < 0 ? seconds : seconds + 1e-9 * block.columns[nanoseconds][row];
 }
 
-/// Told by the file, else by the names of its columns; nullopt for none.
+/// The time column that the file states, else the one that a column's name suggests; nullopt for none.
 std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
   std::vector<std::string> names;
   for (int i = 0; i < std::ssize(columns); ++i) {

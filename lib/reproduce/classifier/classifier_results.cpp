@@ -41,8 +41,8 @@ samples is not in the log; what it adds is taken as Gaussian, as learned from si
 which makes that row a yardstick and no bound. So are the rows with the next torque, between which and the
 first the torque is taken to move straight.
 
-The torque of the next sample, which the best recipe also reads, tells more than the pattern itself: the
-controller of this protocol sees the state without noise, so its answer carries what the noisy reading hides.
+The torque of the next sample, which the best recipe also reads, adds information to the pattern: the
+controller of this protocol reads the state without noise, so its torque shows what noise hides in the reading.
 With it the networks go below the posterior of the pattern alone.)";
 
 /// Mean squared error that no classifier can avoid when a free joint 1, a free joint 2 and a healthy robot do

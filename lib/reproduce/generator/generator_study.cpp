@@ -42,8 +42,8 @@ by the jump.)";
 /// Noise passes through exact physics: mse = sigma^2 (1 + gain). That is the floor for a predictor that knows
 /// one sample and nothing of where robots usually are.
 constexpr const char* kNoise =
-    R"(Noise levels the generators: that of the measured end adds sigma^2, which nobody can predict, and that
-of the start passes through the robot. Held, true physics has sigma^2 (1 + {:.2f}) = {} at 0.01 and a hundred
+    R"(Noise makes the generators alike: noise of the measured end state adds sigma^2, which no generator can
+predict, and noise of the start state passes through the robot. Held, true physics has sigma^2 (1 + {:.2f}) = {} at 0.01 and a hundred
 times that at 0.1. To train with noise of 0.01 costs more than it gains. With 0.1 the network learns to lean
 towards usual states: {} instead of {}, below true physics, but on clean data it is then no better than
 predicting no change. What else can be gained under noise lies in filtering over many samples, not in the
