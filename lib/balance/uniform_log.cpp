@@ -151,6 +151,13 @@ UniformLog rows_from(const UniformLog& log, int first) {
           log.q_noise,       log.dq_noise};
 }
 
+UniformLog first_rows(UniformLog log, int rows) {
+  for (Eigen::MatrixXd* values : {&log.q, &log.dq, &log.tau})
+    if (values->rows() > rows) values->conservativeResize(rows, Eigen::NoChange);
+  log.lost.resize(static_cast<std::size_t>(rows));
+  return log;
+}
+
 UniformLog averaged(UniformLog log, int samples, bool torque_is_held) {
   if (samples < 2) return log;
   const int rows = log.rows() / samples;

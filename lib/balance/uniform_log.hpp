@@ -45,6 +45,8 @@ UniformLog averaged(UniformLog log, int samples, bool torque_is_held);
 
 /// Its rows from `first` on.
 UniformLog rows_from(const UniformLog& log, int first);
+/// The first `rows` samples of the log.
+UniformLog first_rows(UniformLog log, int rows);
 
 /// The whole of each log, from its start, on grids of one period: that which the stamps of the middle log
 /// show. Throws Error(input) when no log has two rows.

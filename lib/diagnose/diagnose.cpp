@@ -48,10 +48,9 @@ std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, 
     faults.push_back(decide_episode(episode, model, cases));
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
   add_lasting_friction(run, model, faults);
-  faults = with_relations(std::move(faults), run.relation_episodes, model.robot.chain);
-  for (FaultFinding& fault : faults)
-    if (fault.decided_by == DecidedBy::actuator && fault.label.kind == FaultKind::torque_loss)
-      fault.extent = extent_of_torque_loss(fault.extent.size, model);
+  for (const JudgedStretch& judged : run.stretches)
+    faults.push_back(
+        finding_of(run.relation_episodes[judged.stretch.id], judged.fault, run.log.end_s, model));
   return faults;
 }
 

@@ -9,7 +9,6 @@ namespace {
 constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
 constexpr double kNearlyAll = 0.05;      // of the excess over the noise that a halt leaves at most
 constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
-constexpr double kAlmostShare = 0.95;    // of the best evidence
 constexpr std::size_t kTraced = 4;       // hypotheses whose evidence is traced
 constexpr double kTracedBeyond_s = 1.0;  // s beyond the alarm, up to which it is traced
 

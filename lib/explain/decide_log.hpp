@@ -29,6 +29,8 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less is the gain of another day
 
+inline constexpr double kAlmostShare = 0.95;  ///< of the best evidence: as good as the best
+
 inline constexpr double kLeastEvidence = 100.0;  ///< nats; days unlike the few logged give some tens
 
 /// The least evidence with which a fault of any kind is believed.

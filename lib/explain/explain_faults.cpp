@@ -224,11 +224,9 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
   return faults;
 }
 
-}  // namespace
-
-ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
-                            const std::vector<FaultClaim>& lasting) {
-  const std::vector<FaultClaim> before = followed(log, model, lasting);
+/// The log beside faults that are known, `before`.
+ExplainedLog explained_beside(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
+                              const std::vector<FaultClaim>& before) {
   ExplainedLog out;
   std::vector<ExplainedFault> faults;
   while (faults.size() < kMostFaults) {
@@ -245,6 +243,34 @@ ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, co
     return a.claim.onset_s < b.claim.onset_s;
   });
   out.faults = without_slips(std::move(faults));
+  return out;
+}
+
+std::vector<FaultClaim> joined(std::vector<FaultClaim> claims, const std::vector<FaultClaim>& more) {
+  claims.insert(claims.end(), more.begin(), more.end());
+  return claims;
+}
+
+}  // namespace
+
+ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
+                            const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
+  const std::vector<FaultClaim> before = followed(log, model, lasting), known = joined(before, signals.known);
+  if (signals.begin.empty()) {
+    ExplainedLog out = explained_beside(log, model, limits, known);
+    out.followed = before;
+    return out;
+  }
+  const LogFit fit(log, model, known);
+  const std::vector<JudgedStretch> drives = judged_drives(signals.begin, &fit);
+  ExplainedLog out = explained_beside(log, model, limits, joined(known, balance_claims(drives)));
+  const std::vector<JudgedStretch> all =
+      with_laws(drives, signals.begin, claims_but(out.faults, out.faults.size(), known), &fit);
+  // What the torque balance shows while a control law is left has the same cause.
+  if (std::any_of(out.faults.begin(), out.faults.end(),
+                  [&](const ExplainedFault& fault) { return begins_within_law(all, fault.claim); }))
+    out = explained_beside(log, model, limits, joined(known, balance_claims(all)));
+  out.stretches = all;
   out.followed = before;
   return out;
 }

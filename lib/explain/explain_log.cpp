@@ -65,23 +65,58 @@ ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits
   return out;
 }
 
+/// Samples of a log from `begin` to before `end`.
+struct Part {
+  int begin = 0, end = 0;
+};
+
+/// The parts of a log in which no fault is known.
+std::vector<Part> parts_beside(const UniformLog& log, const std::vector<FaultClaim>& known) {
+  const auto row = [&](double time_s) {
+    return static_cast<int>(
+        std::ceil(std::clamp((time_s - log.start_s) / log.period_s, 0.0, 1.0 * log.rows())));
+  };
+  std::vector<Part> busy;
+  for (const FaultClaim& claim : known) busy.push_back({row(claim.onset_s), row(claim.end_s)});
+  std::sort(busy.begin(), busy.end(), [](const Part& a, const Part& b) { return a.begin < b.begin; });
+  std::vector<Part> out;
+  int begin = 0;
+  for (const Part& part : busy) {
+    if (part.begin > begin) out.push_back({begin, part.begin});
+    begin = std::max(begin, part.end);
+  }
+  if (begin < log.rows()) out.push_back({begin, log.rows()});
+  return out;
+}
+
 /// While a fault lasts nothing else is looked for.
-ExplainedLog explain_at_coarse_rate(UniformLog log, const OneStepModel& model, const EvidenceLimits& limits,
-                                    std::vector<FaultClaim> lasting) {
-  double decided_s = log.start_s;
-  for (FaultClaim& claim : lasting) {
+ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
+                                    const EvidenceLimits& limits, std::vector<FaultClaim> lasting,
+                                    const SignalStretches& signals) {
+  for (FaultClaim& claim : lasting)
     if (claim.end_s >= kNeverEnds)
       if (const std::optional<CoarseLog> followed = followed_log(log, model))
         claim = followed_coarse(*followed, std::move(claim), limits.of(claim.kind));
-    decided_s = std::max(decided_s, claim.end_s);
-  }
+  const std::vector<JudgedStretch> drives = judged_drives(signals.begin, nullptr),
+                                   stretches = with_laws(drives, signals.begin, {}, nullptr);
+  std::vector<FaultClaim> known = signals.known;
+  for (const FaultClaim& claim : lasting)
+    known.push_back({claim.kind, claim.joint, log.start_s, claim.end_s});
+  for (const JudgedStretch& judged : stretches) known.push_back(judged.fault.claim);
   ExplainedLog out;
-  const double first = std::ceil((decided_s - log.start_s) / log.period_s);
-  if (first + kFewestCoarse <= log.rows()) {
-    if (first > 0.0) log = rows_from(log, static_cast<int>(first));
-    if (const std::optional<CoarseLog> rest = followed_log(std::move(log), model))
-      out = explained_coarse(*rest, limits);
+  for (const Part& part : parts_beside(log, known)) {
+    if (part.end - part.begin < kFewestCoarse || !out.faults.empty()) continue;
+    const std::optional<CoarseLog> alone = followed_log(
+        first_rows(part.begin > 0 ? rows_from(log, part.begin) : log, part.end - part.begin), model);
+    if (!alone) continue;
+    ExplainedLog explained = explained_coarse(*alone, limits);
+    out.faults = std::move(explained.faults);
+    out.loudness = std::move(explained.loudness);
+    out.judged_s += explained.judged_s;
   }
+  std::vector<FaultClaim> found;
+  for (const ExplainedFault& fault : out.faults) found.push_back(fault.claim);
+  out.stretches = with_laws(drives, signals.begin, found, nullptr);
   out.followed = std::move(lasting);
   return out;
 }
@@ -99,11 +134,11 @@ bool can_explain(const UniformLog& log, const RobotRows& robot) {
 }
 
 ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
-                               const std::vector<FaultClaim>& lasting) {
+                               const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
   if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
-    return explain_at_coarse_rate(log, *coarse, model.limits, lasting);
+    return explain_at_coarse_rate(log, *coarse, model.limits, lasting, signals);
   return explain_faults(averaged_as(log, model.robot), std::get<BalanceModel>(model.robot), model.limits,
-                        lasting);
+                        lasting, signals);
 }
 
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {

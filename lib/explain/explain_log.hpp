@@ -9,6 +9,7 @@
 #include "lib/balance/uniform_log.hpp"
 #include "lib/explain/day_effects.hpp"
 #include "lib/explain/decide_log.hpp"
+#include "lib/explain/signal_stretch.hpp"
 
 namespace faultline {
 
@@ -32,19 +33,25 @@ UniformLog averaged_as(const UniformLog& log, const RobotRows& robot);
 /// What the whole of a log says.
 struct ExplainedLog {
   std::vector<ExplainedFault> faults{};  ///< by onset
-  std::vector<FaultClaim> followed{};    ///< those that lasted when the log began, in the order given
-  std::vector<DayEffect> day{};          ///< effects of the day beside the faults
-  std::vector<double> loudness{};        ///< by joint: the noise of its rows, times that of the healthy logs
-  double judged_s = 0.0;                 ///< of the log, by rows that count
+  /// Stretches that begin in the log, with the fault that explains each; without those that answer another
+  /// fault.
+  std::vector<JudgedStretch> stretches{};
+  std::vector<FaultClaim> followed{};  ///< those that lasted when the log began, in the order given
+  std::vector<DayEffect> day{};        ///< effects of the day beside the faults
+  std::vector<double> loudness{};      ///< by joint: the noise of its rows, times that of the healthy logs
+  double judged_s = 0.0;               ///< of the log, by rows that count
 };
 
 /// Whether a log is long enough to say anything.
 bool can_explain(const UniformLog& log, const RobotRows& robot);
 
 /// Explains a log for which can_explain() is true. `lasting` are faults that an earlier part of the log has
-/// shown and that last when this one begins: they are not searched for again, only for their ends.
+/// shown and that last when this one begins: they are not searched for again, only for their ends. `signals`
+/// are the stretches in which other signals of the log contradict each other: they are judged in one score
+/// with the torque balance, and faults are searched for beside them.
 ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
-                               const std::vector<FaultClaim>& lasting = {});
+                               const std::vector<FaultClaim>& lasting = {},
+                               const SignalStretches& signals = {});
 
 /// What a healthy log says, for evidence_limits(); nothing where the robot cannot be followed through it.
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot);

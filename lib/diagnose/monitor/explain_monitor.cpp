@@ -67,6 +67,11 @@ int complete_rows(const Log& log) {
   return out;
 }
 
+/// Whether the torque balance alone says when the fault of a stretch ends.
+bool outlasts_signals(const JudgedStretch& judged) {
+  return judged.fault.claim.end_s >= kNeverEnds && judged.stretch.end_s < kNeverEnds;
+}
+
 }  // namespace
 
 void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
@@ -111,6 +116,7 @@ void ExplainMonitor::explain_window(bool is_followed) {
   const double until_s = is_followed ? end_s - 0.5 * overlap_s : end_s;
   const ExplainedLog explained = explained_window();
   const std::vector<Lasting> unfollowed = follow(explained.followed);
+  report_stretches(explained.stretches, until_s);
   for (const ExplainedFault& fault : explained.faults)
     if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
   add_day(explained.day);
@@ -136,14 +142,40 @@ ExplainedLog ExplainMonitor::explained_window() const {
   std::vector<FaultClaim> lasting;
   for (const Lasting& l : lasting_)
     if (l.is_handed_on()) lasting.push_back(l.claim);
+  for (const JudgedStretch& judged : stretches_)
+    if (outlasts_signals(judged)) lasting.push_back(judged.fault.claim);
+  const SignalStretches signals = signals_of_window();
   if (complete_rows(window_) >= kFewestRows) {
     MemorySource source(window_);
     const UniformLog log = uniform_log(source, median_step(window_.time));
-    if (can_explain(log, model_.explain.robot)) return explain_whole_log(log, model_.explain, lasting);
+    if (can_explain(log, model_.explain.robot))
+      return explain_whole_log(log, model_.explain, lasting, signals);
   }
   ExplainedLog out;
+  out.stretches = with_laws(judged_drives(signals.begin, nullptr), signals.begin, {}, nullptr);
   out.followed = std::move(lasting);
   return out;
+}
+
+/// The stretches that begin in the window, and those before it that reach into it.
+SignalStretches ExplainMonitor::signals_of_window() const {
+  const double start_s = window_.time.front(), end_s = window_.time.back();
+  const bool is_after_fault = !episodes_.empty() || !stretches_.empty();
+  std::vector<JudgedStretch> reach_in;
+  for (const JudgedStretch& judged : stretches_)
+    if (judged.fault.claim.end_s >= start_s && !outlasts_signals(judged)) reach_in.push_back(judged);
+  SignalStretches out{balance_claims(reach_in)};
+  for (const SignalStretch& stretch : unjudged_)
+    if (stretch.onset_s <= end_s && !(is_after_fault && answers_earlier_fault(stretch)))
+      out.begin.push_back(stretch);
+  return out;
+}
+
+/// Those that begin where this window decides.
+void ExplainMonitor::report_stretches(const std::vector<JudgedStretch>& judged, double until_s) {
+  for (const JudgedStretch& each : judged)
+    if (each.stretch.onset_s <= until_s) stretches_.push_back(each);
+  while (!unjudged_.empty() && unjudged_.front().onset_s <= until_s) unjudged_.pop_front();
 }
 
 /// Takes what a window says of the faults that were handed on to it; returns the others.
@@ -153,10 +185,13 @@ std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<Fa
     if (!l.is_handed_on()) unfollowed.push_back(l);
     return !l.is_handed_on();
   });
-  for (std::size_t k = 0; k < lasting_.size(); ++k) {
-    lasting_[k].claim = followed[k];
-    episodes_[lasting_[k].episode].end_s = std::min(followed[k].end_s, window_.time.back());
+  std::size_t k = 0;
+  for (Lasting& lasting : lasting_) {
+    lasting.claim = followed[k++];
+    episodes_[lasting.episode].end_s = std::min(lasting.claim.end_s, window_.time.back());
   }
+  for (JudgedStretch& judged : stretches_)
+    if (outlasts_signals(judged)) judged.fault.claim = followed[k++];
   return unfollowed;
 }
 

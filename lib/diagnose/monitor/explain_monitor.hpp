@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/diagnose/monitored_episode.hpp"
+#include "lib/explain/signal_stretch.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/log_run.hpp"
 #include "lib/model/model.hpp"
@@ -22,8 +23,10 @@ inline constexpr double kEpisodeResiduals_s = 3.0;
 /// the log.
 class ExplainMonitor {
  public:
-  /// The model outlives this.
-  explicit ExplainMonitor(const Model& model) : model_(model) {}
+  /// The model outlives this. `signals` are the stretches of the log in which its other signals contradict
+  /// each other, by onset.
+  explicit ExplainMonitor(const Model& model, std::vector<SignalStretch> signals = {})
+      : model_(model), unjudged_(signals.begin(), signals.end()) {}
 
   /// The next rows with their residuals; `runs` are those known so far.
   void take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs);
@@ -32,6 +35,8 @@ class ExplainMonitor {
 
   /// By onset.
   const std::vector<MonitoredEpisode>& episodes() const { return episodes_; }
+  /// The stretches that are faults, by onset.
+  const std::vector<JudgedStretch>& stretches() const { return stretches_; }
   /// What the log tells of the effects of its day; empty where nothing could be explained.
   std::vector<DayEffect> day() const;
   /// Share of the log whose rows count for the regression; 0 where no window could be explained.
@@ -43,6 +48,8 @@ class ExplainMonitor {
   void take_rows(const Log& segment, int begin, int end);
   void explain_window(bool is_followed);
   ExplainedLog explained_window() const;
+  SignalStretches signals_of_window() const;
+  void report_stretches(const std::vector<JudgedStretch>& judged, double until_s);
   void keep_from(double time_s);
   void add_day(const std::vector<DayEffect>& day);
   std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
@@ -66,6 +73,8 @@ class ExplainMonitor {
   std::size_t run_ = 0;
   std::vector<Lasting> lasting_;
   std::vector<MonitoredEpisode> episodes_;
+  std::deque<SignalStretch> unjudged_;  ///< that begin where the windows before have not decided
+  std::vector<JudgedStretch> stretches_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
   std::vector<double> loudness_;
   double judged_s_ = 0.0, read_s_ = 0.0;  ///< over all windows

@@ -10,6 +10,7 @@
 
 #include "lib/diagnose/monitor/explain_monitor.hpp"
 #include "lib/diagnose/monitor/log_tally.hpp"
+#include "lib/diagnose/relation/relation_findings.hpp"
 #include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/explain_at.hpp"
 #include "lib/log/log.hpp"
@@ -50,6 +51,7 @@ class RelationMonitor {
   /// `relations` outlive this.
   RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking);
 
+  bool watches_any() const;
   void take(const Log& segment);
   /// After the last segment.
   void finish();
@@ -71,6 +73,10 @@ RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations, b
     watches_.emplace_back(relation);
     is_watched_.push_back((relation.kind == RelationKind::tracking) == by_tracking);
   }
+}
+
+bool RelationMonitor::watches_any() const {
+  return std::any_of(is_watched_.begin(), is_watched_.end(), [](char watched) { return watched != 0; });
 }
 
 void RelationMonitor::take(const Log& segment) {
@@ -200,6 +206,18 @@ bool lacks_torque(LogSource& log, const Model& model) {
   return lacks;
 }
 
+/// What the second residuals of the whole log say, before its torque balance is judged. Rewinds the log where
+/// it has any.
+RelationMonitor watched_relations(LogSource& log, const Model& model) {
+  RelationMonitor out(model.relations, false);
+  if (!out.watches_any()) return out;
+  EmptyRowsSource filled(log);
+  for (Log segment; filled.next(segment);) out.take(segment);
+  out.finish();
+  log.rewind();
+  return out;
+}
+
 MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   RelationMonitor relations(model.relations, true);
   LogTally tally;
@@ -222,10 +240,9 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
-  ExplainMonitor explained(model);
+  const RelationMonitor relations = by_samples ? RelationMonitor({}, false) : watched_relations(log, model);
+  ExplainMonitor explained(model, stretches_of(relations.episodes(), model.robot.log.torque));
   SampleMonitor samples(model.samples, options);
-  const std::vector<SignalRelation> none;
-  RelationMonitor relations(by_samples ? none : model.relations, false);
   LogTally tally;
   TappedSource counted(log, [&](const Log& segment) { tally.take(segment, log, model); });
   EmptyRowsSource filled(counted);
@@ -233,7 +250,6 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   ResidualSummary whole;
   for (Log segment; filled.next(segment);) {
     tally.thin.take(segment, log.identity().runs);
-    relations.take(segment);
     Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.add(residuals);
     if (by_samples)
@@ -243,7 +259,6 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   }
   explained.finish();
   samples.finish();
-  relations.finish();
   LogFacts facts = log_facts(log, tally, model);
   facts.is_whole = facts.is_whole && filled.rows_put_in() == 0;
   return {.log = std::move(facts),
@@ -252,6 +267,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .sample_alarms = samples.alarms(),
           .day = explained.day(),
           .relation_episodes = relations.episodes(),
+          .stretches = explained.stretches(),
           .relations_judged_s = relations.judged_s(),
           .relations_beyond_s = relations.beyond_s(),
           .roughness = explained.loudness(),

@@ -7,6 +7,7 @@
 #include "lib/diagnose/monitored_episode.hpp"
 #include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/day_effects.hpp"
+#include "lib/explain/signal_stretch.hpp"
 #include "lib/residual/relation/relation_watch.hpp"
 
 namespace faultline {
@@ -19,6 +20,7 @@ struct MonitoredLog {
   std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
   std::vector<DayEffect> day;                      ///< empty where nothing was explained
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
+  std::vector<JudgedStretch> stretches;            ///< those that are faults; `id` is the episode's index
   std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
   std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged
   std::vector<double> roughness;           ///< Diagnosis::roughness

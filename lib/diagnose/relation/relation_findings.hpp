@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lib/diagnose/diagnosis.hpp"
+#include "lib/explain/signal_stretch.hpp"
 #include "lib/model/model.hpp"
 #include "lib/residual/relation/relation_watch.hpp"
 
@@ -14,14 +15,12 @@ std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode);
 /// 0 to 1.
 double confidence_of(const RelationEpisode& episode);
 
-/// What a second residual found: a loss of torque where a share of the command is missing, else an unknown
-/// fault of that joint's drive or control.
-FaultFinding finding_of(const RelationEpisode& episode, const Chain& chain);
+/// The episodes as one score takes them (judge_stretch()); without the jolt of another drive while the
+/// controller answers to what one drive does. `torque`: that of the torque balance.
+std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& episodes, TorqueMeaning torque);
 
-/// The findings of the motion together with those of second residuals: what the motion showed of the same
-/// thing becomes evidence of one finding, and what follows from a fault is none: a control law that is
-/// left for long after it, a jolt of another drive meanwhile.
-std::vector<FaultFinding> with_relations(std::vector<FaultFinding> motion,
-                                         const std::vector<RelationEpisode>& episodes, const Chain& chain);
+/// An episode and the fault that explains it as a finding; it ends with the log at the latest.
+FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fault, double log_end_s,
+                        const Model& model);
 
 }  // namespace faultline

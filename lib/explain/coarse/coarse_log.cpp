@@ -89,13 +89,6 @@ SmoothedLog smoothed_log(const CoarseLog& log) {
   return {std::move(about), settled};
 }
 
-UniformLog first_rows(UniformLog log, int rows) {
-  for (MatrixXd* values : {&log.q, &log.dq, &log.tau})
-    if (values->rows() > rows) values->conservativeResize(rows, Eigen::NoChange);
-  log.lost.resize(static_cast<std::size_t>(rows));
-  return log;
-}
-
 /// Whether joint `j` came in fast and stays, from sample k on within a stretch outside its range.
 bool halts_at(const CoarseLog& log, int j, double side, int k, double still) {
   const int before = std::max(1, static_cast<int>(kHaltsIn_s / log.period_s()));

@@ -35,8 +35,9 @@ void lose_torque(Log& log, double from_s, double until_s = kNeverEnds) {
     if (log.time[k] >= from_s && log.time[k] < until_s) log.tau[1][k] /= 0.7;
 }
 
-ExplainMonitor monitored(const Model& model, const Log& log, int segment_rows) {
-  ExplainMonitor monitor(model);
+ExplainMonitor monitored(const Model& model, const Log& log, int segment_rows,
+                         std::vector<SignalStretch> signals = {}) {
+  ExplainMonitor monitor(model, std::move(signals));
   for (int begin = 0; begin < log.rows(); begin += segment_rows)
     monitor.take(slice(log, begin, std::min(log.rows(), begin + segment_rows)), {}, {});
   monitor.finish();
@@ -117,6 +118,51 @@ TEST(ExplainMonitor, AFurtherFaultIsFoundBesideOneThatLasts) {
   EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
   EXPECT_EQ(judged.episodes()[1].fault.label().joint, 3);
   EXPECT_NEAR(judged.episodes()[1].onset_s(), 120.0, 0.1);
+}
+
+SignalStretch stretch(SignalPair pair, double onset_s, double end_s) {
+  return {.pair = pair, .joint = 1, .onset_s = onset_s, .alarm_s = onset_s, .end_s = end_s, .nats = 500.0};
+}
+
+TEST(ExplainMonitor, AStretchInTheOverlapOfTwoWindowsIsOneFault) {
+  const Model m = model();
+  const Log log = long_log(39, 100.0);
+  for (const double onset_s : {45.0, 52.0, 58.0}) {
+    const ExplainMonitor judged =
+        monitored(m, log, 4096, {stretch(SignalPair::drive, onset_s, onset_s + 0.3)});
+    ASSERT_EQ(judged.stretches().size(), 1u) << onset_s;
+    EXPECT_EQ(judged.stretches()[0].fault.claim.onset_s, onset_s);
+    EXPECT_TRUE(judged.episodes().empty());
+  }
+}
+
+TEST(ExplainMonitor, ALawThatIsLeftForLongIsTheAnswerToAFaultOfAnEarlierWindow) {
+  const Model m = model();
+  Log log = long_log(40, 150.0);
+  lose_torque(log, 20.0, 25.0);
+  const SignalStretch left = stretch(SignalPair::control_law, 120.0, kNeverEnds);
+  EXPECT_TRUE(monitored(m, log, 4096, {left}).stretches().empty());
+  EXPECT_EQ(monitored(m, long_log(40, 150.0), 4096, {left}).stretches().size(), 1u);
+}
+
+TEST(ExplainMonitor, ALossThatOutlastsItsSignalsEndsWhereTheTorqueBalanceSaysSo) {
+  Log log = long_log(36, 190.0);
+  lose_torque(log, 20.0, 151.0);
+  SignalStretch lost = stretch(SignalPair::drive, 20.0, 22.0);
+  lost.joint = 2;
+  lost.loss = 0.3;
+  lost.loss_explains = 0.9;
+  const ExplainMonitor judged = monitored(model(), log, 4096, {lost});
+  EXPECT_TRUE(judged.episodes().empty());
+  ASSERT_EQ(judged.stretches().size(), 1u);
+  EXPECT_EQ(judged.stretches()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_NEAR(judged.stretches()[0].fault.claim.end_s, 151.0, 0.2);
+}
+
+TEST(ExplainMonitor, AStretchOfALogThatIsTooShortForATorqueBalanceIsAFault) {
+  const ExplainMonitor judged =
+      monitored(model(), slice(days(1, 0.0), 0, 100), 50, {stretch(SignalPair::drive, 0.1, 0.3)});
+  EXPECT_EQ(judged.stretches().size(), 1u);
 }
 
 TEST(ExplainMonitor, AnEncoderThatIsStuckForSeveralWindowsIsOneFaultWithItsEnd) {

@@ -9,7 +9,11 @@
 namespace faultline {
 namespace {
 
-Chain chain() { return preset_robot("RR").chain; }
+Model model() {
+  Model out;
+  out.robot = preset_robot("RR");
+  return out;
+}
 
 RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end_s) {
   RelationEpisode out;
@@ -20,119 +24,84 @@ RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end
   out.end_s = end_s;
   out.mean = 0.6;
   out.times_limit = 3.0;
+  out.nats = 180.0;
   return out;
 }
 
-FaultFinding by_motion(FaultKind kind, int joint, double onset_s) {
-  FaultFinding finding;
-  finding.label = {kind, joint};
-  finding.onset_s = onset_s;
-  finding.alarm_s = onset_s + 0.1;
-  finding.end_s = onset_s + 1.0;
-  return finding;
+std::vector<FaultFinding> findings_of(const std::vector<RelationEpisode>& episodes) {
+  std::vector<FaultFinding> out;
+  for (const SignalStretch& stretch : stretches_of(episodes, TorqueMeaning::commanded))
+    out.push_back(finding_of(episodes[stretch.id], judge_stretch(stretch, nullptr), 9.0, model()));
+  return out;
 }
 
-TEST(RelationFindings, WhatTheMotionShowsOfTheSameThingIsEvidenceOfOneFinding) {
-  const auto faults =
-      with_relations({by_motion(FaultKind::collision, 2, 3.05), by_motion(FaultKind::locked, 2, 8.0)},
-                     {episode(RelationKind::actuator, 1, 3.0, 3.2)}, chain());
-  ASSERT_EQ(faults.size(), 2u);
-  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::locked, 2}));
-  EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 1}));
-  EXPECT_EQ(faults[1].decided_by, DecidedBy::actuator);
-  ASSERT_FALSE(faults[1].could_also_be.empty());
-  EXPECT_EQ(faults[1].could_also_be[0].label, (FaultLabel{FaultKind::collision, 2}));
+const EvidenceItem* item(const FaultFinding& finding, const std::string& name) {
+  for (const EvidenceItem& each : finding.evidence)
+    if (each.name == name) return &each;
+  return nullptr;
 }
 
-/// A finding that lasts to the end of the log, dated before an episode of the drive from 3 to 3.2 s.
-std::size_t findings_with(double onset_s, double alarm_s) {
-  FaultFinding early = by_motion(FaultKind::friction_increase, 2, onset_s);
-  early.alarm_s = alarm_s;
-  early.end_s = 20.0;
-  return with_relations({early}, {episode(RelationKind::actuator, 1, 3.0, 3.2)}, chain()).size();
+TEST(RelationFindings, AnEpisodeIsAStretchWithItsLimit) {
+  RelationEpisode lasts = episode(RelationKind::control_law, 2, 4.0, 9.0);
+  lasts.lasts = true;
+  const std::vector<SignalStretch> all =
+      stretches_of({episode(RelationKind::actuator, 1, 3.0, 3.2), lasts}, TorqueMeaning::measured);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].pair, SignalPair::drive);
+  EXPECT_EQ(all[0].joint, 1);
+  EXPECT_EQ(all[0].end_s, 3.2);
+  EXPECT_DOUBLE_EQ(all[0].limit, 20.0);
+  EXPECT_FALSE(all[0].balance_is_of_command);
+  EXPECT_EQ(all[1].pair, SignalPair::control_law);
+  EXPECT_EQ(all[1].end_s, kNeverEnds);
+  EXPECT_EQ(all[1].id, 1u);
 }
 
-TEST(RelationFindings, AnOnsetDatedTooEarlyMakesNoSecondFindingWhereTheAlarmCameWithTheEpisode) {
-  EXPECT_EQ(findings_with(2.69, 2.85), 1u);
-  EXPECT_EQ(findings_with(2.69, 3.1), 1u);
-  EXPECT_EQ(findings_with(2.69, 3.9), 1u);
-  EXPECT_EQ(findings_with(2.3, 2.5), 2u) << "it alarmed before the drive strayed: another cause";
-  EXPECT_EQ(findings_with(1.5, 3.1), 2u);
-}
-
-TEST(RelationFindings, ALossOfTorqueThatTheDriveSecondsKeepsItsName) {
-  RelationEpisode less = episode(RelationKind::actuator, 1, 3.0, 9.0);
-  less.share = 0.95;
-  less.share_explains = 0.4;
-  const auto faults = with_relations({by_motion(FaultKind::free_swinging, 1, 3.05)}, {less}, chain());
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::free_swinging, 1}));
-  less.share = -0.5;
-  const auto added = with_relations({by_motion(FaultKind::torque_loss, 1, 3.05)}, {less}, chain());
-  ASSERT_EQ(added.size(), 1u);
-  EXPECT_EQ(added[0].label.kind, FaultKind::unknown) << "the drive gave more, not less";
-}
-
-TEST(RelationFindings, AnOffsetThatStaysMayBeThatOfTheSensor) {
-  RelationEpisode offset = episode(RelationKind::actuator, 1, 3.0, 9.0);
-  offset.offset_explains = 0.9;
-  const FaultLabel sensor{FaultKind::torque_sensor_error, 1};
-  const auto alone = with_relations({}, {offset}, chain());
-  ASSERT_EQ(alone.size(), 1u);
-  EXPECT_EQ(alone[0].label, (FaultLabel{FaultKind::unknown, 1}));
-  ASSERT_EQ(alone[0].could_also_be.size(), 1u);
-  EXPECT_EQ(alone[0].could_also_be[0].label, sensor);
-  const auto both = with_relations({by_motion(sensor.kind, 1, 3.05)}, {offset}, chain());
-  ASSERT_EQ(both.size(), 1u);
-  EXPECT_EQ(both[0].label, sensor);
-  offset.end_s = 3.2;
-  EXPECT_TRUE(with_relations({}, {offset}, chain())[0].could_also_be.empty());
-}
-
-TEST(RelationFindings, AShareOfTheCommandThatIsMissingIsALossOfTorque) {
+TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
   RelationEpisode lost = episode(RelationKind::actuator, 1, 3.0, 9.0);
   lost.share = 0.4;
   lost.share_explains = 0.9;
-  EXPECT_EQ(finding_of(lost, chain()).label, (FaultLabel{FaultKind::torque_loss, 1}));
-  lost.share_explains = 0.2;
-  EXPECT_EQ(finding_of(lost, chain()).label, (FaultLabel{FaultKind::unknown, 1}));
+  const auto faults = findings_of({lost, episode(RelationKind::control_law, 2, 4.0, 9.0)});
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_DOUBLE_EQ(faults[0].extent.size, 0.4);
+  ASSERT_NE(item(faults[0], "torque_share"), nullptr);
+  EXPECT_DOUBLE_EQ(item(faults[0], "torque_share")->value, 40.0);
+  EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(faults[1].decided_by, DecidedBy::control_law);
+  EXPECT_NE(faults[1].next_check.find("what commands joint 2"), std::string::npos);
 }
 
-TEST(RelationFindings, ALawThatIsLeftForLongAfterAFaultFollowsFromIt) {
-  const auto faults = with_relations({by_motion(FaultKind::locked, 1, 3.0)},
-                                     {episode(RelationKind::control_law, 1, 4.0, 9.0)}, chain());
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].label.kind, FaultKind::locked);
+TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
+  const RelationEpisode strayed = episode(RelationKind::actuator, 1, 3.0, 3.2);
+  ExplainedFault fault = judge_stretch(stretches_of({strayed}, TorqueMeaning::commanded)[0], nullptr);
+  EXPECT_EQ(item(finding_of(strayed, fault, 9.0, model()), "motion"), nullptr);
+  fault.evidence += 75.0;
+  const FaultFinding finding = finding_of(strayed, fault, 9.0, model());
+  ASSERT_NE(item(finding, "motion"), nullptr);
+  EXPECT_DOUBLE_EQ(item(finding, "motion")->value, 75.0);
+  EXPECT_EQ(finding.decided_by, DecidedBy::actuator);
+  EXPECT_EQ(finding.onset_s, 3.0);
+  EXPECT_EQ(finding.end_s, 3.2);
 }
 
 TEST(RelationFindings, AJoltOfAnotherDriveMeanwhileFollowsFromIt) {
-  const auto faults = with_relations(
-      {}, {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.45, 4.5)},
-      chain());
+  const auto faults = findings_of(
+      {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.45, 4.5)});
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].label.joint, 1);
 }
 
 TEST(RelationFindings, TwoDrivesThatStrayAtTheSameTimeAreTwoFindings) {
-  EXPECT_EQ(
-      with_relations(
-          {}, {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.1, 4.6)},
-          chain())
-          .size(),
-      2u);
-}
-
-TEST(RelationFindings, ALawThatIsLeftWithNothingBeforeItIsAFinding) {
-  const auto faults = with_relations({}, {episode(RelationKind::control_law, 2, 4.0, 9.0)}, chain());
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].decided_by, DecidedBy::control_law);
-  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(findings_of(
+                {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.1, 4.6)})
+                .size(),
+            2u);
 }
 
 TEST(RelationFindings, PulsesInQuickSuccessionStaySingle) {
-  auto faults = with_relations(
-      {}, {episode(RelationKind::actuator, 1, 3.0, 3.2), episode(RelationKind::actuator, 1, 3.6, 3.8)},
-      chain());
+  auto faults = findings_of(
+      {episode(RelationKind::actuator, 1, 3.0, 3.2), episode(RelationKind::actuator, 1, 3.6, 3.8)});
   EXPECT_EQ(merge_continued(std::move(faults)).size(), 2u);
 }
 
