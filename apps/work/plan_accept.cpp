@@ -70,7 +70,7 @@ AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progres
   plan.check = check_golden(plan.set, plan.run);
   plan.part = only(plan.check, named_items(arguments, plan.check));
   plan.otherwise = found_otherwise(arguments, plan.check);
-  plan.names = changing(plan.part, arguments.has_new_model() || !plan.set.tells_reasons);
+  plan.names = changing(plan.part, arguments.has_new_model());
   return plan;
 }
 

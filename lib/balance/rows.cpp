@@ -137,10 +137,11 @@ std::vector<FastDynamics> unit_dynamics(const RigidColumns& rigid) {
 
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const VectorXd& theta) {
-  const auto [kernel, grid, at] = row_frame(log, setting);
+  const RowFrame frame = row_frame(log, setting);
+  const auto& [kernel, grid, at] = frame;
   const ColumnLayout layout = layout_of(rigid, setting);
   const int n = rigid.joints();
-  const auto at_rows = [&](const MatrixXd& values) {
+  const auto at_rows = [&kernel = frame.kernel, &grid = frame.grid](const MatrixXd& values) {
     return smooth_at(values, kernel, grid.first, grid.step, grid.count);
   };
   BalanceRows rows;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <ranges>
+#include <span>
 
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
@@ -68,7 +68,8 @@ Json models_json(const BatchSummary& summary) {
 /// The first logs without a diagnosis with their reasons, and where the others stand.
 std::string reasons_text(const std::vector<LogWithoutDiagnosis>& logs) {
   std::string text;
-  for (const LogWithoutDiagnosis& log : logs | std::views::take(kShownReasons))
+  for (const LogWithoutDiagnosis& log :
+       std::span(logs).first(std::min<std::size_t>(logs.size(), kShownReasons)))
     text += fmt::format("  not diagnosed: {}: {}\n", brief(log.log), brief(log.reason));
   if (logs.size() > kShownReasons)
     text += fmt::format("  and {} more without a diagnosis; index.csv has the reason of each\n",

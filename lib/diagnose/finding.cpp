@@ -116,7 +116,7 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
     if (std::string size = size_words(decided, model); !size.empty())
       items.push_back(remark("size", std::move(size)));
   const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),
-                                  [&](const LabelEvidence& e) { return e.label == decision.label; });
+                                  [&](const LabelEvidence& e) { return e.label == decided.decision.label; });
   if (label != basis.evidence.end() && std::isfinite(label->left))
     items.push_back(
         {"left_over", label->left, "times noise",

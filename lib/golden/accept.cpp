@@ -41,7 +41,6 @@ void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& ru
     adopt_model(folder, new_model.model, *new_model.subject, set);
     take_actual(set, run, kModelItem);
   }
-  if (!set.tells_reasons) take_actual(set, run, kModelItem);
   for (const auto& [channel, tolerance] : defaults.by_channel)
     set.tolerances.by_channel.try_emplace(channel, tolerance);
   for (const std::string& name : names) {

@@ -68,7 +68,6 @@ bool GoldenCheck::damaged() const {
 
 GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
   GoldenCheck check;
-  check.tells_reasons = set.tells_reasons;
   check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
                                   set.model_name, set.model.sha256.substr(0, 8));
   check.actual_by = said_by(run);

@@ -23,7 +23,6 @@ struct CheckedItem {
 
 /// Two runs over one golden folder, or one run and what is expected.
 struct GoldenCheck {
-  bool tells_reasons = true;  ///< false: what is expected is of an earlier program that did not record them
   std::string expected_by, actual_by;  ///< who says so, for the headings
   std::vector<CheckedItem> items;      ///< logs in their order, then the identification and the model
 

@@ -106,10 +106,6 @@ std::string render_check_text(const GoldenCheck& check, bool color) {
     else
       text += divergence_text(item) + "\n" + unified_difference(item, check, color);
   }
-  if (!check.tells_reasons)
-    text +=
-        "\nRecorded by an earlier program: evidence, opinions, alternatives and the model are not compared. "
-        "faultline golden accept DIR --all takes them in.\n";
   return text + "\n" + summary(check);
 }
 

@@ -27,13 +27,12 @@ std::string text_of(const Opinion& opinion) {
 }
 
 std::string line_of(const ObservedEvent& e) {
-  std::string line = fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
-                                 when(e.onset_s), when(e.alarm_s), when(e.end_s), e.confidence);
-  if (e.has_reasons)
-    line += fmt::format(", evidence {}, decided by {}, MLP {}, RBFN {}, could also be {}",
-                        digits_text(e.evidence, 6), e.decided_by, text_of(e.opinions.mlp),
-                        text_of(e.opinions.rbfn), names_of(e.could_also_be));
-  return line;
+  const std::string line =
+      fmt::format("event {}: onset {}, alarm {}, end {}, confidence {:.3f}", name_of(e.label),
+                  when(e.onset_s), when(e.alarm_s), when(e.end_s), e.confidence);
+  return line + fmt::format(", evidence {}, decided by {}, MLP {}, RBFN {}, could also be {}",
+                            digits_text(e.evidence, 6), e.decided_by, text_of(e.opinions.mlp),
+                            text_of(e.opinions.rbfn), names_of(e.could_also_be));
 }
 
 /// The unused event of that label whose onset is nearest; -1 for none.
@@ -66,7 +65,6 @@ class PairComparison {
   }
 
   void compare_reasons() {
-    if (!expected_.has_reasons || !actual_.has_reasons) return;
     number("evidence", expected_.evidence, actual_.evidence, expected_.onset_s);
     words("decided_by", expected_.decided_by, actual_.decided_by);
     compare_opinion("mlp", expected_.opinions.mlp, actual_.opinions.mlp);

@@ -14,7 +14,6 @@ namespace faultline {
 namespace {
 
 constexpr const char* kSchema = "faultline/golden/2";
-constexpr const char* kEventsAlone = "faultline/golden/1";  // without reasons and model values
 
 /// A path below the folder, so that a golden file cannot name files elsewhere.
 std::string inner_path(const TomlTable& table, const std::string& key) {
@@ -66,8 +65,6 @@ ObservedEvent event(const TomlTable& table) {
   e.alarm_s = table.any_number("alarm_s");
   e.end_s = table.any_number("end_s");
   e.confidence = table.any_number("confidence");
-  e.has_reasons = table.has("evidence");
-  if (!e.has_reasons) return e;
   e.evidence = table.any_number("evidence");
   e.decided_by = table.text("decided_by");
   e.opinions = {opinion(table.table("mlp")), opinion(table.table("rbfn"))};
@@ -135,7 +132,9 @@ void check_names(const GoldenSet& set, const TomlTable& table) {
 
 GoldenSet read(const TomlTable& table) {
   GoldenSet set;
-  set.tells_reasons = table.choice("schema", {kSchema, kEventsAlone}) == kSchema;
+  if (table.text("schema") != kSchema)
+    table.fail("schema",
+               fmt::format("expected \"{}\"; record the folder again with faultline golden record", kSchema));
   set.program_version = table.text("program");
   set.trace_points = static_cast<int>(table.integer("trace_points", 500));
   if (set.trace_points < 1) table.fail("trace_points", "must be positive");

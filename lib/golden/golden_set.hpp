@@ -39,12 +39,11 @@ inline constexpr const char* kModelItem = "model";
 /// What golden.toml says: the model, the logs, what is expected of each and how exactly.
 struct GoldenSet {
   std::string program_version;  ///< that it was recorded with
-  bool tells_reasons = true;    ///< false in files of earlier programs: no model values, events alone
   std::string model_name;
   int joints = 0;
   GoldenFile model;
   GoldenFile cases;                          ///< sha256 of the case base's content
-  std::vector<ParameterValue> model_values;  ///< values_of(); none in files of earlier programs
+  std::vector<ParameterValue> model_values;  ///< values_of()
   int trace_points = 500;
   Tolerances tolerances;
   std::optional<GoldenIdentification> identification;

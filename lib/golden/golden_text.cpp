@@ -105,7 +105,7 @@ std::string reason_fields(const ObservedEvent& e) {
 std::string event_line(const ObservedEvent& e) {
   return fmt::format("  {{{}, onset_s = {}, alarm_s = {}, end_s = {}, confidence = {}{}}},\n",
                      label_fields(e.label), time(e.onset_s), time(e.alarm_s), time(e.end_s),
-                     number(e.confidence), e.has_reasons ? reason_fields(e) : "");
+                     number(e.confidence), reason_fields(e));
 }
 
 std::string residual_line(const JointResidual& r) {

@@ -15,7 +15,6 @@ namespace faultline {
 
 /// An event and what it rests on.
 struct ObservedEvent : FaultEvent {
-  bool has_reasons = false;  ///< golden files of earlier programs tell the event alone
   double evidence = std::numeric_limits<double>::quiet_NaN();  ///< log likelihood ratio, nats
   std::string decided_by{};                                    ///< of DecidedBy
   Opinions opinions{};
@@ -52,7 +51,7 @@ struct GoldenRun {
 
   std::string program_version;
   ModelFacts model;
-  std::vector<ParameterValue> model_values;  ///< values_of(); none in runs of earlier programs
+  std::vector<ParameterValue> model_values;  ///< values_of()
   std::vector<Log> logs;
   std::optional<ObservedIdentification> identification;
 };

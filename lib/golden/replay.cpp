@@ -19,9 +19,11 @@ namespace faultline {
 namespace {
 
 ObservedEvent observed(const FaultFinding& finding) {
-  ObservedEvent event{event_of(finding),           true,
-                      finding.episode.evidence,    to_string(finding.decided_by),
-                      {finding.mlp, finding.rbfn}, {}};
+  ObservedEvent event{event_of(finding),
+                      finding.episode.evidence,
+                      to_string(finding.decided_by),
+                      {finding.mlp, finding.rbfn},
+                      {}};
   for (const Alternative& alternative : finding.could_also_be)
     event.could_also_be.push_back(alternative.label);
   return event;

@@ -35,8 +35,6 @@ Opinion opinion(const Json& json) { return {label(json), number_or_nan(json.at("
 
 ObservedEvent event(const Json& json) {
   ObservedEvent read{fault_event_from_json(json)};
-  read.has_reasons = json.contains("evidence");
-  if (!read.has_reasons) return read;
   read.evidence = number_or_nan(json.at("evidence"));
   read.decided_by = json.at("decided_by");
   read.opinions = {opinion(json.at("mlp")), opinion(json.at("rbfn"))};

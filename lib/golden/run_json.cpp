@@ -48,7 +48,6 @@ Json json_of(const Opinion& opinion) {
 Json json_of(const ObservedEvent& event) {
   Json json = to_json(event);
   json["joint"] = event.label.joint;
-  if (!event.has_reasons) return json;
   json["evidence"] = number_or_null(event.evidence);
   json["decided_by"] = event.decided_by;
   json["mlp"] = json_of(event.opinions.mlp);

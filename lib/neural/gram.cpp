@@ -51,8 +51,8 @@ void tile_base(const double* rows, const double* columns, int samples, double* c
                                        double* const* sums) {
   tile_body<4>(rows, columns, samples, sums);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void tile_avx512(const double* rows, const double* columns,
-                                                                    int samples, double* const* sums) {
+[[gnu::target(FAULTLINE_AVX512)]] void tile_avx512(const double* rows, const double* columns, int samples,
+                                                   double* const* sums) {
   tile_body<8>(rows, columns, samples, sums);
 }
 

@@ -133,13 +133,11 @@ void distance_base(LayerNumbers layer, const double* in, double* out) { distance
 [[gnu::target("avx2")]] void distance_avx2(LayerNumbers layer, const double* in, double* out) {
   distance_body<4>(layer, in, out);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void tanh_avx512(double* v, int n) { tanh_body(v, n); }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void affine_avx512(LayerNumbers layer, const double* in,
-                                                                      double* out) {
+[[gnu::target(FAULTLINE_AVX512)]] void tanh_avx512(double* v, int n) { tanh_body(v, n); }
+[[gnu::target(FAULTLINE_AVX512)]] void affine_avx512(LayerNumbers layer, const double* in, double* out) {
   affine_body<8>(layer, in, out);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void distance_avx512(LayerNumbers layer, const double* in,
-                                                                        double* out) {
+[[gnu::target(FAULTLINE_AVX512)]] void distance_avx512(LayerNumbers layer, const double* in, double* out) {
   distance_body<8>(layer, in, out);
 }
 

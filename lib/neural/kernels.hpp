@@ -3,6 +3,14 @@
 
 #include <Eigen/Core>
 
+/// The target of functions with vectors of 512 bits. g++ splits them into two of 256 bits unless it is asked
+/// not to; clang++ has no such option in a target.
+#ifdef __clang__
+#define FAULTLINE_AVX512 "avx512f"
+#else
+#define FAULTLINE_AVX512 "avx512f,prefer-vector-width=512"
+#endif
+
 /// Inner loops of the networks. Each sample is a lane that never mixes with another one, and the order of the
 /// operations in a lane is fixed, so a result does not depend on how many samples were processed together.
 namespace faultline {

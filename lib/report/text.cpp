@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
@@ -113,7 +113,8 @@ class FaultBlock {
 
   std::string precedents() const {
     std::string text;
-    for (const Precedent& p : fault_.precedents | std::views::take(kShownPrecedents)) text += precedent(p);
+    const std::size_t shown = std::min<std::size_t>(fault_.precedents.size(), kShownPrecedents);
+    for (const Precedent& p : std::span(fault_.precedents).first(shown)) text += precedent(p);
     if (fault_.precedents.size() > kShownPrecedents)
       text += item(fmt::format("{} more", fault_.precedents.size() - kShownPrecedents));
     return text.empty() ? "" : "  " + precedents_title(fault_) + "\n" + text;

@@ -29,7 +29,6 @@ GoldenSet example() {
   log.expected.rows = 10;
   ObservedEvent event{{{FaultKind::locked, 2}, 1763710000.123456, kNan, INFINITY, 0.9}};
   log.expected.events.push_back(event);
-  event.has_reasons = true;
   event.evidence = 123.5;
   event.decided_by = "cases";
   event.opinions = {{{FaultKind::locked, 2}, 0.75}, {{FaultKind::collision, 1}, 0.5}};
@@ -53,9 +52,7 @@ TEST(GoldenSet, ComesBackFromItsTextAsItWas) {
   EXPECT_DOUBLE_EQ(log.expected.events[0].onset_s, 1763710000.123456);
   EXPECT_TRUE(std::isnan(log.expected.events[0].alarm_s));
   EXPECT_TRUE(std::isinf(log.expected.events[0].end_s));
-  EXPECT_FALSE(log.expected.events[0].has_reasons);
   const ObservedEvent& event = log.expected.events.at(1);
-  EXPECT_TRUE(event.has_reasons);
   EXPECT_EQ(event.evidence, 123.5);
   EXPECT_EQ(event.opinions.rbfn, (Opinion{{FaultKind::collision, 1}, 0.5}));
   EXPECT_EQ(event.could_also_be.at(1), (FaultLabel{FaultKind::payload_change, 0}));

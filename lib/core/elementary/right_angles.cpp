@@ -82,7 +82,7 @@ DoubleDouble fraction(Wide value) {
 }  // namespace
 
 RightAngles right_angles_of_any(double x) {
-  constexpr DoubleDouble kRightAngle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+  constexpr DoubleDouble kQuarterTurn{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
   int exponent = 0;
   const double mantissa = std::frexp(std::abs(x), &exponent);
   const auto whole = static_cast<Word>(std::ldexp(mantissa, 53));
@@ -99,7 +99,7 @@ RightAngles right_angles_of_any(double x) {
     ++quadrant;
     rest = negative(rest);
   }
-  DoubleDouble angle = fraction(rest) * kRightAngle;
+  DoubleDouble angle = fraction(rest) * kQuarterTurn;
   if (rounds_up) angle = -angle;
   if (std::signbit(x)) return {-quadrant & 3, -angle.high, -angle.low};
   return {quadrant & 3, angle.high, angle.low};

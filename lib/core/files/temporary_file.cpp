@@ -67,7 +67,7 @@ TemporaryFile::TemporaryFile(std::string target) : target_(std::move(target)) {
 bool TemporaryFile::create() {
   path_ = temporary_name(place_);
   {
-    const HeldSignals held;
+    const HeldSignals signals;
     on_signal_ = std::make_unique<RemovedOnSignal>(path_);
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   }
