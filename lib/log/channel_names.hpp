@@ -11,17 +11,17 @@ namespace faultline {
 
 enum class Quantity { time, q, dq, tau, q_ref, dq_ref, tau_ref, tau_meas };
 
-/// What is recorded of each joint, in the order of a log's columns.
+/// The quantities of a joint that a log can record, in the order of its columns.
 inline constexpr std::array kJointQuantities{Quantity::q,       Quantity::dq,     Quantity::tau,
                                              Quantity::q_ref,   Quantity::dq_ref, Quantity::tau_ref,
                                              Quantity::tau_meas};
 
-/// Whether it is a torque or force: the joint's, commanded or measured.
+/// Whether the quantity is a torque or force of a joint, commanded or measured.
 constexpr bool is_torque(Quantity quantity) {
   return quantity == Quantity::tau || quantity == Quantity::tau_ref || quantity == Quantity::tau_meas;
 }
 
-/// A canonical channel: a quantity of a joint, which counts from 1; 0 for the time.
+/// A canonical channel: a quantity and a joint, counted from 1; joint 0 for the time.
 struct Channel {
   Quantity quantity = Quantity::time;
   int joint = 0;
@@ -29,26 +29,26 @@ struct Channel {
   auto operator<=>(const Channel&) const = default;
 };
 
-/// "t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1".
+/// Returns the canonical name: "t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1".
 std::string to_string(Channel channel);
-/// What a canonical name means; nullopt for any other name.
+/// Returns the channel of a canonical name; nullopt for any other name.
 std::optional<Channel> canonical_channel(const std::string& name);
-/// "position", "velocity" and so on, for messages.
+/// Returns the quantity in words, such as "position" or "velocity", for messages.
 const char* meaning_of(Quantity quantity);
 
-/// What a name such as "actual_q_0" or "/joint_states/position[2]" seems to mean.
+/// Interpretation of a column name such as "actual_q_0" or "/joint_states/position[2]".
 struct NameReading {
-  std::string stem;  ///< the name with '#' for its number: names that differ by the number only share it
+  std::string stem;  ///< name with '#' for its number: the same for names that differ by the number only
   std::optional<int> number;
-  std::optional<Quantity> quantity;  ///< nullopt when it says none, or is an error, limit, acceleration ...
+  std::optional<Quantity> quantity;  ///< nullopt if the name has none, or is an error, limit, acceleration
   int fitness = 0;                   ///< how well it fits, to choose among several columns of one quantity
-  /// The words, numbers included, that say neither quantity nor how it was measured: a joint's name, perhaps.
+  /// Words, with numbers, that name neither the quantity nor how it was measured; perhaps a joint's name.
   std::string joint{};
-  int as_torque = 0;  ///< how well a torque of any meaning fits as the only torque of a log
+  int as_torque = 0;  ///< how well the column fits as the only torque of a log, commanded or measured
 };
 NameReading read_name(const std::string& name);
 
-/// Index of the column that looks like the time, -1 for none.
+/// Returns the index of the column whose name fits the time best; -1 for none.
 int find_time_column(const std::vector<std::string>& names);
 
 }  // namespace faultline

@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// Where a canonical channel ("t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1") comes
-/// from and how its raw value becomes SI: value = sign * scale * (raw * unit factor) + offset.
+/// The source of a canonical channel ("t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1")
+/// and its conversion to SI: value = sign * scale * (raw * unit factor) + offset.
 struct ColumnSpec {
   std::string name{};  ///< column in the file; empty = find by the usual names
   std::string unit{};  ///< such as "deg", "mm", "ms", "ns"; empty = SI
@@ -18,19 +18,19 @@ struct ColumnSpec {
   double offset = 0.0;  ///< in SI, added last
 };
 
-/// The meaning of a log's columns by canonical channel name; what is not named is found by the usual names.
+/// The columns of a log by canonical channel name; other channels are found by their usual names.
 using ColumnMap = std::map<std::string, ColumnSpec>;
 
-/// Which time of a message counts: that in its header, or that when the recorder received it.
+/// The time of a message that the log uses: that of its header, or that of its receipt by the recorder.
 enum class MessageTime { header, receipt };
 
 const char* to_string(MessageTime time);
 
-/// Which part of a recording of messages is the log.
+/// The part of a recording of messages that is the log.
 struct RecordingChoice {
-  std::string topic{};  ///< whose messages are the rows; empty = the one that looks most like it
-  std::vector<std::string> joints{};  ///< base to tip, as the messages name them; empty = all
-  std::optional<MessageTime> time{};  ///< none = header where it has one
+  std::string topic{};                ///< topic whose messages are the rows; empty = the most likely one
+  std::vector<std::string> joints{};  ///< from base to tip, by their names in the messages; empty = all
+  std::optional<MessageTime> time{};  ///< nullopt = header if the message has one
 };
 
 }  // namespace faultline

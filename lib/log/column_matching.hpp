@@ -11,10 +11,10 @@
 
 namespace faultline {
 
-/// How a canonical channel is made from a raw column: value = gain * raw + offset.
+/// How a canonical channel is computed from a raw column: value = gain * raw + offset.
 struct ChannelSource {
   Channel channel;
-  int column = -1;              ///< kRowNumber: the row's number from 0 stands for the raw value
+  int column = -1;              ///< kRowNumber: the row number, from 0, is the raw value
   int nanoseconds_column = -1;  ///< second column of a time in seconds and nanoseconds; -1 for none
   double gain = 1.0;
   double offset = 0.0;
@@ -22,11 +22,11 @@ struct ChannelSource {
   bool unchanged() const { return gain == 1.0 && offset == 0.0 && nanoseconds_column < 0; }
 };
 inline constexpr int kRowNumber = -2;
-/// Column name in a ColumnSpec that stands for the row's number; with `scale` as sample period it gives a
-/// time to a log that has none.
+/// Column name in a ColumnSpec that stands for the row number; with `scale` as sample period it defines the
+/// time of a log without a time column.
 inline constexpr const char* kRowNumberName = "@row";
 
-/// Which columns of a file become which channels. `joints` is the number of positions found.
+/// The columns of a file that become channels. `joints` is the number of joints that have a position.
 struct Matching {
   int joints = 0;
   std::vector<ChannelSource> channels;  ///< time first, then by quantity and joint
@@ -35,11 +35,11 @@ struct Matching {
 };
 
 /// Finds the channels by the column map, else by canonical name, else by the usual names. Throws Error(input)
-/// when the time or any position is missing (naming the columns there are and the line of [log.columns] that
-/// would map one), and Error(usage) for a unit that is not known or a sign that is not +1 or -1.
+/// if the time, every position or a mapped column is missing (naming the existing columns and the line of
+/// [log.columns] that would map one), and Error(usage) for an unknown channel or unit or a wrong sign.
 Matching match_columns(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path);
 
-/// Empty when match_columns() would succeed, else its error message.
+/// Returns the error message of match_columns(), empty if it would succeed.
 std::string why_no_match(const std::vector<RawColumn>& columns, const ColumnMap& map,
                          const std::string& path);
 

@@ -6,21 +6,21 @@
 
 namespace faultline {
 
-/// A column of numbers by its name, of the first rows of a log.
+/// Name and values of a column in the first rows of a log.
 struct NamedValues {
   std::string name;
   std::vector<double> values;
 };
 
-/// The unit of a time of which none is known.
+/// The unit of a time for which the file gives none.
 struct CountedTime {
   const char* unit = "";  ///< "ms", "us", "ns", or empty for s
-  std::string why{};      ///< a sentence that says how it was recognised; empty where the unit is s
+  std::string why{};      ///< a sentence on how it was recognised; empty if the unit is s or counts from 1970
 };
 
-/// A time that counts whole numbers far apart counts no seconds: it counts from 1970 where the sample period
-/// then is one, else in the unit in which the velocities are the derivative of the positions, else in the one
-/// with a usual sample period.
+/// Returns the unit of a time of whole numbers: the one that counts from 1970 if it gives a usual sample
+/// period, else the one in which the velocities are the derivatives of the positions, else the one with a
+/// usual sample period; s for any other time.
 CountedTime counted_time(const std::vector<double>& time, const std::vector<NamedValues>& columns);
 
 }  // namespace faultline

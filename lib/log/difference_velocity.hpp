@@ -8,12 +8,12 @@
 
 namespace faultline {
 
-/// Whether the velocity of a joint is a difference of its position, backward, forward or central, over the
-/// stamps or over the usual period: it is then no measurement of its own. Rows in which the joint rests do
-/// not count. False where there is nothing to tell it from.
+/// Whether the velocity of a joint is a backward, forward or central difference of its position, over the
+/// stamps or over the usual period, and so no independent measurement. Rows with an unchanged position do not
+/// count. False for fewer than 8 rows or for positions without noise.
 bool is_difference(std::span<const double> time, std::span<const double> q, std::span<const double> dq);
 
-/// The same by joint of a log; all false without velocities.
+/// The same for each joint of a log; all false without velocities.
 std::vector<char> velocities_by_difference(const Log& log);
 
 }  // namespace faultline

@@ -17,7 +17,7 @@ struct ExtraChannel {
   std::vector<double> values;
 };
 
-/// A stretch of a joint log in SI units (rad or m, rad/s or m/s, N m or N), columns of equal length. A
+/// A segment of a joint log in SI units (rad or m, rad/s or m/s, N m or N), columns of equal length. A
 /// missing value is NaN. Segments of one log follow each other without overlap.
 struct Log {
   std::int64_t first_row = 0;  ///< rows of the log before this segment
@@ -35,9 +35,9 @@ struct Log {
   int joints() const { return static_cast<int>(q.size()); }
 };
 
-/// Sets all channels of `like` in `log` to `rows` rows, reusing their storage.
+/// Gives `log` the channels of `like` with `rows` rows, reusing its storage.
 void resize_like(Log& log, const Log& like, int rows);
-/// Rows [begin, end) of a log, as a log of its own.
+/// Returns rows [begin, end) as a log of their own.
 Log slice(const Log& log, int begin, int end);
 /// Appends the rows of `more`, which has the same channels (or `log` is empty).
 void append(Log& log, const Log& more);

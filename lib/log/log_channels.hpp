@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// The signals of a quantity that joints have, that is any but the time.
+/// Returns the signals of a quantity of joints, that is any but the time.
 JointSignals& signals_of(Log& log, Quantity quantity);
 const JointSignals& signals_of(const Log& log, Quantity quantity);
 

@@ -5,19 +5,19 @@
 
 namespace faultline {
 
-/// A stretch of a log between two restarts of its clock. Where several runs are read as one log, the later
-/// ones follow the earlier ones with a gap between: their times are those of their own clock plus an offset.
+/// A part of a log between two restarts of its clock. If several runs are read as one log, each follows the
+/// one before after a gap: its times are those of its own clock plus an offset.
 struct LogRun {
-  int run = 1;                 ///< from 1
-  std::int64_t first_row = 0;  ///< of the file's data rows, from 1
-  std::int64_t rows = 0;       ///< those with a usable time
-  double start_s = 0.0;        ///< first and last time, as the log is handed out
+  int run = 1;                 ///< number of the run, from 1
+  std::int64_t first_row = 0;  ///< first data row of the file, from 1
+  std::int64_t rows = 0;       ///< rows with a usable time
+  double start_s = 0.0;        ///< first and last time, as in the segments
   double end_s = 0.0;
-  double clock_offset_s = 0.0;  ///< time in the log less the time of the run's own clock
-  bool is_read = true;          ///< false: another run was asked for
+  double clock_offset_s = 0.0;  ///< time in the log minus time of the run's own clock
+  bool is_read = true;          ///< false if another run was requested
 };
 
-/// Runs to read: every one, as one log.
+/// Value of a run option: all runs are read as one log.
 inline constexpr int kEveryRun = 0;
 
 }  // namespace faultline

@@ -13,18 +13,18 @@ namespace faultline {
 
 struct MappedSourceOptions {
   ColumnMap columns{};  ///< [log.columns] of the robot file
-  int run = kEveryRun;  ///< of a file in which the clock restarts, from 1; all of them: one after the other
-  int segment_rows = 4096;  ///< at most so many rows a segment; changes no byte of any result
-  bool keep_extra = true;   ///< hand out columns without a canonical meaning too
+  int run = kEveryRun;  ///< run to read, from 1, if the clock restarts; kEveryRun: all, one after the other
+  int segment_rows = 4096;  ///< most rows of a segment; has no effect on any result
+  bool keep_extra = true;   ///< whether columns without a canonical meaning are handed out
 };
 
-/// The rows of a file as joint log: columns mapped to channels in SI, rows with unusable time left out.
+/// The rows of a file as a joint log: columns mapped to channels in SI, rows without a usable time dropped.
 class MappedSource : public LogSource {
  public:
   /// Throws like match_columns().
   MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options);
 
-  /// At the end throws Error(input) when not a single row was usable.
+  /// Throws Error(input) at the end if no row was usable.
   bool next(Log& segment) override;
   void rewind() override;
   const LogIdentity& identity() const override { return identity_; }
@@ -44,18 +44,18 @@ class MappedSource : public LogSource {
   std::unique_ptr<RawReader> reader_;
   MappedSourceOptions options_;
   Matching matching_;
-  std::vector<int> uses_;  ///< of each raw column
+  std::vector<int> uses_;  ///< number of uses of each raw column
   RawBlock block_;
   RowOrder order_;
   LogIdentity identity_;
   SparseRows sparse_rows_;
-  Log rows_;  ///< of a block
+  Log rows_;  ///< rows of a block
   std::int64_t rows_kept_ = 0;
   bool at_end_ = false;
-  bool epoch_found_ = false;  ///< or looked for
+  bool epoch_found_ = false;  ///< true once find_epoch() has run
   Issues cleaning_issues_;
-  mutable Issues issues_;          ///< gathered when asked for
-  mutable bool gathered_ = false;  ///< whether issues_ holds all so far
+  mutable Issues issues_;          ///< gathered on demand
+  mutable bool gathered_ = false;  ///< whether issues_ is up to date
 };
 
 }  // namespace faultline

@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// A log that is already in memory (simulated, or an excerpt), handed out in segments of `segment_rows`.
+/// A log in memory (simulated, or a stretch of another log), handed out in segments of `segment_rows`.
 class MemorySource : public LogSource {
  public:
   explicit MemorySource(Log log, std::string name = "memory", int segment_rows = 4096);

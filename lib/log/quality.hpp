@@ -13,15 +13,15 @@
 
 namespace faultline {
 
-/// Code of the issue that one factor lies between positions, velocities and time of most joints.
+/// Code of the issue that positions, velocities and time of most joints differ by one common factor.
 inline constexpr const char* kScaledMotion = "motion_scaled";
 
-/// One channel over the whole log.
+/// Summary of one channel over the whole log.
 struct ChannelSummary {
-  std::string name{};  ///< canonical, or the column's own for an extra channel
-  std::string unit{};  ///< of an extra channel; canonical ones are SI
+  std::string name{};  ///< canonical, or the name of the column for an extra channel
+  std::string unit{};  ///< unit of an extra channel; canonical ones are SI
   bool canonical = true;
-  double min = std::numeric_limits<double>::infinity();  ///< above max when there is no value
+  double min = std::numeric_limits<double>::infinity();  ///< infinity, above max, if there is no value
   double max = -std::numeric_limits<double>::infinity();
   std::int64_t values = 0;
   std::int64_t missing = 0;
@@ -29,7 +29,7 @@ struct ChannelSummary {
   double first_missing_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t at_min = 0;  ///< values equal to min
   std::int64_t at_max = 0;
-  double path = 0.0;  ///< sum of the steps from value to value
+  double path = 0.0;  ///< sum of the absolute steps from value to value
   double last = std::numeric_limits<double>::quiet_NaN();
 
   bool constant() const { return values > 1 && min == max; }
@@ -37,28 +37,28 @@ struct ChannelSummary {
 
 struct QualityOptions {
   TimeAxisOptions time{};
-  /// A position that spans more, or lies beyond 5 times this, is hardly rad; a joint that a fault lets go may
-  /// turn a few times.
+  /// A position that spans more, or lies beyond 5 times this, is hardly in rad; the limit leaves room for a
+  /// joint that turns a few times after a fault has released it.
   double position_span = 20.0;
-  double slide_span = 10.0;       ///< the same, hardly m
+  double slide_span = 10.0;       ///< the same for m
   double fastest = 50.0;          ///< a velocity beyond it is hardly in rad/s or m/s
   double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
-  std::vector<bool> slides{};     ///< of each joint, whether it slides (its unit is m); empty when not known
-  std::vector<LogRun> runs{};     ///< of the log's clock: what lies between two of them is no gap
-  double saturated_share = 0.01;  ///< of a torque's values at its largest or smallest one, at least 20
+  std::vector<bool> slides{};     ///< whether each joint slides (its unit is m); empty if unknown
+  std::vector<LogRun> runs{};     ///< runs of the log's clock: the step between two of them is no gap
+  double saturated_share = 0.01;  ///< least share of torque values at the largest or smallest; at least 20
 };
 
-/// What a look at all rows told; complete after the last segment.
+/// Result of the quality pass over all rows; complete after the last segment.
 struct LogQuality {
   TimeAxis time;
-  std::vector<ChannelSummary> channels;     ///< t left out; canonical ones first
-  std::vector<VelocityAgreement> velocity;  ///< of each joint; empty without velocities
+  std::vector<ChannelSummary> channels;     ///< without t; canonical ones first
+  std::vector<VelocityAgreement> velocity;  ///< for each joint; empty without velocities
   Issues issues;  ///< time_gap, time_jitter, missing_values, constant_channel, saturated_channel,
                   ///< velocity_contradicts_position, sample_period_contradicts_motion, motion_scaled,
                   ///< unit_implausible
 };
 
-/// What the look carries from segment to segment.
+/// State of the quality pass between segments.
 struct QualityState {
   TimeAxisPass time;
   std::vector<ChannelSummary> channels;

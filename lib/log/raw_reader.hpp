@@ -12,44 +12,44 @@
 
 namespace faultline {
 
-/// A column as the file calls it; unit empty when the file does not tell.
+/// A column under its name in the file; unit empty if the file gives none.
 struct RawColumn {
   std::string name;
   std::string unit;
-  /// What the file says that it is, as a ROS JointState does; most files leave that to the name.
+  /// The channel that the file itself states, as a ROS JointState does; most files leave that to the name.
   std::optional<Channel> meaning{};
-  bool unit_assumed = false;  ///< the values showed `unit`, see counted_time(), not the file
+  bool unit_assumed = false;  ///< `unit` was inferred from the values, see counted_time()
 };
 
-/// Consecutive rows of a file, one vector a column, of `rows` values. A cell without a number is NaN.
+/// Consecutive rows of a file: one vector of `rows` values for each column. A cell without a number is NaN.
 struct RawBlock {
   std::int64_t first_row = 0;  ///< data row of the first one, from 0
   int rows = 0;
   std::vector<std::vector<double>> columns;
 };
 
-/// What a file format has to offer: named columns of numbers in blocks of bounded size. Channel meaning,
-/// units and time order are judged later, by MappedSource.
+/// Interface of a file format: named columns of numbers in blocks of bounded size. MappedSource assigns
+/// channels and units and checks the order of times.
 class RawReader {
  public:
   virtual ~RawReader() = default;
   virtual const std::vector<RawColumn>& columns() const = 0;
-  /// Of a recording of messages, which part is the log; before anything else. Its columns may be others then.
+  /// Chooses the part of a recording of messages that is the log. To be called first: columns() may change.
   virtual void choose(const RecordingChoice&) {}
-  /// Columns that are not wanted need not be read; their vectors are then empty. All are wanted at first.
+  /// Selects the columns to read; the vectors of the others may be empty. All are selected at first.
   virtual void want(const std::vector<bool>& columns) = 0;
-  /// At most `max_rows` rows, in the block's own storage; false after the last row.
+  /// Reads at most `max_rows` rows into the block, reusing its storage; returns false after the last row.
   virtual bool next(RawBlock& block, int max_rows) = 0;
   virtual void rewind() = 0;
   /// `rows_read` counts the rows handed out and those in issues().rows_dropped().
   virtual const LogIdentity& identity() const = 0;
-  /// Channels are named as the file names its columns.
+  /// Issues name a channel by the column name in the file.
   virtual const Issues& issues() const = 0;
-  /// True when the columns are canonical channels in SI already, so that no column map applies.
+  /// Whether the columns are canonical channels in SI already, so that no column map applies.
   virtual bool canonical() const { return false; }
-  /// True when rows hold some of the signals only, see SparseRows.
+  /// Whether each row holds only some of the signals, see SparseRows.
   virtual bool sparse() const { return false; }
-  /// Share of the file read so far, 0 to 1.
+  /// Returns the share of the file read so far, 0 to 1.
   virtual double share_read() const = 0;
 };
 

@@ -13,15 +13,15 @@
 namespace faultline {
 
 struct RememberOptions {
-  std::int64_t budget_bytes = std::int64_t{1} << 30;  ///< of all logs that share one LogMemory, together
+  std::int64_t budget_bytes = std::int64_t{1} << 30;  ///< for all logs that share one LogMemory
 };
 
-/// The bytes that remembered logs may keep among them. Threads may share it.
+/// Budget of bytes shared by remembered logs; thread-safe.
 class LogMemory {
  public:
   explicit LogMemory(const RememberOptions& options = {}) : free_bytes_(options.budget_bytes) {}
 
-  /// False, and nothing is taken, when fewer bytes are left.
+  /// Reserves bytes; returns false, and reserves nothing, if fewer are free.
   bool take(std::int64_t bytes);
   void give_back(std::int64_t bytes) { free_bytes_ += bytes; }
   std::int64_t free_bytes() const { return free_bytes_; }
@@ -30,14 +30,14 @@ class LogMemory {
   std::atomic<std::int64_t> free_bytes_;
 };
 
-/// A log that is read several times: its segments stay in memory when they are read first, and come from
-/// there after rewind(), also when not all of them had been read by then. A log that does not fit into the
-/// memory keeps nothing and is read from its source each time. Segments, identity() and issues() are at each
-/// moment those that the source would have; because they are looked at between two segments, a source that
-/// reads ahead in a thread of its own goes around this one, not into it.
+/// A log that is read several times: its segments are kept in memory at the first reading and come from
+/// memory after rewind(), even if not all of them had been read by then. A log that does not fit into the
+/// memory keeps nothing and is read from its source each time. Segments, identity() and issues() equal those
+/// of the source at each moment; as this needs a look at the source between two segments, a source that reads
+/// ahead in its own thread must wrap this one, not be wrapped by it.
 class RememberedSource : public LogSource {
  public:
-  /// `source` stands at its first row and is read by nobody else; it and `memory` outlive this.
+  /// `source` is at its first row and has no other reader; it and `memory` outlive this.
   RememberedSource(LogSource& source, LogMemory& memory) : source_(source), memory_(memory) {}
   RememberedSource(const RememberedSource&) = delete;
   RememberedSource& operator=(const RememberedSource&) = delete;
@@ -50,7 +50,7 @@ class RememberedSource : public LogSource {
   double share_read() const override;
 
  private:
-  /// One answer of the source, and what it told of itself before.
+  /// One result of source.next(), with the identity, issues and share read before it.
   struct Answer {
     LogIdentity identity;
     Issues issues;
@@ -67,16 +67,16 @@ class RememberedSource : public LogSource {
 
   LogSource& source_;
   LogMemory& memory_;
-  std::vector<Answer> answers_;  ///< all that the source gave; empty once forgotten
-  std::size_t position_ = 0;     ///< answers handed out since rewind()
+  std::vector<Answer> answers_;  ///< all results of the source; empty once forgotten
+  std::size_t position_ = 0;     ///< results handed out since rewind()
   std::int64_t taken_bytes_ = 0;
   bool forgotten_ = false;
 };
 
-/// Logs that are read several times, remembered together: parsed once while they fit into the memory.
+/// Logs that are read several times and share one memory: each is parsed once if it fits.
 class RememberedLogs {
  public:
-  /// `logs` stand at their first rows, are read by nobody else and outlive this.
+  /// `logs` are at their first rows, have no other reader and outlive this.
   explicit RememberedLogs(std::span<LogSource* const> logs, const RememberOptions& options = {})
       : memory_(options) {
     for (LogSource* log : logs) sources_.push_back(&remembered_.emplace_back(*log, memory_));

@@ -8,11 +8,11 @@ namespace faultline {
 enum class VelocityVerdict {
   not_judged,  ///< too little motion above the noise
   agrees,
-  scaled,       ///< follows the motion, but by a factor: a unit or a sign is wrong
-  contradicts,  ///< does not follow the motion
+  scaled,       ///< proportional to the motion by another factor than 1: a unit or a sign is wrong
+  contradicts,  ///< not proportional to the motion
 };
 
-/// How a recorded velocity goes with the recorded position: change of position = factor * integral of
+/// Agreement of a recorded velocity with the recorded position: change of position = factor * integral of
 /// velocity.
 struct VelocityAgreement {
   VelocityVerdict verdict = VelocityVerdict::not_judged;
@@ -21,8 +21,8 @@ struct VelocityAgreement {
   double correlation = 0.0;
 };
 
-/// Compares the position's change with the velocity's integral (trapezoids) over windows of 0.1 s, at least 5
-/// samples, of one joint; missing values interrupt a window.
+/// Compares the change of one joint's position with the integral of its velocity (trapezoids) over windows of
+/// 0.1 s, at least 5 samples; missing values and gaps interrupt a window.
 class VelocityCheck {
  public:
   void add(const std::vector<double>& time, const std::vector<double>& q, const std::vector<double>& dq);

@@ -9,25 +9,25 @@
 #include "lib/log/raw_reader.hpp"
 #include "lib/log/units.hpp"
 
-/// Columns in a known unit that cannot be their quantity's, such as a current where a torque belongs.
+/// Columns in a known unit of the wrong dimension, such as a current in the place of a torque.
 namespace faultline {
 
-/// Whether numbers in that dimension can be the quantity's as they are; without a unit any can.
+/// Whether the quantity can have that dimension; it can if there is no unit.
 bool measures(Dimension dimension, Quantity quantity);
 
-/// To SI, of the unit that `spec` gives; 1 without one. Throws Error(usage) for a unit that is not known and
-/// for a sign that is none.
+/// Returns the factor to SI of the unit in `spec`; 1 without one. Throws Error(usage) for an unknown unit and
+/// for a sign other than +1 and -1.
 double checked_factor(const ColumnSpec& spec, const std::string& channel);
 
-/// Throws Error(input), or Error(usage) for a unit of the robot file, when the channel's numbers are in
-/// another dimension and `spec` gives no scale; the message says what to write into the robot file.
+/// Throws Error(input), or Error(usage) for a unit of the robot file, if the column has another dimension
+/// than the channel and `spec` gives no scale; the message states what to write into the robot file.
 void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel channel, const std::string& path);
 
-/// Takes out of `families` those in another dimension for which the map has neither unit nor scale.
+/// Removes and returns the families in another dimension for which `map` has neither unit nor scale.
 std::vector<ColumnFamily> take_misfits(std::vector<ColumnFamily>& families,
                                        const std::vector<RawColumn>& columns, const ColumnMap& map);
 
-/// Why such a column was not taken, for an issue.
+/// Returns a sentence on why such a column was not used, for an issue.
 std::string not_taken_sentence(const RawColumn& column, Quantity quantity);
 
 }  // namespace faultline

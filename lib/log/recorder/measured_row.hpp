@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// What a log measured of all joints at one time: positions, then velocities, then torques, as far as the log
-/// has them.
+/// The values of all joints at one time: positions, then velocities, then torques, as far as the log has
+/// them.
 struct MeasuredRow {
   double t = 0.0;
   std::vector<double> values;
@@ -20,7 +20,7 @@ struct MeasuredRow {
   double q(int j) const { return values[j]; }
   double dq(int j) const { return has_velocity ? values[joints + j] : std::nan(""); }
 
-  /// Takes row `row` of a segment in its own storage.
+  /// Copies row `row` of a segment, reusing the storage.
   void take(const Log& log, int row) {
     t = log.time[row];
     joints = log.joints();

@@ -15,21 +15,20 @@
 
 namespace faultline {
 
-/// Code of the issue that columns of a log mean something else from a row on.
+/// Code of the issue that the columns of a log change their meaning at a row.
 inline constexpr const char* kChangedColumns = "columns_changed";
 
-/// A log without what its recorder did to it, where the log itself shows that beyond doubt:
-/// - an angle that was kept within one turn goes on (angle_unwrapped);
+/// A log without the effects of its recorder, if the log itself proves them:
+/// - an angle that was kept within one turn is continued beyond it (angle_unwrapped);
 /// - rows in which the recorder stood still or wrote zeros lose their values (recorder_stopped, rows_blank);
-/// - where all joints jump at once, further than their velocities allow, rows are missing or stand there
-///   again: the repeated ones, or the first few after the jump, are left out, so that the log has a gap there
-///   and nothing is concluded across it (rows_cut_out, block_repeated);
-/// - where two joints go on as each other, columns_changed says from which row on.
-/// A jump, a standstill or zeros of a single joint are no such thing: its sensor may be faulty.
+/// - if two or more joints jump at once, further than their velocities allow, rows are missing or repeated:
+///   the repeated ones, or the first few after the jump, are left out, so that the log has a gap there and no
+///   stage draws conclusions across it (rows_cut_out, block_repeated);
+/// - if two joints continue as each other, columns_changed names the row.
+/// A jump, a standstill or zeros of a single joint have no such effect: its sensor may be faulty.
 class MendedSource : public LogSource {
  public:
-  /// `slides`: of each joint, whether it slides and has no turns; empty when not known. `source` outlives
-  /// this.
+  /// `slides`: whether each joint slides and so has no turns; empty if unknown. `source` outlives this.
   explicit MendedSource(LogSource& source, std::vector<bool> slides = {});
   explicit MendedSource(std::unique_ptr<LogSource> source, std::vector<bool> slides = {});
 
@@ -55,10 +54,10 @@ class MendedSource : public LogSource {
   LogSource& source_;
   std::vector<bool> slides_;
 
-  Log rows_;               ///< not handed out yet; first_row as the source counts
-  int looked_at_ = 0;      ///< rows of these that the recorder's state is known of
-  int settled_ = 0;        ///< rows of these that are kept or left out for good
-  std::vector<int> kept_;  ///< of the settled ones
+  Log rows_;               ///< rows not handed out yet; first_row as in the source
+  int looked_at_ = 0;      ///< number of these for which the recorder's state is known
+  int settled_ = 0;        ///< number of these that are kept or left out for good
+  std::vector<int> kept_;  ///< settled rows that are kept
   std::int64_t handed_out_ = 0;
 
   StoppedRecorder recorder_;
@@ -66,15 +65,15 @@ class MendedSource : public LogSource {
   RowMemory memory_;
   std::vector<WrappedAngle> angles_, references_;
   MeasuredRow row_;
-  double last_t_ = std::numeric_limits<double>::quiet_NaN();  ///< of the row before
+  double last_t_ = std::numeric_limits<double>::quiet_NaN();  ///< time of the row before
   double usual_step_ = 0.0;
 
-  /// Rows that are left out because something is wrong with the ones before.
+  /// Rows that are left out after a jump, because rows before them are missing or repeated.
   struct Break {
-    std::int64_t row = 0;  ///< the first one, from 1; 0 for no break
+    std::int64_t row = 0;  ///< first one, from 1; 0 for no break
     double t = 0.0;
     std::int64_t rows = 0;
-    std::int64_t again = -1;  ///< the row, from 0, that the next one repeats if this is a block that does
+    std::int64_t again = -1;  ///< row, from 0, that the next one repeats if this is a repeated block
     std::int64_t copies = 0;
     std::string joints;
   };
@@ -83,7 +82,7 @@ class MendedSource : public LogSource {
   mutable Issues issues_;
 };
 
-/// The source, mended, and without columns that the recorder did not measure (StoppedColumnsSource).
+/// Returns the source, corrected, without values that the recorder did not measure (StoppedColumnsSource).
 std::unique_ptr<LogSource> mended(std::unique_ptr<LogSource> source, std::vector<bool> slides = {});
 
 }  // namespace faultline

@@ -8,13 +8,13 @@
 
 namespace faultline {
 
-/// Remembers the latest rows by a hash of all their digits, to find rows that stand in a log twice.
+/// Stores the latest rows by a hash of all their digits, to find repeated rows.
 class RowMemory {
  public:
   RowMemory();
-  /// Remembers a row and its index. Returns find(row) of the rows before.
+  /// Adds a row with its index. Returns find(row) among the rows before.
   std::int64_t add(const MeasuredRow& row, std::int64_t index);
-  /// Index of the latest row with the same digits; -1 for none among some kRows.
+  /// Returns the index of the latest row with the same digits; -1 for none among about kRows rows.
   std::int64_t find(const MeasuredRow& row) const;
   void forget();
 

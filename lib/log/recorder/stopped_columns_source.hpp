@@ -11,37 +11,37 @@
 
 namespace faultline {
 
-/// The columns of a log that a recorder reads together.
+/// Groups of columns that a recorder reads together.
 enum class ColumnGroup { positions, velocities, torques };
 inline constexpr int kColumnGroups = 3;
 
-/// A group of which every joint keeps all digits from one row to the next.
+/// State of a group whose joints all keep every digit from one row to the next.
 struct ColumnHold {
-  std::int64_t first_row = 0;  ///< from 0: the one that the others repeat
+  std::int64_t first_row = 0;  ///< from 0: the row that the others repeat
   std::int64_t repeats = 0;    ///< rows after it
   bool is_zero = false;        ///< all of its values are exactly zero
-  bool stopped = false;        ///< the other columns contradict it: these rows were not measured
-  bool decided = false;        ///< stays as it is until the hold ends
+  bool stopped = false;        ///< contradicted by the other columns: these rows were not measured
+  bool decided = false;        ///< final until the hold ends
 };
 
-/// Finds groups of columns in which the recorder stood still, or wrote zeros, while the others went on: the
-/// positions and velocities of two joints or more do not belong together while one of the groups keeps every
-/// digit, or velocities change while all torques keep every digit, which they did not do before. A robot at
-/// rest, or at constant speed, contradicts nothing; a single joint's sensor may be faulty and is none of
-/// this.
+/// Finds groups of columns that the recorder did not update, or wrote as zeros, while the others went on: the
+/// positions and velocities of at least two joints contradict each other while one of the groups keeps every
+/// digit, or velocities change while all torques keep every digit after having changed before. A robot at
+/// rest, or at constant speed, is no contradiction; a single joint is not judged, as its sensor may be
+/// faulty.
 class StoppedColumns {
  public:
-  /// The next row, which has this number from 0. Gives what is known of each group with it.
+  /// Takes the next row, with its number from 0. Returns the state of each group at this row.
   const std::array<ColumnHold, kColumnGroups>& take(const Log& rows, int at, std::int64_t number);
 
  private:
   struct Follow {
-    std::vector<double> last;   ///< values of the row before
-    double since_s = 0.0;       ///< time of the hold's first row
-    double usual_s = 0.0;       ///< longest short hold: of a source that is read more often than it measures
-    std::int64_t changes = 0;   ///< rows that differ from the one before
-    std::vector<double> apart;  ///< of each joint: change of the position less that of its velocity
-    std::vector<double> low, high;  ///< of each joint's velocity
+    std::vector<double> last;       ///< values of the row before
+    double since_s = 0.0;           ///< time of the first row of the hold
+    double usual_s = 0.0;           ///< longest short hold, as of a source slower than the recorder
+    std::int64_t changes = 0;       ///< rows that differ from the one before
+    std::vector<double> apart;      ///< for each joint: change of position minus integral of velocity
+    std::vector<double> low, high;  ///< least and largest velocity of each joint
   };
 
   void begin(int group, const Log& rows, int at, std::int64_t number);
@@ -55,8 +55,9 @@ class StoppedColumns {
   double t_ = 0.0;
 };
 
-/// A log in which what a recorder did not measure is missing: positions, velocities or torques of all joints
-/// in which it stood still while the others went on (positions_stopped, velocities_stopped, torques_stopped).
+/// A log without values that a recorder did not measure: positions, velocities or torques of all joints
+/// become NaN if they stopped while the others went on (positions_stopped, velocities_stopped,
+/// torques_stopped).
 class StoppedColumnsSource : public LogSource {
  public:
   explicit StoppedColumnsSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {}
@@ -75,8 +76,8 @@ class StoppedColumnsSource : public LogSource {
   std::unique_ptr<LogSource> source_;
   StoppedColumns columns_;
   std::array<ColumnHold, kColumnGroups> holds_;
-  Log rows_;                     ///< not handed out yet; first_row as the source counts
-  int judged_ = 0;               ///< of these
+  Log rows_;                     ///< rows not handed out yet; first_row as in the source
+  int judged_ = 0;               ///< number of these that were judged
   std::int64_t handed_out_ = 0;  ///< rows before these
   bool at_end_ = false;
   Issues found_;

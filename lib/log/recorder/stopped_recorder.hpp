@@ -5,19 +5,19 @@
 
 namespace faultline {
 
-/// What a row is to a recorder that may have stood still.
+/// State of a recorder at a row.
 enum class RecorderState {
-  runs,       ///< this row, and those that waited, were measured
-  undecided,  ///< the row repeats the one before; it waits for later rows
-  froze,      ///< this row, and those that waited, repeat a row in which the joints moved
-  blank,      ///< all of the row is zero, where the joints were not
+  runs,       ///< this row, and the undecided ones before, were measured
+  undecided,  ///< the row repeats the one before; later rows decide
+  froze,      ///< this row, and the undecided ones before, repeat a row in which joints moved
+  blank,      ///< the whole row is zero, and the joints were not at zero
 };
 
-/// Finds rows in which the recorder stood still while the robot went on: every joint's position, velocity and
-/// torque at once keep all their digits although the velocity says that the joints move, or all become zero
-/// from one row to the next. A single joint's encoder that is stuck is not that: other columns go on. A robot
-/// at rest is not that either: its velocity is zero, and it comes to rest on a way that the velocity allows.
-/// Rows that a faster logger repeats for a moment are measured ones.
+/// Finds rows in which the recorder stood still while the robot moved: position, velocity and torque of every
+/// joint keep all digits although the velocity is not zero, or all become zero from one row to the next. Not
+/// found are: a stuck encoder of a single joint, as other columns change; a robot at rest, as its velocity is
+/// zero and its velocities allow the positions at which it comes to rest; and rows that a faster logger
+/// repeats for a moment.
 class StoppedRecorder {
  public:
   RecorderState take(const MeasuredRow& row);
@@ -25,13 +25,13 @@ class StoppedRecorder {
  private:
   RecorderState repeated(const MeasuredRow& row);
   bool becomes_blank(const MeasuredRow& row) const;
-  /// Whether the velocities of the repeated row move the joints within this time.
+  /// Whether the velocities of the repeated row move the joints noticeably within this time.
   bool moves_within(double seconds) const;
 
   MeasuredRow last_;           ///< the row before
-  double since_ = 0.0;         ///< time of the row that is repeated
+  double since_ = 0.0;         ///< time of the repeated row
   int repeats_ = 0;            ///< rows since then
-  double usual_hold_s_ = 0.0;  ///< longest repetition after which the joints moved on
+  double usual_hold_s_ = 0.0;  ///< longest repetition after which the joints moved
   RecorderState state_ = RecorderState::runs;
 };
 

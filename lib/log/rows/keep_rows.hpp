@@ -7,14 +7,14 @@
 
 namespace faultline {
 
-/// Leaves the values of these rows, which increase; a channel without values stays so.
+/// Removes all values but those of the rows `kept`, which increase; an empty channel stays empty.
 inline void keep_rows(std::vector<double>& values, const std::vector<int>& kept) {
   if (values.empty()) return;
   for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
   values.resize(kept.size());
 }
 
-/// The same of all channels of a log.
+/// The same for all channels of a log.
 inline void keep_log_rows(Log& log, const std::vector<int>& kept) {
   for_each_joint_channel(log, [&](std::vector<double>& values, Channel) { keep_rows(values, kept); });
   for (ExtraChannel& extra : log.extra) keep_rows(extra.values, kept);

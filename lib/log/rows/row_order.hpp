@@ -13,38 +13,37 @@
 
 namespace faultline {
 
-/// A row that a recorder wrote late is put in its place if fewer rows than these with later times came before
-/// it: recorders with several threads write rows up to a
-/// second late, at up to 1 kHz.
+/// A late row is put in its place if fewer than this number of rows with later times come before it in the
+/// file: recorders with several threads write rows up to a second late, at up to 1 kHz.
 inline constexpr int kOrderWindowRows = 1000;
 
 /// Puts the rows of a file in the order of their times, which then strictly increase.
 ///
-/// A row whose time is missing, impossible or repeated is left out, as is one that leaps ahead of rows that
-/// never reach it, and one before earlier rows where no row is missing. A row before earlier ones that fits
-/// into a hole of the window goes there. Where the clock goes back to times that have rows already, and on
-/// from there, another run begins: its rows follow the run before after a gap that every stage takes for one.
-/// A time of day that passes midnight goes on. What the result is does not depend on how many rows are taken
-/// at a time.
+/// Left out are a row whose time is missing, impossible or repeated, one that leaps ahead and is never
+/// reached by later rows, and one that comes after later rows although no row is missing at its time. A late
+/// row that fits into a hole of the window goes there. If the clock goes back to times that have rows
+/// already, and on from there, another run begins: its rows follow the run before after a step that every
+/// stage treats as a gap. A time of day that passes midnight is continued. The result does not depend on how
+/// many rows are taken at a time.
 class RowOrder {
  public:
-  /// Reads every run, or the one asked for, on its own clock.
+  /// Reads every run, or only the requested one, on its own clock.
   explicit RowOrder(int wanted_run = kEveryRun) : wanted_run_(wanted_run) {}
 
-  /// The next rows of the file; row i is data row first_row + i + 1.
+  /// Takes the next rows of the file; row i is data row first_row + i + 1.
   void take(const Log& rows, std::int64_t first_row, Issues& issues);
-  /// After the last row.
+  /// To be called after the last row.
   void finish(Issues& issues);
-  /// At most `most` rows whose order is settled; false while there are none.
+  /// Hands out at most `most` rows whose order is settled; returns false if there are none.
   bool give(Log& segment, int most);
-  /// Those that began so far.
+  /// Returns the runs that have begun so far.
   std::vector<LogRun> runs() const;
 
  private:
   struct Row {
-    double time = 0.0;  ///< of all runs, one after the other
-    double own = 0.0;   ///< of its run's clock, counted on past midnight
-    int at = 0;         ///< in store_
+    double time = 0.0;  ///< with all runs one after the other
+    double own = 0.0;   ///< on the clock of its run, continued past midnight
+    int at = 0;         ///< index in store_
     std::int64_t number = 0;
   };
   struct OwnSpan {
@@ -52,14 +51,14 @@ class RowOrder {
   };
   struct LostRows {
     std::int64_t rows = 0, first = 0;
-    double step_s = 0.0;  ///< usual where they were lost
+    double step_s = 0.0;  ///< usual step at the lost rows
   };
 
-  /// Of a row with an earlier time than the newest one.
+  /// Place of a row whose time is not later than the newest one.
   struct Behind {
-    std::ptrdiff_t later = 0;  ///< in order_: the first row after it
-    bool is_repeated = false;  ///< another row has its time,
-    bool is_same = false;      ///< and its values
+    std::ptrdiff_t later = 0;  ///< index in order_ of the first row after it
+    bool is_repeated = false;  ///< another row has the same time,
+    bool is_same = false;      ///< and the same values
     bool is_far = false;
     bool fits = false;  ///< a row is missing there
   };
@@ -82,9 +81,9 @@ class RowOrder {
   bool is_same_row(int a, int b) const;
   bool is_wanted(int run) const { return wanted_run_ == kEveryRun || wanted_run_ == run; }
   double usual_step() const;
-  /// The time in the log of a stamp, which may be late and of the day before the present one.
+  /// Returns the time in the log of a stamp, which may be late and from the day before the present one.
   double placed(double stamp) const;
-  /// Time in the log less time of the present run's clock.
+  /// Time in the log minus time of the present run's clock.
   double clock_shift() const { return offset_ + 86400.0 * midnights_; }
   const LogRun& run_at(double time) const;
   void forget_given();
@@ -93,18 +92,18 @@ class RowOrder {
   void tell_lost(Issues& issues) const;
 
   int wanted_run_;
-  Log store_;                          ///< rows as they came
+  Log store_;                          ///< rows in the order of the file
   std::vector<std::int64_t> numbers_;  ///< of the rows in store_, from 1
-  int judged_ = 0;                     ///< rows of store_
-  std::vector<Row> order_;             ///< by time; those that are not given yet
+  int judged_ = 0;                     ///< rows of store_ that were judged
+  std::vector<Row> order_;             ///< by time; rows not handed out yet
   std::size_t run_begin_ = 0;          ///< in order_: first row of the present run
-  std::vector<Row> early_;             ///< ahead of what follows them, not reached yet
+  std::vector<Row> early_;             ///< rows that leap ahead of the following ones, not reached yet
   std::vector<LogRun> runs_;
   std::vector<OwnSpan> own_spans_;                            ///< of the runs, on their own clocks
   double newest_ = -std::numeric_limits<double>::infinity();  ///< of the present run
   double last_step_ = 0.0;
   double offset_ = 0.0;  ///< of the present run's clock
-  int midnights_ = 0;    ///< that the present run passed
+  int midnights_ = 0;    ///< midnights that the present run has passed
   LostRows lost_, most_lost_;
   bool finished_ = false;
 };

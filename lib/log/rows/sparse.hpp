@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// Makes a log of a table in which each row holds some of the signals only, as programs write that merge
+/// Makes a log of a table in which each row holds only some of the signals, as written by programs that merge
 /// signals of different rates.
 class SparseRows {
  public:
@@ -17,11 +17,11 @@ class SparseRows {
   struct Held {
     double value = std::numeric_limits<double>::quiet_NaN();
     double since_s = -std::numeric_limits<double>::infinity();
-    int rows = 0;  ///< that were without one since
+    int rows = 0;  ///< rows without a value since then
   };
 
-  /// Removes the rows without any position, and gives the others for each value that they lack the latest one
-  /// there was, if any. Segments follow each other.
+  /// Fills each missing value with the latest one, a joint signal for a moment only (judged_moment_s()), and
+  /// removes the rows without any position. Segments follow each other.
   void gather(Log& segment, Issues& issues);
 
  private:

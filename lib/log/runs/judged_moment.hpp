@@ -5,9 +5,9 @@
 
 namespace faultline {
 
-/// How long a joint may go without being judged, s, in a log that is called healthy: half a second, and at
-/// least ten samples. What a fault does that lasts shows as soon as the joint is judged again; what is over
-/// sooner, such as a touch, moves no robot far. Alarms take some ten samples, too (docs/how-it-works.md).
+/// Returns the longest time, s, for which a joint of a healthy log may not be judged: half a second, and at
+/// least ten samples. A lasting fault shows as soon as the joint is judged again; a shorter one, such as a
+/// touch, moves no robot far. Alarms take some ten samples, too (docs/how-it-works.md).
 inline double judged_moment_s(double sample_period_s) {
   constexpr double kMoment_s = 0.5, kMomentRows = 10.0;
   return std::max(kMoment_s, kMomentRows * sample_period_s);
@@ -19,8 +19,8 @@ inline double judged_moment_at_end_s(double sample_period_s) {
   return kMomentRows * sample_period_s;
 }
 
-/// Ten moments, s. What lacks less than a moment at a time, again and again, hides a fault as well where it
-/// adds up within them to more than kLeastUnjudgedShare.
+/// Returns the length, s, of a window of ten moments. Interruptions that are each shorter than a moment hide
+/// a fault as well if they add up to more than kLeastUnjudgedShare of a window.
 inline double judged_window_s(double sample_period_s) {
   constexpr double kMoments = 10.0;
   return kMoments * judged_moment_s(sample_period_s);

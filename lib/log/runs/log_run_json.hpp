@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// As reports of every kind hold it.
+/// Returns the run as a JSON object, the same in reports of every kind.
 nlohmann::ordered_json log_run_json(const LogRun& run);
 
 }  // namespace faultline

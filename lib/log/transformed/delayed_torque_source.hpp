@@ -8,15 +8,15 @@
 
 namespace faultline {
 
-/// A log whose torques act later (or earlier) than they are logged, told as if they acted when logged: the
-/// torque of joint j at time t is that of the log at t - delay_s[j], on a straight line between its samples.
-/// Before the first and after the last logged torque it is that one. Torques are multiplied by `gain`, where
-/// given. All else passes as it is.
+/// A log with compensated torque delays, for torques that act later (or earlier) than they are logged: the
+/// torque of joint j at time t is the logged one at t - delay_s[j], interpolated linearly between its samples
+/// and held constant before the first and after the last one. Torques are multiplied by `gain`, if given. All
+/// other channels pass unchanged.
 class DelayedTorqueSource : public LogSource {
  public:
-  /// `source` stands at its first row and is read by nobody else; it outlives this.
+  /// `source` is at its first row and has no other reader; it outlives this.
   DelayedTorqueSource(LogSource& source, std::vector<double> delay_s, std::vector<double> gain = {});
-  /// The same, keeping the source.
+  /// The same, owning the source.
   DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s,
                       std::vector<double> gain = {});
 
@@ -32,14 +32,14 @@ class DelayedTorqueSource : public LogSource {
 
   std::unique_ptr<LogSource> owned_;
   LogSource& source_;
-  std::vector<double> delay_s_, gain_;  ///< by joint; joints beyond act when logged, and as logged
-  double ahead_s_ = 0.0;                ///< how much later torque is needed than the row it is for
-  double behind_s_ = 0.0;               ///< how much earlier
+  std::vector<double> delay_s_, gain_;  ///< by joint; further joints have no delay and gain 1
+  double ahead_s_ = 0.0;                ///< s, how far the latest torque needed lies after its row
+  double behind_s_ = 0.0;               ///< s, how far the earliest one lies before it
   Log rows_;                            ///< rows not handed out yet
   bool at_end_ = false;
-  std::vector<double> time_;  ///< of the torques kept
+  std::vector<double> time_;  ///< times of the stored torques
   JointSignals tau_;
-  std::vector<std::size_t> position_;  ///< by joint: first kept torque not before what was asked last
+  std::vector<std::size_t> position_;  ///< by joint: first stored torque not before the last query
 };
 
 }  // namespace faultline

@@ -8,12 +8,12 @@
 namespace faultline {
 
 /// A log with an empty row (all values missing) for each row that is missing between two others on a regular
-/// clock, so that every stage treats a row that was lost and one that was recorded without values alike.
-/// Gaps of more than kMostEmptyRows rows, and those on a clock that jitters, stay gaps. The rows that are put
-/// in are no rows of the log: identity() and issues() count none of them.
+/// clock, so that every stage treats a lost row like one recorded without values. Gaps of more than
+/// kMostEmptyRows rows, and those on a clock with jitter, stay gaps. The inserted rows are no rows of the
+/// log: identity() and issues() do not count them.
 class EmptyRowsSource : public LogSource {
  public:
-  /// `source` stands at its first row and is read by nobody else; it outlives this.
+  /// `source` is at its first row and has no other reader; it outlives this.
   explicit EmptyRowsSource(LogSource& source) : source_(source) {}
 
   bool next(Log& segment) override;
@@ -21,7 +21,7 @@ class EmptyRowsSource : public LogSource {
   const LogIdentity& identity() const override { return source_.identity(); }
   const Issues& issues() const override { return source_.issues(); }
   double share_read() const override { return source_.share_read(); }
-  /// So far.
+  /// Returns the number of rows inserted so far.
   std::int64_t rows_put_in() const { return given_ - rows_; }
 
  private:
@@ -30,14 +30,14 @@ class EmptyRowsSource : public LogSource {
   void follow_clock(double step);
 
   LogSource& source_;
-  Log head_;              ///< first rows, which say what the period is; handed out first
-  bool started_ = false;  ///< whether they were read
+  Log head_;              ///< first rows, from which the period is estimated; handed out first
+  bool started_ = false;  ///< whether head_ was read
   double period_s_ = 0.0, jitter_ = 0.0, last_s_ = 0.0;  ///< jitter: mean deviation of a step, in periods
   std::int64_t rows_ = 0, given_ = 0;
-  std::int64_t off_grid_ = 0;  ///< steps so far that are no whole number of periods
+  std::int64_t off_grid_ = 0;  ///< steps so far that are not a whole number of periods
 };
 
-/// After more rows without a measurement they are a gap.
+/// Most missing rows that are inserted; more of them are a gap.
 inline constexpr int kMostEmptyRows = 4;
 
 }  // namespace faultline

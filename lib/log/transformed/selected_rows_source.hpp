@@ -14,11 +14,11 @@ struct RowRange {
   std::int64_t end = 0;
 };
 
-/// A log of which only some rows are told; the others are a gap. All else passes as it is.
+/// A log that hands out only some of its rows; the others are a gap. All else passes unchanged.
 class SelectedRowsSource : public LogSource {
  public:
-  /// `source` stands at its first row and is read by nobody else; it outlives this. The ranges ascend and do
-  /// not overlap.
+  /// `source` is at its first row and has no other reader; it outlives this. The ranges ascend and do not
+  /// overlap.
   SelectedRowsSource(LogSource& source, std::vector<RowRange> ranges);
 
   bool next(Log& segment) override;
@@ -30,8 +30,8 @@ class SelectedRowsSource : public LogSource {
  private:
   LogSource& source_;
   std::vector<RowRange> ranges_;
-  Log rows_;               ///< the segment of the source that is being told
-  std::int64_t told_ = 0;  ///< rows before this one are done with
+  Log rows_;               ///< the segment of the source that is being handed out
+  std::int64_t told_ = 0;  ///< rows before this one are handed out or skipped
   std::size_t range_ = 0;
 };
 
