@@ -40,7 +40,7 @@ Kind kind_of(char c) {
   return std::isalpha(byte) ? Kind::lower : Kind::other;
 }
 
-/// Lower-case words and numbers of a name; "actualPos_12" gives actual, pos, 12.
+/// Returns the words of a name, in lower case, and its numbers; "actualPos_12" gives actual, pos, 12.
 std::vector<std::string> tokens_of(const std::string& name) {
   std::vector<std::string> tokens;
   Kind before = Kind::other;
@@ -68,7 +68,7 @@ bool is_measurement(const std::string& word) {
   return among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm"});
 }
 
-/// Words of columns that are near a joint signal but are none.
+/// Words of columns that are related to a joint signal but are none.
 bool is_something_else(const std::string& word) {
   return among(word, {"error",   "err",      "acc",       "accel",       "acceleration", "accelerations",
                       "qdd",     "ddq",      "tcp",       "pose",        "tool",         "max",
@@ -81,7 +81,7 @@ bool is_something_else(const std::string& word) {
                       "roll", "pitch", "yaw"});
 }
 
-/// Words that say how, or where at a joint, something was measured.
+/// Words on how, or at which side of a joint, something was measured.
 bool is_decoration(const std::string& word) {
   return is_reference(word) || is_measurement(word) ||
          among(word, {"con",   "ctrl",  "control", "filt", "filtered", "lp",    "raw",
@@ -112,7 +112,7 @@ int fitness_of(const std::vector<std::string>& words, Quantity quantity) {
   return fitness;
 }
 
-/// The last part of a path-like name without decoration: "/a/header/Time" gives "time".
+/// Returns the last part of a path-like name without decoration: "/a/header/Time" gives "time".
 std::string leaf_of(const std::string& name) {
   const auto slash = name.find_last_of("/.");
   std::string leaf;

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// The first of the highest rank among the families that are meant; null for none.
+/// Returns the first family with the highest rank among those that `is_meant` accepts; null for none.
 template <typename IsMeant, typename Rank>
 const ColumnFamily* best_of(const std::vector<ColumnFamily>& families, IsMeant is_meant, Rank rank) {
   const ColumnFamily* best = nullptr;

@@ -29,7 +29,7 @@ std::string listed(const std::vector<std::string>& columns) {
   return found;
 }
 
-/// That none of the columns is this channel, and how to name one in the robot file.
+/// Returns a sentence that no column is this channel, and how to name one in the robot file.
 std::string missing_column_sentence(const std::vector<std::string>& columns, const std::string& channel,
                                     const std::string& meaning) {
   return "no column for the " + meaning + " (" + channel + ") was found; the columns are " + listed(columns) +
@@ -37,8 +37,8 @@ std::string missing_column_sentence(const std::vector<std::string>& columns, con
          (channel == "t" ? "; without any, t = {name = \"@row\", scale = SAMPLE_PERIOD_IN_S}" : "");
 }
 
-/// That a joint has no position, though the column `later` shows that the log has it or a later one, and how
-/// to name one in the robot file.
+/// Returns a sentence that a joint has no position, though the column `later` shows that the log has it or a
+/// later one, and how to name one in the robot file.
 std::string missing_joint_sentence(const std::vector<std::string>& columns, int joint,
                                    const std::string& later) {
   const std::string channel = to_string({Quantity::q, joint});
@@ -47,14 +47,14 @@ std::string missing_joint_sentence(const std::vector<std::string>& columns, int 
          listed(columns) + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
 }
 
-/// That the header of a column has a unit that is not known.
+/// Returns a sentence that the header of a column has an unknown unit.
 std::string unknown_unit_sentence(const std::string& column, const std::string& unit,
                                   const std::string& channel) {
   return "column " + quoted(column) + " has the unit " + quoted(unit) +
          ", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " + channel;
 }
 
-/// Which column was taken as a quantity, and which others could be meant; empty when there are none.
+/// Returns a sentence on the column used for a quantity and its alternatives; empty if there are none.
 std::string rivals_sentence(const std::vector<std::string>& columns,
                             const std::vector<ColumnFamily>& families, Quantity quantity,
                             const ColumnFamily& chosen) {
@@ -71,7 +71,7 @@ std::string rivals_sentence(const std::vector<std::string>& columns,
          " could be meant as well. To choose, name it in the robot file: [log.columns] " + channel;
 }
 
-/// In which order joints that have words for names were taken.
+/// Returns a sentence on the order in which joints with words for names were taken.
 std::string joint_order_sentence(const std::vector<std::string>& columns,
                                  const std::vector<std::pair<Channel, int>>& joints) {
   std::string names;
@@ -154,7 +154,7 @@ class Matcher {
     }
   }
 
-  /// What the file itself says of its columns, unless the robot file says otherwise.
+  /// Adds the channels that the file itself states, unless the robot file names columns of the quantity.
   void match_told() {
     for (int i = 0; i < std::ssize(columns_); ++i) {
       const auto& meaning = columns_[i].meaning;
@@ -164,7 +164,7 @@ class Matcher {
     }
   }
 
-  /// Joints that have words for names, where no other way of telling them is used.
+  /// Adds joints whose columns have words for names, if nothing else identifies the joints.
   void match_named_joints() {
     if (told_.count(Quantity::q) || column_named("q1") >= 0 || named_in_map(Quantity::q)) return;
     const auto joints = named_joints(names_, [&](int column) { return !used_.count(column); });
@@ -186,7 +186,7 @@ class Matcher {
     used_.insert(pair->nanoseconds);
   }
 
-  /// None where the file itself says which columns are the joints'.
+  /// Finds the families of columns; none if the file itself states which columns are the joints'.
   void find_families() {
     const auto is_free = [&](int column) {
       return !used_.count(column) || canonical_channel(names_[column]).has_value();
@@ -195,8 +195,8 @@ class Matcher {
     misfits_ = take_misfits(families_, columns_, map_);
   }
 
-  /// A position or torque that is there, but in another dimension, is asked about; others are left out and
-  /// told.
+  /// Throws if a position or torque exists only in another dimension; notes other quantities that were left
+  /// out for this reason.
   void judge_misfits(Quantity quantity) {
     for (const ColumnFamily& family : misfits_) {
       const bool meant = quantity == Quantity::tau ? is_torque(family.quantity)
@@ -210,7 +210,7 @@ class Matcher {
     }
   }
 
-  /// A quantity that the robot file names for one joint is named there for all.
+  /// Whether the robot file names a column of the quantity; it then names those of all joints.
   bool named_in_map(Quantity quantity) const {
     return std::any_of(map_.begin(), map_.end(), [&](const auto& entry) {
       const auto channel = canonical_channel(entry.first);
@@ -218,7 +218,7 @@ class Matcher {
     });
   }
 
-  /// Joints beside those that the robot file names by their usual names have theirs.
+  /// Adds further joints by their usual names if the robot file names a joint by its usual name.
   void match_usual_names(Quantity quantity) {
     const bool usual = std::any_of(taken_.begin(), taken_.end(), [&](const Channel& channel) {
       const int column = column_named(to_string(channel));
@@ -244,7 +244,7 @@ class Matcher {
     return best_family(families_, quantity, usable);
   }
 
-  /// Whether the name of the torque that was taken says commanded or measured; tau where it says neither.
+  /// Returns the commanded or measured torque if the name of the column for tau says so, else tau.
   Quantity meaning_of_tau() const {
     for (const ChannelSource& source : matching_.channels)
       if (source.channel.quantity == Quantity::tau && source.column >= 0)
@@ -276,14 +276,14 @@ class Matcher {
          missing_joint_sentence(names_, joint, later));
   }
 
-  /// Positions behind a joint that has none.
+  /// Notes positions behind a joint without one.
   void note_later_positions(const ColumnFamily& family) {
     const auto later = family.column_of.upper_bound(first_of(family) + matching_.joints);
     if (!family.numbered || later == family.column_of.end() || later->first > kMostJoints) return;
     note_missing_joint(names_[later->second], Severity::severe);
   }
 
-  /// A velocity or torque by its usual name of the joint behind the last position.
+  /// Notes a velocity or torque with a usual name for the joint behind the last position.
   void note_last_position() {
     const int joint = matching_.joints + 1;
     if (matching_.issues.find("channel_missing", to_string({Quantity::q, joint}))) return;
@@ -316,7 +316,7 @@ class Matcher {
       if (!used.count(i)) matching_.extra.push_back(i);
   }
 
-  /// A quantity that some joints have and others lack.
+  /// Notes joints that lack a quantity which other joints have.
   void note_gaps(Quantity quantity) {
     auto has = [&](int joint) { return taken_.count({quantity, joint}) > 0; };
     int present = 0;
@@ -334,10 +334,10 @@ class Matcher {
   const std::string& path_;
   std::vector<std::string> names_;
   std::vector<ColumnFamily> families_;
-  std::vector<ColumnFamily> misfits_;  ///< whose units say that they are no such quantity
+  std::vector<ColumnFamily> misfits_;  ///< families in a unit of another dimension than their quantity
   int first_position_ = 1;             ///< the number of the first position, 0 or 1
   std::set<Channel> taken_;
-  std::set<Quantity> told_;  ///< what the file itself names
+  std::set<Quantity> told_;  ///< quantities that the file itself states
   std::set<int> used_;
   Matching matching_;
 };

@@ -16,14 +16,14 @@ namespace faultline {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-/// Rates at which joints are logged, Hz.
+/// Lowest, highest and typical rate, Hz, at which joints are logged.
 constexpr double kSlowest = 2.0, kFastest = 2e4, kUsual = 200.0;
-/// Hz; seconds that are counted so slowly are believed where nothing else indicates the unit.
+/// Hz; whole seconds from this rate on are accepted if nothing indicates another unit.
 constexpr double kSlowestOfSeconds = 0.1;
 constexpr std::size_t kLeastRows = 10;
-/// From the unit that the motion indicates: a factor between two units is 1000.
+/// Largest ratio to the unit that the motion indicates: a factor between two units is 1000.
 constexpr double kSameUnit = 10.0;
-constexpr std::array kCounts{"", "ms", "us", "ns"};  ///< each a thousand times finer than the one before
+constexpr std::array kCounts{"", "ms", "us", "ns"};  ///< each 1000 times finer than the one before
 
 double rate_of(double step, const char* unit) { return 1.0 / (step * *si_factor(unit)); }
 
@@ -33,7 +33,7 @@ bool counts_whole_numbers(const std::vector<double>& time) {
   return std::all_of(time.begin(), time.end(), [](double t) { return t == std::floor(t); });
 }
 
-/// s per count by which a joint's position moves as its velocity says; NaN when it does not move.
+/// Estimates the seconds per count from a joint's position and velocity; NaN if it does not move.
 double seconds_by(const std::vector<double>& time, const std::vector<double>& q,
                   const std::vector<double>& dq) {
   double moved = 0.0, integrated = 0.0;
@@ -46,7 +46,7 @@ double seconds_by(const std::vector<double>& time, const std::vector<double>& q,
   return integrated > 0.0 && moved > 0.0 ? moved / integrated : kUnknown;
 }
 
-/// The median of the estimates of the joints; NaN where no joint has one.
+/// Returns the median of the estimates of the joints; NaN if no joint has one.
 double seconds_by_motion(const std::vector<double>& time, const std::vector<NamedValues>& columns) {
   std::vector<double> estimates;
   for (const NamedValues& q : columns) {

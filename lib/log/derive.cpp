@@ -32,7 +32,7 @@ class VelocitySource : public LogSource {
   int half_width_;
   Log incoming_;
   Log around_;    ///< rows handed out that the next ones need, then rows not handed out
-  int done_ = 0;  ///< of these, handed out
+  int done_ = 0;  ///< number of these that were handed out
   bool at_end_ = false;
 };
 

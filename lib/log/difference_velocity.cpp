@@ -10,9 +10,9 @@ namespace faultline {
 namespace {
 
 constexpr int kVelocityFewestRows = 8;
-constexpr std::size_t kEnoughRows = 1000;  // in motion
-constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q
-constexpr double kMostRows = 0.8;   // share of the rows that have to agree: where rows were lost, some do not
+constexpr std::size_t kEnoughRows = 1000;  // rows in motion that suffice
+constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q: largest distance of dq
+constexpr double kMostRows = 0.8;   // share of the rows that have to agree: next to lost rows, some do not
 constexpr double kBendGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance of white noise
 constexpr double kMedianOfAbs = 0.6745;  // median of |x| over the standard deviation of a normal x
 
@@ -23,13 +23,13 @@ struct Joint {
   int rows() const { return static_cast<int>(q.size()); }
 };
 
-/// Which rows a difference reaches over, and by whose clock.
+/// The rows between which a difference is taken, and whether its time is the period or the stamps.
 struct Form {
   int back, ahead;
   bool by_period;
 };
 
-/// What most rows keep to: the distance of dq from a difference of q.
+/// Returns the distance of dq from a difference of q that kMostRows keep; infinity without motion.
 double distance(const Joint& m, const Form& form) {
   std::vector<double> distances;
   for (int k = 1; k + 1 < m.rows() && distances.size() < kEnoughRows; ++k) {
@@ -42,7 +42,7 @@ double distance(const Joint& m, const Form& form) {
   return distances.empty() ? INFINITY : lower_quantile(distances, kMostRows);
 }
 
-/// White noise of a difference of q as its third differences show it.
+/// Estimates the white noise of a difference of q from the third differences of q.
 double difference_noise(const Joint& m) {
   std::vector<double> bends;
   for (int k = 3; k < m.rows(); ++k) {

@@ -82,7 +82,7 @@ void MappedSource::refuse_no_rows() const {
                   log.rows_read, issues().empty() ? "" : issues().all().front().message));
 }
 
-/// Puts the next block among the rows to be ordered; false when there is none.
+/// Passes the next block of rows to the ordering; returns false if there is none.
 bool MappedSource::fill() {
   if (at_end_) return false;
   at_end_ = !reader_->next(block_, options_.segment_rows);
@@ -125,7 +125,7 @@ void MappedSource::take_block(Log& segment) {
   }
 }
 
-/// A time that only counts from 1970 in a unit that nobody told gets it by its first row.
+/// Sets the unit of a time that can only count from 1970, and has none in the file, by its first row.
 void MappedSource::find_epoch() {
   epoch_found_ = true;
   ChannelSource& time = matching_.channels.front();
@@ -153,8 +153,8 @@ void MappedSource::take(const ChannelSource& source, std::vector<double>& values
   for (std::size_t i = 0; i < values.size(); ++i) values[i] += 1e-9 * nanoseconds[i];
 }
 
-/// All issues so far in the order of their first rows, whatever the size of the segments; the reader's under
-/// the names of the channels their columns became.
+/// Gathers all issues so far in the order of their first rows, whatever the size of the segments; those of
+/// the reader get the names of the channels.
 void MappedSource::gather_issues() const {
   const std::vector<RawColumn>& columns = reader_->columns();
   std::unordered_map<std::string_view, Channel> channel_of;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSegmentsAhead = 4;
 
-/// A ring of segments between the reading thread and the taker.
+/// A ring of segments between the reading thread and the caller of next().
 class PrefetchSource : public LogSource {
  public:
   explicit PrefetchSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {}
@@ -49,7 +49,7 @@ class PrefetchSource : public LogSource {
   const Issues& issues() const override { return source_->issues(); }
 
  private:
-  /// False when no thread is to be had.
+  /// Returns false if no thread can be started.
   bool start_reader() {
     try {
       reader_ = std::thread([this] { read(); });

@@ -56,7 +56,7 @@ double RememberedSource::share_read() const {
   return from_memory() ? answers_[position_].share_read : source_.share_read();
 }
 
-/// The next segment from the source, which is remembered if it fits.
+/// Reads the next segment from the source and stores it if it fits.
 bool RememberedSource::read(Log& segment) {
   Answer answer{source_.identity(), source_.issues(), source_.share_read(), false, {}};
   try {
@@ -78,7 +78,7 @@ bool RememberedSource::read(Log& segment) {
   return !at_end();
 }
 
-/// A file that was read to its end knows its hash from then on, also when it is rewound.
+/// Sets the hash in all stored identities, as it is known once the file was read to its end.
 void RememberedSource::fill_in_hash() {
   for (Answer& answer : answers_) answer.identity.sha256 = source_.identity().sha256;
 }

@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kGapPeriods = 3.0;  // of either log: a longer step is a gap
+constexpr double kGapPeriods = 3.0;  // of the longer of both periods: a longer step is a gap
 
 const ResampleOptions& checked(const ResampleOptions& options) {
   if (!(options.period_s > 0.0) || !std::isfinite(options.period_s))
@@ -19,7 +19,7 @@ const ResampleOptions& checked(const ResampleOptions& options) {
   return options;
 }
 
-/// Value at `share` of the way from row `left` to the next.
+/// Returns the value at `share` of the way from row `left` to the next.
 double between(const std::vector<double>& values, int left, double share) {
   const auto at = static_cast<std::size_t>(left);
   return share == 0.0 ? values[at] : values[at] + share * (values[at + 1] - values[at]);
@@ -64,7 +64,7 @@ bool ResampledSource::is_gap(double span) const {
   return usual_ > 0.0 && span > kGapPeriods * std::max(options_.period_s, usual_);
 }
 
-/// Finds the new rows of which all that they need is there.
+/// Finds the new rows for which all required recorded rows are present.
 void ResampledSource::place_rows() {
   rows_.clear();
   const auto& time = recorded_.time;
@@ -83,7 +83,7 @@ void ResampledSource::place_rows() {
     rows_.push_back({time.back(), recorded_.rows() - 1, 0.0}), ++step_;
 }
 
-/// New rows from a recorded row up to, not including, the next.
+/// Adds the new rows from a recorded row up to, not including, the next.
 void ResampledSource::place_between(int left) {
   const double from = recorded_.time[left], to = recorded_.time[left + 1];
   for (double t = next_time(); t < to; t = next_time()) {
@@ -93,7 +93,7 @@ void ResampledSource::place_between(int left) {
   }
 }
 
-/// Mean over one period around a row, of steps that are known; each step has the mean of its torque.
+/// Returns the mean over one period around a row, of the steps outside gaps; each step has its mean torque.
 double ResampledSource::mean_torque(const std::vector<double>& tau, const NewRow& row) const {
   const auto& time = recorded_.time;
   const double begin = row.time - before(), end = row.time + after(), phi = options_.torque_phi;
@@ -125,7 +125,7 @@ void ResampledSource::make(Log& segment) const {
   }
 }
 
-/// Keeps the rows that the next new row may look back to.
+/// Keeps the rows that the next new row may need.
 void ResampledSource::forget_old_rows() {
   int first = placed_;
   while (first > 0 && recorded_.time[first] > next_time() - before() - options_.period_s) --first;

@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of the length of a gap
+constexpr double kRounding = 1e-6;  // relative to the length of a gap
 
 }  // namespace
 

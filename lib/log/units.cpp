@@ -14,7 +14,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 using Units = std::map<std::string, Unit, std::less<>>;
 
-/// Each unit as plain() writes it, also as German, French, Spanish and Italian write it.
+/// Returns each unit in the form that plain() returns, also by German, French, Spanish and Italian names.
 Units known_units() {
   Units units;
   const auto add = [&](Dimension dimension, double factor, std::initializer_list<const char*> names) {
@@ -66,7 +66,7 @@ Units known_units() {
   return units;
 }
 
-/// Lower case without blanks and product signs, "N m" and "N*m" becoming "nm".
+/// Returns lower case without blanks, '*' and '.', so that "N m" and "N*m" become "nm".
 std::string plain(std::string_view unit) {
   std::string text;
   for (const char c : unit)
@@ -75,7 +75,7 @@ std::string plain(std::string_view unit) {
   return text;
 }
 
-/// Units that are one after an underscore too; "_m", "_a" or "_min" more often mean something else.
+/// Whether it is a unit even after an underscore; "_m", "_a" or "_min" more often mean something else.
 bool is_clear_suffix(std::string_view unit) {
   for (const char* known :
        {"s",      "sec",    "ms",      "msec", "us",    "usec",  "ns",    "nsec", "deg", "micros",

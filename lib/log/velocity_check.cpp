@@ -10,9 +10,9 @@ namespace {
 constexpr double kWindow_s = 0.1;
 constexpr int kWindowSamples = 5;
 constexpr int kFewestWindows = 5;
-/// Motion over a window must exceed the noise so many times to be judged.
+/// Least ratio of the motion over a window to its noise for a verdict.
 constexpr double kAboveNoise = 10.0;
-/// Motion over a window that is judged at the least, rad or m: below it lie rounding and drift.
+/// Least motion over a window for a verdict, rad or m: below it lie rounding and drift.
 constexpr double kLeastMotion = 1e-4;
 constexpr double kFactorTolerance = 1.25;
 constexpr double kLowestCorrelation = 0.5;
@@ -32,7 +32,7 @@ void VelocityCheck::add_sample(double t, double q, double dq) {
   }
   const double since = t - last_.t;
   if (run_ > 0 && usual_step_ > 0.0 && since > kCheckGapSteps * usual_step_)
-    run_ = window_samples_ = 0;  // nothing is known of the motion across a gap
+    run_ = window_samples_ = 0;  // the motion across a gap is unknown
   else if (run_ > 0)
     usual_step_ = usual_step_ > 0.0 ? usual_step_ + 0.05 * (since - usual_step_) : since;
   const Sample now{t, q, dq};

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-/// A column whose name says a quantity, and the words that may be its joint's name.
+/// A column whose name contains a quantity, and the words that may be its joint's name.
 struct NamedColumn {
   int column = -1;
   NameReading reading;
@@ -24,7 +24,7 @@ std::vector<NamedColumn> read_columns(const std::vector<std::string>& names,
   return columns;
 }
 
-/// The positions that have the most columns of one kind; those of another kind are the same joints once more.
+/// Returns the positions with the most columns of one fitness; those of another fitness are the same joints.
 std::vector<NamedColumn> positions_of(const std::vector<NamedColumn>& columns) {
   std::map<int, std::vector<NamedColumn>> by_kind;
   for (const NamedColumn& column : columns)
@@ -46,7 +46,7 @@ bool are_joints(const std::vector<NamedColumn>& positions) {
   return without_number >= kLeast;
 }
 
-/// The column of a quantity that fits a joint best; -1 for none.
+/// Returns the column of a quantity that fits a joint best; -1 for none.
 int best_column(const std::vector<NamedColumn>& columns, Quantity quantity, const std::string& joint) {
   const NamedColumn* best = nullptr;
   for (const NamedColumn& column : columns)

@@ -29,7 +29,7 @@ const char* units_of(Quantity quantity) {
   return "";
 }
 
-/// What a scale is counted for: one SI unit of the dimension, since the unit's own factor comes first.
+/// Returns the quantity that a scale multiplies: one SI unit, since the factor of the unit comes first.
 const char* one_of(Dimension dimension) {
   switch (dimension) {
     case Dimension::none:

@@ -13,12 +13,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kOneMotion = 0.98;   // correlation of position and velocity, for their factor to mean much
-constexpr double kLeastOff = 0.004;   // of the factor from 1; velocities of healthy logs are less off
-constexpr double kSurelyOff = 5.0;    // standard deviations
-constexpr double kOneScale = 0.002;   // between two joints; rows far apart make no more of one integral
-constexpr double kScaleDoubts = 3.0;  // standard deviations, likewise
-constexpr double kShareAlike = 2.0 / 3;  // of those that move: a sensor of one may drift
+constexpr double kOneMotion = 0.98;      // least correlation of position and velocity for a meaningful factor
+constexpr double kLeastOff = 0.004;      // difference of the factor from 1; healthy logs have less
+constexpr double kSurelyOff = 5.0;       // the same in standard deviations
+constexpr double kOneScale = 0.002;      // between factors of two joints; errors of integrals are smaller
+constexpr double kScaleDoubts = 3.0;     // the same in standard deviations
+constexpr double kShareAlike = 2.0 / 3;  // of the moving joints: the sensor of one may drift
 
 }  // namespace
 

@@ -13,8 +13,8 @@ namespace {
 
 /// Fewer values than this are not judged constant or saturated.
 constexpr std::int64_t kFewestValues = 20;
-constexpr double kFarAway = 5.0;       // times the largest span: so far off lies no joint
-constexpr double kOneWay = 1.2;        // path to span of a joint that turns on and on, with some noise
+constexpr double kFarAway = 5.0;       // times the largest span: no joint is that far from zero
+constexpr double kOneWay = 1.2;        // path to span of a joint that turns one way, with some noise
 constexpr double kFastTurning = 20.0;  // rad/s on average; joints of arms turn slower
 
 bool starts_with(const std::string& name, const char* prefix) { return name.rfind(prefix, 0) == 0; }
@@ -70,7 +70,7 @@ Axis axis_of(const ChannelSummary& channel, const QualityOptions& options) {
   return options.slides[joint - 1] ? Axis::slides : Axis::turns;
 }
 
-/// What a channel is in, what it may be in instead, and the unit to name as an example.
+/// The unit that a channel is taken in, the units that are more likely, and the unit to name as an example.
 struct UnitWords {
   const char* si;
   const char* likely;
@@ -89,7 +89,7 @@ UnitWords velocity_words(Axis axis) {
   return {"rad/s or m/s", "deg/s or rpm (a turning axis) or mm/s (a sliding one)", "deg/s"};
 }
 
-/// Whether a joint goes one way all the time, at a speed that a joint in rad can have.
+/// Whether a joint moves one way all the time, at a speed that a joint in rad can have.
 bool turns_on_and_on(const ChannelSummary& channel, const TimeAxis& time) {
   const double lasts = time.end_s - time.start_s;
   return channel.path <= kOneWay * (channel.max - channel.min) && channel.path <= kFastTurning * lasts;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDegrees = 57.2958;
 constexpr double kRpm = 0.104720;
-constexpr double kNear = 0.1;        // relative, for a factor to be the one that a unit gives
-constexpr double kSameFactor = 0.1;  // relative spread of the joints' factors when one thing is wrong for all
+constexpr double kNear = 0.1;        // relative, of a factor from the one that a unit gives
+constexpr double kSameFactor = 0.1;  // relative spread of the joints' factors if they have one common cause
 
 bool near(double factor, double value) { return std::abs(factor / value - 1.0) < kNear; }
 
@@ -38,8 +38,8 @@ bool is_judged(const VelocityAgreement& agreement) {
   return agreement.verdict == VelocityVerdict::agrees || agreement.verdict == VelocityVerdict::scaled;
 }
 
-/// The factor by which the positions of all moving joints, two at the least, change too fast or too slowly
-/// for their velocities; 1 when they do not agree on one.
+/// Returns the factor between positions and the integrals of velocities that all moving joints, at least two,
+/// share; 1 if they share none, or if a joint agrees or contradicts.
 double common_factor(const std::vector<VelocityAgreement>& agreements) {
   std::vector<double> factors;
   for (const VelocityAgreement& agreement : agreements) {
@@ -56,7 +56,7 @@ double common_factor(const std::vector<VelocityAgreement>& agreements) {
   return middle;
 }
 
-/// Whether units of angles explain a factor that all joints share: then none of them slides.
+/// Whether units of angles explain a factor that all joints share, which requires that none of them slides.
 bool is_of_angles(double factor, const QualityOptions& options) {
   const bool some_slide = std::count(options.slides.begin(), options.slides.end(), true) > 0;
   return !some_slide && (near(factor, kDegrees) || near(factor, 1.0 / kDegrees) || near(factor, kRpm));

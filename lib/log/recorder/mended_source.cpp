@@ -16,11 +16,11 @@
 namespace faultline {
 namespace {
 
-constexpr int kFewestJumps = 2;           // joints: the sensor of one of them may be faulty
-constexpr std::int64_t kBreakRows = 6;    // left out behind a break: after such a gap every stage begins anew
-constexpr std::int64_t kSurelyAgain = 3;  // rows in a row with all digits of earlier ones
-constexpr double kLongStep = 5.5;         // usual steps: a gap
-constexpr double kStepForgetting = 0.05;  // share of a new step in the usual one
+constexpr int kFewestJumps = 2;           // joints: the sensor of a single one may be faulty
+constexpr std::int64_t kBreakRows = 6;    // left out behind a break: every stage restarts after such a gap
+constexpr std::int64_t kSurelyAgain = 3;  // successive rows with all digits of earlier ones
+constexpr double kLongStep = 5.5;         // usual steps: longer is a gap
+constexpr double kStepForgetting = 0.05;  // weight of a new step in the usual one
 
 }  // namespace
 
@@ -64,7 +64,7 @@ bool MendedSource::next(Log& segment) {
     hand_out(segment);
     if (segment.rows() > 0) return true;
   }
-  while (settled_ < rows_.rows()) settle(settled_);  // what waited was the end of the log
+  while (settled_ < rows_.rows()) settle(settled_);  // undecided rows at the end of the log
   end_break();
   hand_out(segment);
   return segment.rows() > 0;
@@ -91,7 +91,7 @@ void MendedSource::judge_rows() {
   }
 }
 
-/// A row in which nothing was measured is kept without values, so that its time counts as not judged.
+/// Keeps a row in which nothing was measured without its values, so that its time counts as not judged.
 void MendedSource::empty_row(int row, const char* code, const std::string& what) {
   mended_.add({code, "", Severity::warning, fmt::format("row {}: {}", number_of(row), what), number_of(row),
                rows_.time[row], 1});
@@ -100,7 +100,7 @@ void MendedSource::empty_row(int row, const char* code, const std::string& what)
   ++settled_;
 }
 
-/// A row that was measured: unwrapped, and kept unless it is behind a break.
+/// Takes a measured row: unwraps it, and keeps it unless it is behind a break.
 void MendedSource::settle(int row) {
   row_.take(rows_, row);
   ++settled_;
@@ -134,8 +134,8 @@ void MendedSource::begin_break(int row, const std::vector<int>& jumped, std::int
             again ? earlier + 1 : -1, again ? 1 : 0, fmt::format("{}", fmt::join(joints, ", "))};
 }
 
-/// Whether the row is left out with those behind a break: one that repeats an earlier row like the rows
-/// before it, or one of the first few.
+/// Whether the row is left out behind a break: it repeats an earlier row as the rows before it do, or is one
+/// of the first few.
 bool MendedSource::is_behind_break() {
   if (break_.row == 0) return false;
   const bool copies = break_.again >= 0 && memory_.find(row_) == break_.again;
@@ -207,7 +207,7 @@ void MendedSource::take_usual_step(double t) {
     usual_step_ += kStepForgetting * (step - usual_step_);
 }
 
-/// The settled rows that are kept; the others stay.
+/// Hands out the settled rows that are kept; rows not settled stay.
 void MendedSource::hand_out(Log& segment) {
   const std::int64_t first = rows_.first_row;
   const int all = rows_.rows(), done = settled_;

@@ -6,12 +6,12 @@
 namespace faultline {
 namespace {
 
-constexpr int kEnoughOfJumps = 10;         // to know what is usual
-constexpr double kUsualForgetting = 0.02;  // share of a new row in what is usual
-constexpr double kTimesUsual = 20.0;       // further off than usual: no noise and no rounding
-constexpr double kLeastJump = 1e-3;        // rad or m
+constexpr int kEnoughOfJumps = 10;         // rows from which the usual distance is known
+constexpr double kUsualForgetting = 0.02;  // weight of a new row in the usual distance
+constexpr double kTimesUsual = 20.0;       // times the usual distance: more is neither noise nor rounding
+constexpr double kLeastJump = 1e-3;        // rad or m, of a jump
 constexpr double kBetweenRows = 0.5;       // of the larger velocity: a joint may be faster between two rows
-constexpr double kSameStep = 5.5;          // usual steps: after a longer gap nothing is known
+constexpr double kSameStep = 5.5;          // usual steps: after a longer gap the motion is unknown
 
 }  // namespace
 
@@ -26,7 +26,7 @@ double PositionJumps::excess(int from, int to) const {
 
 bool PositionJumps::jumps(int from, int to) const {
   const double usual = std::max(usual_[from], usual_[to]);
-  return excess(from, to) > std::max(kTimesUsual * usual, kLeastJump);  // false where a value is missing
+  return excess(from, to) > std::max(kTimesUsual * usual, kLeastJump);  // false if a value is missing
 }
 
 void PositionJumps::learn(int j) {

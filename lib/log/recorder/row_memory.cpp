@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// FNV-1a over whole words, with a last shift so that the low bits depend on all of them.
+/// FNV-1a over 64-bit words; a shift after each makes the low bits depend on all bits.
 std::uint64_t hash_of(const MeasuredRow& row) {
   constexpr std::uint64_t kOffset = 14695981039346656037ULL, kPrime = 1099511628211ULL;
   constexpr int kHalf = 32;

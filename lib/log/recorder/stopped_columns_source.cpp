@@ -11,16 +11,16 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortestHold_s = 0.25;             // as of a recorder that stands still as a whole
-constexpr double kShortestTorque_s = 0.5;            // a coarse torque may stay as it is for a while
-constexpr int kFewestHeld = 4, kFewestTorques = 10;  // rows, at slow rates
-constexpr double kLongerThanBefore = 4.0;            // times the longest hold that was none
-constexpr double kApart = 0.01;                      // rad or m between position and velocity
-constexpr double kLeastDrift = 0.02;                 // of the same a second: less is a velocity that is off
-constexpr double kChanging = 0.1;                    // rad/s or m/s: no torque stays the same for that
-constexpr int kFewestJoints = 2;                     // the sensor of one may be faulty
-constexpr std::int64_t kMostHeld = 4096;             // rows that wait at most
-constexpr std::int64_t kFewestTorqueChanges = 20;    // torques that never change are another matter
+constexpr double kShortestHold_s = 0.25;             // as for a recorder that stops as a whole
+constexpr double kShortestTorque_s = 0.5;            // a coarse torque may stay the same for a while
+constexpr int kFewestHeld = 4, kFewestTorques = 10;  // rows, decisive at slow rates
+constexpr double kLongerThanBefore = 4.0;            // times the longest short hold before
+constexpr double kApart = 0.01;                      // rad or m between position and integral of velocity
+constexpr double kLeastDrift = 0.02;                 // the same per second: less is an offset of the velocity
+constexpr double kChanging = 0.1;                    // rad/s or m/s: the torque must change for that
+constexpr int kFewestJoints = 2;                     // the sensor of a single one may be faulty
+constexpr std::int64_t kMostHeld = 4096;             // most rows that wait for a decision
+constexpr std::int64_t kFewestTorqueChanges = 20;    // torques that never change are not judged
 
 const JointSignals& group_of(const Log& rows, int group) {
   if (group == static_cast<int>(ColumnGroup::positions)) return rows.q;
@@ -192,7 +192,7 @@ void StoppedColumnsSource::judge_rows() {
   }
 }
 
-/// The first row of a hold was measured, unless it is zero as well.
+/// Replaces the values of a hold by NaN; its first row was measured unless it is zero as well.
 void StoppedColumnsSource::empty_held(ColumnGroup group, const ColumnHold& hold, int up_to) {
   JointSignals& signals = signals_of_group(rows_, group);
   const std::int64_t first = hold.first_row + (hold.is_zero ? 0 : 1) - handed_out_;
@@ -208,7 +208,7 @@ void StoppedColumnsSource::empty_held(ColumnGroup group, const ColumnHold& hold,
   }
 }
 
-/// Rows that nothing will change any more.
+/// Returns the number of rows that no later row can change.
 int StoppedColumnsSource::settled() const {
   if (at_end_) return rows_.rows();
   std::int64_t least = judged_;

@@ -6,11 +6,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortestStop_s = 0.25;  // a source that is read more often than it measures holds less long
-constexpr int kFewestRepeats = 4;         // at slow rates, where a quarter of a second is no row or two
-constexpr int kMostUndecided = 4096;      // rows that wait at most
-constexpr double kLongerThanUsual = 4.0;  // times the longest hold of this log after which it moved on
-constexpr double kMoved = 3e-4;           // rad or m: more than the noise of a velocity makes of a short rest
+constexpr double kShortestStop_s = 0.25;  // a source that measures less often than it is read holds for less
+constexpr int kFewestRepeats = 4;         // at slow rates, at which a quarter of a second is hardly a row
+constexpr int kMostUndecided = 4096;      // most rows that wait for a decision
+constexpr double kLongerThanUsual = 4.0;  // times the longest hold of this log after which joints moved
+constexpr double kMoved = 3e-4;           // rad or m: velocity noise over a short rest stays below it
 constexpr double kFaster = 2.0;           // times the velocity: a joint may brake between two rows
 constexpr double kNoJump = 1e-3;          // rad or m
 
@@ -53,7 +53,7 @@ RecorderState StoppedRecorder::repeated(const MeasuredRow& row) {
 RecorderState StoppedRecorder::take(const MeasuredRow& row) {
   if (state_ == RecorderState::blank && is_zero(row)) return state_;
   if (state_ != RecorderState::blank && row.values == last_.values)
-    return repeated(row);  // never of a row with a missing value
+    return repeated(row);  // never for a row with a missing value
   if (becomes_blank(row)) return state_ = RecorderState::blank;
   if (repeats_ > 0 && state_ == RecorderState::undecided)
     usual_hold_s_ = std::max(usual_hold_s_, last_.t - since_);

@@ -9,9 +9,9 @@ namespace faultline {
 namespace {
 
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
-constexpr double kBorderRounding = 1e-3;  // rad, that a border may be printed off
-constexpr double kNear = 0.25;            // of a turn, from the way that the velocity gives
-constexpr double kSmallStep = 0.1;        // of a turn: from longer ones the next does not follow
+constexpr double kBorderRounding = 1e-3;  // rad, by which a printed border may be rounded
+constexpr double kNear = 0.25;            // of a turn, from the angle that the velocity predicts
+constexpr double kSmallStep = 0.1;        // of a turn: a longer step does not predict the next one
 
 /// Whether both angles lie in one turn that begins at `border`.
 bool within(double a, double b, double border) {

@@ -16,18 +16,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeap = 20.0;        // times the usual step: a stamp so far off may be damaged, or a restart
-constexpr double kHole = 1.2;         // times the usual step: a row is missing between two that far apart
-constexpr double kCovered = 0.5;      // of the rows that a stretch of time holds: it has its rows already
-constexpr int kFewRows = 8;           // of a run: too few to say what step is usual
-constexpr int kStepsAround = 16;      // of which the usual step is the median
-constexpr double kRunGap_s = 0.3;     // at least, between two runs,
-constexpr double kRunGapSteps = 8.0;  // and so many steps: every stage takes that for a gap
-constexpr double kPerSecond = 1000.0;  // a shift is whole milliseconds, so that times stay readable
+constexpr double kLeap = 20.0;     // times the usual step: a stamp farther off may be damaged, or a restart
+constexpr double kHole = 1.2;      // times the usual step: a row is missing between rows that far apart
+constexpr double kCovered = 0.5;   // of the rows that a time span can hold: it has its rows already
+constexpr int kFewRows = 8;        // of a run: fewer do not determine the usual step
+constexpr int kStepsAround = 16;   // steps of which the usual step is the median
+constexpr double kRunGap_s = 0.3;  // at least, between two runs,
+constexpr double kRunGapSteps = 8.0;   // and so many steps: every stage treats that as a gap
+constexpr double kPerSecond = 1000.0;  // shifts are whole milliseconds, so that times stay readable
 constexpr double kDay_s = 86400.0, kHalfDay_s = 43200.0;
-constexpr double kNearMidnight_s = 60.0;  // a time of day so near to it passes it
+constexpr double kNearMidnight_s = 60.0;  // a time of day this close to midnight may pass it
 
-/// Whether the clock goes on from `time` with the row after it, that has the time `next`.
+/// Whether the clock continues from `time` to `next`, the time of the row after it.
 bool goes_on(double time, double next, double usual) {
   return next > time && (usual <= 0.0 || next - time <= kLeap * usual);
 }
@@ -59,7 +59,8 @@ void RowOrder::finish(Issues& issues) {
   finished_ = true;
 }
 
-/// The usual case: takes a row that follows the one before by no more than a usual step or some.
+/// Takes a row that follows the newest one by at most kLeap times the last step and needs no further check;
+/// returns false for any other row.
 bool RowOrder::is_simply_next(int at) {
   const double own = store_.time[at] + kDay_s * midnights_, time = own + offset_, step = time - newest_;
   const bool is_usual = step > 0.0 && step <= kLeap * last_step_ && own <= kImplausible;
@@ -73,7 +74,7 @@ bool RowOrder::is_simply_next(int at) {
   return true;
 }
 
-/// `next` is the time of the row after it, as it came.
+/// Decides on a row; `next` is the recorded time of the row after it.
 void RowOrder::judge(int at, double next, Issues& issues) {
   const double t = store_.time[at];
   const int days = placed(t) < t + clock_shift() ? midnights_ - 1 : midnights_;
@@ -103,7 +104,7 @@ void RowOrder::take_ahead(const Row& row, double next, Issues& issues) {
     advance(row, issues);
 }
 
-/// Where a row belongs that comes after later ones.
+/// Returns the place of a row that comes after later ones.
 RowOrder::Behind RowOrder::behind(const Row& row) const {
   Behind out;
   const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(run_begin_);
@@ -196,7 +197,7 @@ void RowOrder::add_run(const LogRun& run) {
   own_spans_.emplace_back();
 }
 
-/// What leapt ahead and was never reached is damaged.
+/// Leaves out rows that leapt ahead and were never reached: they are damaged.
 void RowOrder::end_run(Issues& issues) { give_up_early(std::numeric_limits<std::int64_t>::max(), issues); }
 
 void RowOrder::advance(const Row& row, Issues& issues) {
@@ -225,7 +226,7 @@ void RowOrder::place(const Row& row, std::ptrdiff_t where, Issues& issues) {
               store_.time[row.at], 1, 1});
 }
 
-/// Rows that leapt ahead and have been reached were only early.
+/// Puts rows that leapt ahead and have now been reached in their places.
 void RowOrder::place_early(Issues& issues) {
   const auto is_reached = [&](const Row& row) { return row.time <= newest_; };
   for (const Row& row : early_) {
@@ -267,7 +268,7 @@ bool RowOrder::is_same_row(int a, int b) const {
   return same;
 }
 
-/// Median of the latest steps of the present run; 0 before there is one.
+/// Returns the median of the latest steps of the present run; 0 before there is one.
 double RowOrder::usual_step() const {
   const std::size_t rows = order_.size() - run_begin_;
   const std::size_t steps = std::min<std::size_t>(rows > 0 ? rows - 1 : 0, kStepsAround);

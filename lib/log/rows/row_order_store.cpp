@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows that RowOrder keeps until their order is settled, and how it hands them out.
+// Storage of RowOrder for rows until their order is settled, and their output.
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// Rows of the store that were given, or left out, need not be kept.
+/// Removes rows from the store that were handed out or left out.
 void RowOrder::forget_given() {
   int needed = judged_;
   for (const Row& row : order_) needed = std::min(needed, row.at);

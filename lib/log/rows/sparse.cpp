@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kHeldRows = 10;  // at least
 
-/// A joint's signal that is silent for longer than a moment has ended: its last value is no measurement any
-/// more.
+/// Fills gaps with the latest value. A joint's signal without values for longer than a moment has ended: its
+/// last value is no longer a measurement.
 void hold(std::vector<double>& values, const std::vector<double>& time, bool is_measured,
           SparseRows::Held& held) {
   for (std::size_t i = 0; i < values.size(); ++i) {

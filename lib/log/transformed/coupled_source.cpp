@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kDust = 1e-14;  ///< what rounding leaves of a zero, relative to the largest entry
+constexpr double kDust = 1e-14;  ///< limit of rounding errors of a zero, relative to the largest entry
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd inverse = matrix.inverse();
@@ -21,7 +21,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
   return inverse.unaryExpr([&](double x) { return std::abs(x) < kDust * largest ? 0.0 : x; });
 }
 
-/// Sums of the signals of all joints, weighted by a row of `matrix` for each. A weight of 0 takes no part.
+/// Replaces each signal by a sum of all signals, weighted by its row of `matrix`; a weight of 0 skips one.
 void mix(JointSignals& signals, const Eigen::MatrixXd& matrix, JointSignals& mixed) {
   mixed.resize(signals.size());
   for (std::size_t j = 0; j < signals.size(); ++j) {
@@ -62,7 +62,7 @@ class CoupledSource : public LogSource {
  private:
   std::unique_ptr<LogSource> source_;
   Eigen::MatrixXd motion_, torque_;
-  JointSignals mixed_;  ///< storage that next() uses again
+  JointSignals mixed_;  ///< storage that next() reuses
 };
 
 }  // namespace

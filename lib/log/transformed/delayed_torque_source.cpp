@@ -30,7 +30,7 @@ void DelayedTorqueSource::rewind() {
   position_.clear();
 }
 
-/// One more segment of the source behind the rows not handed out yet.
+/// Appends one more segment of the source to the rows not handed out yet; returns false at the end.
 bool DelayedTorqueSource::fill() {
   Log segment;
   if (at_end_ || !source_.next(segment)) {

@@ -11,15 +11,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kHeadRows = 64;         // whose median step is the period at first
-constexpr double kForgetting = 0.02;  // share of a new step in period and jitter: some 50 steps
-constexpr double kLostRow = 1.6;      // periods: in a longer step rows are missing
-constexpr double kOffGrid = 0.25;     // periods: a step that is no whole number of periods is no lost row
-constexpr double kRegular = 0.1;  // mean deviation of a step, in periods, that a regular clock keeps below
+constexpr int kHeadRows = 64;         // rows whose median step is the period at first
+constexpr double kForgetting = 0.02;  // weight of a new step in period and jitter: some 50 steps
+constexpr double kLostRow = 1.6;      // periods: rows are missing in a longer step
+constexpr double kOffGrid = 0.25;  // periods off a whole number: a step farther off is no sign of lost rows
+constexpr double kRegular = 0.1;   // mean deviation of a step, in periods, below which a clock is regular
 constexpr double kFewOffGrid =
     0.01;  // share of steps off the grid: with more, two periods may be a late stamp
 
-/// Before row k of `log`, missing[k] rows without values, evenly between it and the row before; `before_s` is
+/// Returns `log` with missing[k] empty rows before row k, at equal steps from the row before; `before_s` is
 /// the time of the row before the first.
 Log with_empty_rows(const Log& log, const std::vector<int>& missing, double before_s) {
   Log out;
@@ -47,7 +47,7 @@ void EmptyRowsSource::rewind() {
   rows_ = given_ = off_grid_ = 0;
 }
 
-/// The first rows, whatever the segments of the source; false without any.
+/// Reads the first rows, whatever the segments of the source, and estimates the period; false without any.
 bool EmptyRowsSource::read_head() {
   started_ = true;
   for (Log segment; head_.rows() < kHeadRows && source_.next(segment);) append(head_, segment);
@@ -73,7 +73,7 @@ void EmptyRowsSource::follow_clock(double step) {
   period_s_ += kForgetting * (step - period_s_);
 }
 
-/// How many rows are missing between the last one and this one.
+/// Returns the number of rows missing between the last one and this one.
 int EmptyRowsSource::missing_before(double time) {
   const double step = time - last_s_;
   const double periods = step / period_s_, whole = std::round(periods);
