@@ -47,7 +47,7 @@ void add_units(const Chain& chain, std::vector<ColumnReading>& out) {
   }
 }
 
-/// One torque in thousandths or thousands of its unit; all of them together show in the masses alone.
+/// Adds one torque in thousandths or thousands of its unit; for all of them only the masses would differ.
 void add_torque_units(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (const double by : {1e-3, 1e3})
@@ -121,7 +121,7 @@ void add_common_units(const Chain& chain, std::vector<ColumnReading>& out) {
                    }});
 }
 
-/// A joint that counts the other way: what a wrong sign of one column makes of a log is another thing.
+/// Adds joints with the opposite direction of counting, which differs from a wrong sign of one column.
 void add_reversed_joints(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
     out.push_back({fmt::format("joint {0} counts the other way (q{0}, dq{0} and tau{0})", j + 1),
@@ -146,7 +146,7 @@ void add_swapped_joints(const Chain& chain, std::vector<ColumnReading>& out) {
            }});
 }
 
-/// Gravity along another axis, or none: an arm on its side, hanging, or of horizontal axes.
+/// Adds gravity along another axis, or none: an arm on its side, hanging, or moving horizontally.
 void add_gravity(const Chain& chain, std::vector<ColumnReading>& out) {
   constexpr double kG = 9.81, kApart = 1.0;  // m/s^2
   std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};

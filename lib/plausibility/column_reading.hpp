@@ -10,19 +10,19 @@
 
 namespace faultline {
 
-/// Something else that the columns of a log may mean than the robot file says.
+/// An alternative interpretation of the columns of a log, other than by the robot file.
 struct ColumnReading {
-  std::string what;                                ///< in a sentence's words, such as "q2 is in degrees"
-  std::string cure;                                ///< what to write where, an order
-  std::function<void(Log&)> apply;                 ///< makes of a log what it says if that is so
-  std::function<void(Chain&)> of_robot = nullptr;  ///< what the robot file would say instead; none: as it is
+  std::string what;                                ///< in words inside a sentence, such as "q2 is in degrees"
+  std::string cure;                                ///< what to write where, as an instruction
+  std::function<void(Log&)> apply;                 ///< converts a log to this interpretation
+  std::function<void(Chain&)> of_robot = nullptr;  ///< changes the robot; null: not changed
 };
 
-/// Units, signs, and swapped columns of single joints, of all angles and of the time.
+/// Returns other units, signs and swapped columns of single joints, other units of all angles and the time.
 std::vector<ColumnReading> column_readings(const Chain& chain);
-/// Units of all torques or of all sliding axes, and swapped joints: what shows only where the robot is known.
+/// Returns other units of several joints, swapped and reversed joints: detectable if the robot is known.
 std::vector<ColumnReading> common_readings(const Chain& chain);
-/// Other directions of gravity, or none.
+/// Returns other directions of gravity, or none.
 std::vector<ColumnReading> gravity_readings(const Chain& chain);
 
 }  // namespace faultline

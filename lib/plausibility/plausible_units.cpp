@@ -13,10 +13,10 @@
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kLookedAt = 50'000;  // rows of a log: a minute and more at 500 Hz, read in a moment
+constexpr std::int64_t kLookedAt = 50'000;  // first rows that are used: over a minute at 500 Hz, read fast
 constexpr double kHealthySpan = 13.0;  // rad, just above two turns: healthy joints of arms turn by no more
 
-/// Of a log of another number of joints none: that is said by itself.
+/// Returns the issues of the first rows; none for another number of joints, which is reported elsewhere.
 Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
   QualityState state;
   std::int64_t rows = 0;

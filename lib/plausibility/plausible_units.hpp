@@ -10,12 +10,12 @@
 
 namespace faultline {
 
-/// What in the beginning of the logs can hardly be in the unit that it is read in, a sentence each that names
-/// log and channel and what to write where; from ranges and the sample period alone, as `inspect` and
+/// Returns a sentence for each channel that is implausible in its unit at the beginning of a log, with the
+/// log, the channel and what to write where; from ranges and the sample period alone, as `inspect` and
 /// `diagnose` do. Rewinds the logs.
 std::vector<std::string> implausible_units(std::span<LogSource* const> logs, const Robot& robot);
 
-/// Throws Error(input) with the first of these sentences, where there are any.
+/// Throws Error(input) with the first of these sentences, if there are any.
 void refuse_implausible_units(std::span<LogSource* const> logs, const Robot& robot);
 
 }  // namespace faultline

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::size_t kStepMostChanges = 4096;
 constexpr std::size_t kFewestChanges = 30;
-constexpr double kSingle = 1.5;  // changes below so many times the least one are a single step
+constexpr double kSingle = 1.5;  // changes below so many times the least one are single steps
 constexpr std::ptrdiff_t kFewestSingle = 3;
-constexpr double kFarthestMultiple = 50.0;  // beyond it the error of the step hides what is a multiple
-constexpr double kOffMultiple = 0.15;       // of a step
+constexpr double kFarthestMultiple = 50.0;  // beyond it the error of the step hides multiples
+constexpr double kOffMultiple = 0.15;       // of a step: largest difference from a multiple
 constexpr double kMultiplesShare = 0.98;
 
-/// The longer one of those at the more extreme value.
+/// Keeps in `kept` the stretch with the more extreme value, or the longer one of the same value.
 void keep_extreme(SameValue& kept, const SameValue& now, bool more_extreme) {
   if (kept.rows == 0 || more_extreme || (now.value == kept.value && now.rows > kept.rows)) kept = now;
 }

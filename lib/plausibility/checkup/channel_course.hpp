@@ -8,40 +8,40 @@
 
 namespace faultline {
 
-/// Rows in which a channel kept one value.
+/// A stretch of rows in which a channel kept one value.
 struct SameValue {
   std::int64_t rows = 0;
   double value = std::numeric_limits<double>::quiet_NaN();
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double length_s = 0.0;
-  double moved = 0.0;  ///< how far the joint moved meanwhile, told by another channel, rad or m
+  double moved = 0.0;  ///< how far the joint moved meanwhile by another channel, rad or m
 };
 
-/// The step in which a channel's values lie, as that of an encoder or of a printed decimal, from the first
+/// Estimates the step in which a channel's values lie, as for an encoder or a printed decimal, from the first
 /// few thousand changes of the value.
 class ValueStep {
  public:
   void add_change(double change);
-  /// Nullopt when the changes are no multiples of one step, or too few.
+  /// Returns the step; nullopt if the changes are not multiples of one step, or too few.
   std::optional<double> result() const;
 
  private:
-  std::vector<double> changes_;  ///< sizes
+  std::vector<double> changes_;  ///< absolute values
 };
 
-/// How one channel goes through its values, over the whole log.
+/// Follows the values of one channel over the whole log.
 class ChannelCourse {
  public:
-  /// `rate`: the channel is the rate of the place that add() is told.
+  /// `rate`: whether the channel is the derivative of `place` in add().
   explicit ChannelCourse(bool rate = false) : rate_(rate) {}
-  /// `place` is where another channel says that the joint is, rad or m up to a constant; NaN for unknown.
+  /// `place`: position of the joint by another channel, rad or m up to a constant; NaN if unknown.
   void add(double t, double value, double place);
 
   struct Result {
-    SameValue longest;           ///< of all stretches of one value
-    SameValue while_moving;      ///< the one in which the joint moved farthest
-    SameValue at_min, at_max;    ///< longest at the least and the largest value
-    std::optional<double> step;  ///< in which the values lie
+    SameValue longest;           ///< longest stretch of one value
+    SameValue while_moving;      ///< the stretch in which the joint moved farthest
+    SameValue at_min, at_max;    ///< longest ones at the least and the largest value
+    std::optional<double> step;  ///< between possible values
   };
   Result result() const;
 

@@ -40,7 +40,7 @@ void Checkup::settle() {
   head_ = {};
 }
 
-/// Where the velocity says that the joint is; elsewhere nothing is known of that.
+/// Adds samples of a joint, and integrates its velocity (missing: 0) to its places; NaN without velocities.
 void Checkup::take_joint(const Log& segment, std::size_t j) {
   Path& path = paths_[j];
   auto& places = places_[j];

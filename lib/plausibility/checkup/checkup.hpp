@@ -28,18 +28,18 @@ struct JointCheckup {
   TorqueRelated torque;
 };
 
-/// What a closer look at the canonical channels of a log told, beside its LogQuality.
+/// Result of the checkup of the canonical channels of a log, beside its LogQuality.
 struct CheckupResult {
   std::vector<ChannelCheckup> channels;
   std::vector<JointCheckup> joints;
   std::vector<PeriodChange> clock_changes;
   RepeatedRowCounts repeated;
 
-  /// Null when the log has no such channel.
+  /// Returns null if the log has no such channel.
   const ChannelCheckup* find(Channel channel) const;
 };
 
-/// The closer look, segment by segment; the result does not depend on the segments.
+/// Checks a log segment by segment; the result does not depend on the segments.
 class Checkup {
  public:
   void add(const Log& segment);
@@ -58,7 +58,7 @@ class Checkup {
   std::vector<ChannelCourse> courses_;
   std::vector<VelocityRelation> velocity_;
   std::optional<TorqueRelation> torque_;
-  /// By joint: the velocity's integral, and the time and velocity it has reached.
+  /// For each joint: the integral of its velocity, with the time and velocity that it has reached.
   struct Path {
     double place = 0.0, t = 0.0, dq = 0.0;
     bool begun = false;
@@ -67,14 +67,14 @@ class Checkup {
   std::vector<std::vector<double>> places_;  ///< of each joint in the segment, by its velocity
 };
 
-/// clock_change, rows_repeated, positions_repeated, velocity_off, stuck_channel, torque_against_acceleration,
-/// torque_delayed, velocity_late, unit_implausible.
+/// Returns the issues clock_change, rows_repeated, positions_repeated, velocity_off, stuck_channel,
+/// torque_against_acceleration, torque_delayed, velocity_late and unit_implausible.
 Issues checkup_issues(const CheckupResult& checkup, const LogQuality& quality);
 
-/// Largest share, 0 to 1, of a channel's values at its least or largest value.
+/// Returns the largest share, 0 to 1, of a channel's values at its least or largest value.
 double share_at_limits(const ChannelSummary& summary);
 
-/// Rows that are there of those that the span of time has at this sample period, 0 to 1; NaN while unknown.
+/// Returns the share, 0 to 1, of the rows of the time span that are present; NaN if the period is unknown.
 double completeness(const TimeAxis& time);
 
 }  // namespace faultline

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::int64_t kFewestStuckRows = 20;
 constexpr double kRepeatedShare = 0.3;
-constexpr double kMixedShare = 0.05;    // of the rows: more are those of coarse encoders
-constexpr double kMovedSteps = 5.0;     // of the channel, that a joint moved while it stood
+constexpr double kMixedShare = 0.05;    // of the rows: coarse encoders have more
+constexpr double kMovedSteps = 5.0;     // steps of the position, by which a joint seems to move
 constexpr double kMovedAtLeast = 0.01;  // rad or m
 constexpr double kMovedShare = 0.05;    // of the position's span
-constexpr double kAgainst = -0.6;       // correlation of a torque that is told with the wrong sign
+constexpr double kAgainst = -0.6;       // correlation of a torque with the wrong sign
 constexpr double kLateRows = 1.5;
-constexpr double kOffVelocity = 0.1;  // of a velocity's size against the position's change
+constexpr double kOffVelocity = 0.1;  // relative, of a velocity's size to the position's change
 constexpr double kLittleNoise = 0.1;  // of that change: more makes it larger than any velocity
 constexpr double kShortestPeriod_s = 1e-5;
 
@@ -33,7 +33,7 @@ double span_of(const LogQuality& quality, Channel channel) {
   return 0.0;
 }
 
-/// How far a joint may seem to move while a healthy channel keeps its value.
+/// Returns how far a joint may seem to move while a healthy channel keeps its value, rad or m.
 double usual_motion(const ChannelCheckup& one, const CheckupResult& checkup, const LogQuality& quality) {
   const Channel position{Quantity::q, one.channel.joint};
   const double steps = kMovedSteps * step_of(checkup, position);
@@ -107,7 +107,7 @@ void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Iss
          positions.first_row, std::nan(""), positions.held});
 }
 
-/// A velocity far from the differences of the position from row to row, though both agree over longer times.
+/// Adds an issue if a velocity's size differs from the position's change per row, unless noise explains it.
 void judge_velocity_size(const VelocityRelated& velocity, const std::string& channel, Issues& issues) {
   if (!(std::abs(velocity.rms_ratio - 1.0) > kOffVelocity && velocity.noise_share < kLittleNoise)) return;
   issues.add(

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kBlockSteps = 64;
 constexpr std::ptrdiff_t kTrimmed = 8;  // at each end
 constexpr std::size_t kBlocksForGood = 3;
-constexpr double kOther = 0.2;      // relative, of a period to the usual one
-constexpr double kSamePace = 0.05;  // of the new periods to each other
+constexpr double kOther = 0.2;      // relative, of a period from the usual one
+constexpr double kSamePace = 0.05;  // relative, of the new periods from each other
 constexpr double kAdaption = 0.1;
 constexpr std::size_t kMostChanges = 100;
 
@@ -40,7 +40,7 @@ void ClockCheck::close_block() {
     other_.clear();
     return;
   }
-  // The block in which the period changed has steps of both.
+  // The block in which the period changes has steps of both periods.
   if (other_.size() > 1 && differs(block_.period_s, other_.back().period_s, kSamePace)) other_.clear();
   other_.push_back(block_);
   if (other_.size() <= kBlocksForGood) return;

@@ -6,22 +6,22 @@
 
 namespace faultline {
 
-/// From here on a log has another sample period.
+/// A lasting change of the sample period of a log.
 struct PeriodChange {
   double at_s = 0.0;
   std::int64_t row = 0;  ///< about; the row before the first step of the new period, from 1
   double before_s = 0.0, after_s = 0.0;
 };
 
-/// Watches whether the sample period changes for good: over many steps, not by gaps or jitter.
+/// Detects lasting changes of the sample period: over many steps, not by gaps or jitter.
 class ClockCheck {
  public:
   void add(double t);
-  /// The first hundred.
+  /// Returns the first hundred changes.
   const std::vector<PeriodChange>& changes() const { return changes_; }
 
  private:
-  /// Steps that follow each other.
+  /// Successive steps.
   struct Block {
     double start_s = 0.0;
     std::int64_t row = 0;
@@ -33,8 +33,8 @@ class ClockCheck {
   double last_s_ = 0.0;
   std::vector<double> steps_;
   Block block_;
-  double usual_s_ = 0.0;      ///< period so far, 0 while unknown
-  std::vector<Block> other_;  ///< blocks in a row that have another one
+  double usual_s_ = 0.0;      ///< period so far, 0 if unknown
+  std::vector<Block> other_;  ///< successive blocks with another period
   std::vector<PeriodChange> changes_;
 };
 

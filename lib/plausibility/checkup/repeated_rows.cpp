@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kShort = 20;  // rows, of what a slower source leaves; a robot at rest stands longer
+constexpr std::int64_t kShort = 20;  // rows, of a source slower than the logger; a robot at rest repeats more
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void RepeatedRowCheck::add(const Log& segment) {
     now_.clear();
     for_each_joint_channel(segment,
                            [&](const std::vector<double>& values, Channel) { now_.push_back(values[i]); });
-    const bool known = last_.size() == now_.size();  // a missing value equals none
+    const bool known = last_.size() == now_.size();  // a missing value equals no value
     std::size_t same = 0;
     for (std::size_t j = 0; j < positions && known; ++j) same += now_[j] == last_[j];
     positions_.take(known && same == positions);

@@ -8,19 +8,19 @@
 
 namespace faultline {
 
-/// Rows whose joint channels all are as in the row before though their time is another: a logger that is
-/// faster than what it reads.
+/// Count of rows whose joint channels all equal those of the row before, at another time: the logger is
+/// faster than its source.
 struct RepeatedRowCount {
-  std::int64_t rows = 0;       ///< all of them, those of a robot at rest too
-  std::int64_t held = 0;       ///< in stretches so short that the joints moved on right after
+  std::int64_t rows = 0;       ///< all, also those of a robot at rest
+  std::int64_t held = 0;       ///< in short stretches, directly after which joints moved
   std::int64_t longest = 0;    ///< in one stretch
-  std::int64_t first_row = 0;  ///< of a short stretch, from 1; 0 for none
+  std::int64_t first_row = 0;  ///< of the first short stretch, from 1; 0 for none
 };
 
-/// Of all joint channels together, and of the positions alone.
+/// For all joint channels together, and for the positions alone.
 struct RepeatedRowCounts {
   RepeatedRowCount all, positions;
-  /// Rows in which some positions change and others do not, as those of coarse encoders do.
+  /// Rows in which some positions change and others do not, as with coarse encoders.
   std::int64_t mixed = 0;
 };
 
@@ -30,7 +30,7 @@ class RepeatedRowCheck {
   RepeatedRowCounts result() const;
 
  private:
-  /// Rows with the same values one after the other.
+  /// Stretches of successive rows with the same values.
   struct Runs {
     void take(bool repeats);
     void end();

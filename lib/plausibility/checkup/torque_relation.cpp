@@ -16,17 +16,17 @@ constexpr std::int64_t kFewestRows = 100;
 constexpr double kFriction = 0.02;  // rad/s or m/s over which friction changes its sign
 constexpr double kRelationGapSteps = 3.0;
 constexpr double kRidge = 1e-10;
-constexpr double kTells = 0.6;       // partial correlation from which on a delay is told
+constexpr double kTells = 0.6;       // partial correlation from which on a delay is estimated
 constexpr double kExplained = 0.9;   // share of the torque, likewise
-constexpr double kStride_s = 0.006;  // between the delays that are tried, one row at the least
-constexpr double kDoubt_s = 0.025;   // of delays of torques that other joints' motion explains in part
+constexpr double kStride_s = 0.006;  // between the delays that are tried, at least one row
+constexpr double kDoubt_s = 0.025;   // uncertainty of delays, as other joints' motion has its part in torques
 
 std::size_t half_rows(double period_s) {
   return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(kSmoothing_s / period_s)), 1,
                                  kMostHalf);
 }
 
-/// Accelerations, velocities, their directions and products, a constant.
+/// Returns accelerations, velocities, their directions and products, and a constant.
 Eigen::VectorXd motion_of(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& velocity) {
   const Eigen::Index n = velocity.size();
   Eigen::VectorXd motion(3 * n + n * (n + 1) / 2 + 1);
@@ -40,7 +40,7 @@ Eigen::VectorXd motion_of(const Eigen::VectorXd& acceleration, const Eigen::Vect
   return motion;
 }
 
-/// Column 0 becomes `latest`, the others move up.
+/// Writes `latest` to column 0 and moves the others up.
 void push_front(Eigen::MatrixXd& ring, const Eigen::VectorXd& latest) {
   for (Eigen::Index c = ring.cols() - 1; c > 0; --c) ring.col(c) = ring.col(c - 1);
   ring.col(0) = latest;
@@ -89,7 +89,7 @@ void TorqueRelation::add(double t, const std::vector<std::vector<double>>& q,
   const double half = static_cast<double>(half_), span_s = half * period_s_;
   for (int j = 0; j < joints_; ++j) {
     Smoothed& one = smoothed_[j];
-    torque_[j] = one.smooth;  // centred where the acceleration is
+    torque_[j] = one.smooth;  // centred at the time of the acceleration
     one.tau_sum += tau[j][row] - one.tau[i % half_];
     one.tau[i % half_] = tau[j][row];
     const double mean = one.tau_sum / half;
@@ -122,7 +122,7 @@ TorqueRelated TorqueRelation::related(int joint, const Eigen::MatrixXd& inverse)
   const double count = static_cast<double>(count_), mean = sums_[joint] / count;
   std::vector<double> left;
   int best = kDelays - 1;
-  for (int d = kDelays - 1; d >= 0; --d) {  // a torque of d strides ago is kMostStrides - d late
+  for (int d = kDelays - 1; d >= 0; --d) {  // column d, d strides old, is late by kMostStrides - d
     const Eigen::VectorXd with = with_[d].col(joint);
     left.push_back(squares_(joint, d) - with.dot(inverse * with));
     if (left.back() < left[kDelays - 1 - best]) best = d;

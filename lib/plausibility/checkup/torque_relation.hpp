@@ -8,35 +8,35 @@
 
 namespace faultline {
 
-/// How a recorded torque goes with the acceleration of its joint.
+/// Relation of a recorded torque to the acceleration of its joint.
 struct TorqueRelated {
-  /// Partial correlation with the joint's own acceleration, all other motion taken out, at the best delay;
-  /// NaN: not judged.
+  /// Partial correlation with the joint's own acceleration, given all other motion, at the best delay; NaN:
+  /// not judged.
   double correlation = std::numeric_limits<double>::quiet_NaN();
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the torque that motion explains
-  /// Rows that the torque is logged late. A torque held until the next row is half a row early.
+  /// Rows by which the torque is logged late. A torque held until the next row is half a row early.
   double delay_rows = std::numeric_limits<double>::quiet_NaN();
-  double delay_doubt_rows = std::numeric_limits<double>::quiet_NaN();  ///< how far off that may be
-  double inertia = std::numeric_limits<double>::quiet_NaN();           ///< about: torque for an acceleration
+  double delay_doubt_rows = std::numeric_limits<double>::quiet_NaN();  ///< uncertainty
+  double inertia = std::numeric_limits<double>::quiet_NaN();           ///< about: torque per acceleration
 };
 
-/// Compares the torques with accelerations, velocities, their products and directions of all joints;
-/// positions differentiated and torques smoothed alike over some 30 ms.
+/// Regresses the torques on accelerations, velocities, their products and directions of all joints; positions
+/// are differentiated and torques smoothed over the same 30 ms or so.
 class TorqueRelation {
  public:
   static constexpr int kMostStrides = 6;  ///< of delay, late or early
   static constexpr int kMostJoints = 8;
 
   TorqueRelation(int joints, double period_s);
-  /// Row `row` of positions and torques, [joint][row].
+  /// Adds row `row` of positions and torques, [joint][row].
   void add(double t, const std::vector<std::vector<double>>& q, const std::vector<std::vector<double>>& tau,
            std::size_t row);
-  /// Of each joint.
+  /// Returns the relation of each joint.
   std::vector<TorqueRelated> result() const;
 
  private:
   static constexpr int kDelays = 2 * kMostStrides + 1;
-  /// One joint's signals on their way through the smoothing.
+  /// State of the smoothing of one joint's signals.
   struct Smoothed {
     std::vector<double> q, tau, means;  ///< rings of the last 2 half_ + 1, half_ and half_
     double tau_sum = 0.0, mean_sum = 0.0, smooth = 0.0;
@@ -48,14 +48,14 @@ class TorqueRelation {
   int joints_;
   double period_s_;
   std::size_t half_;     ///< rows of half the smoothing
-  std::int64_t stride_;  ///< rows from one that is looked at to the next
+  std::int64_t stride_;  ///< rows between two that are used
   double t_ = 0.0;
   std::int64_t run_ = 0;  ///< samples since the last interruption
   std::vector<Smoothed> smoothed_;
-  Eigen::VectorXd acceleration_, velocity_, torque_;  ///< now, all of one time
+  Eigen::VectorXd acceleration_, velocity_, torque_;  ///< latest, all at one time
   Eigen::MatrixXd motions_, torques_;                 ///< of the last strides, the latest first
   std::int64_t taken_ = 0, count_ = 0;
-  Eigen::MatrixXd products_;           ///< of what motion gives
+  Eigen::MatrixXd products_;           ///< of the motion regressors
   std::vector<Eigen::MatrixXd> with_;  ///< by delay: motion x torque
   Eigen::MatrixXd squares_;            ///< joint x delay
   Eigen::VectorXd sums_;               ///< of torques

@@ -8,9 +8,8 @@
 
 namespace faultline {
 
-/// Where the values are least, between their places too, by the parabola through the least one and those
-/// at most three places to both sides. NaN when the least one is the first or the last, or nothing stands
-/// out.
+/// Returns the index of the least value, interpolated by a parabola through it and the values up to three
+/// places to both sides. NaN if the least one is the first or the last, or there is no distinct minimum.
 inline double valley_of(std::span<const double> values) {
   std::size_t least = 0;
   for (std::size_t i = 1; i < values.size(); ++i)

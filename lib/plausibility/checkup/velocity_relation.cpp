@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::int64_t kRelationFewestRows = 100;
 constexpr double kLeastRms = 1e-3;        // rad/s or m/s; below it the joint rests
-constexpr double kRoughest = 0.2;         // share of the slopes that is noise, squared, of a joint that moves
-constexpr double kSameNoise = 0.04;       // of the slopes' roughness, squared, that a difference may be off
-constexpr double kAboveRoughness = 20.0;  // motion to noise, squared, at the least, to tell a delay
-constexpr double kSimilar = 1.25;         // rms ratio at the most to tell a delay
+constexpr double kRoughest = 0.2;         // limit of the noise share in squared slopes of a moving joint
+constexpr double kSameNoise = 0.04;       // of the slopes' mean square noise: limit for a difference
+constexpr double kAboveRoughness = 20.0;  // least ratio of motion to noise, in squares, to estimate a delay
+constexpr double kSimilar = 1.25;         // largest rms ratio to estimate a delay
 /// White noise of variance s has second differences of variance 6 s.
 constexpr double kBend = 6.0;
 
@@ -60,7 +60,7 @@ void VelocityRelation::compare() {
   }
 }
 
-/// Whether the velocity is a multiple of the steps of position, their noise included.
+/// Whether the velocity is a multiple of the steps of position, with their noise.
 bool VelocityRelation::is_of_steps() const {
   for (std::size_t i = 0; i < step_squares_.size(); ++i) {
     if (!(step_squares_[i] > 0.0)) continue;
@@ -87,7 +87,7 @@ VelocityRelated VelocityRelation::result() const {
   related.is_difference = (roughness_ > 0.0 && least < kSameNoise * roughness_) || is_of_steps();
   const bool alike = related.rms_ratio < kSimilar && related.rms_ratio > 1.0 / kSimilar;
   if (alike && product_ > kAboveRoughness * roughness_)
-    related.delay_rows = valley_of(off_) - kMostRows + 0.5;  // a slope is that of half a row before
+    related.delay_rows = valley_of(off_) - kMostRows + 0.5;  // a slope belongs to a time half a row earlier
   return related;
 }
 
