@@ -4,8 +4,8 @@
 namespace faultline {
 namespace {
 
-/// An offset, or what it grows by in a second: from what a technician would notice to a twenty-fifth of the
-/// range, beyond which nobody needs a program to see it.
+/// An offset, or its growth in a second, as a share of the range: from what a technician would notice to a
+/// twenty-fifth, beyond which it is obvious without a program.
 constexpr DrawRange kShareOfRange{
     .low = 0.003, .high = 0.04, .spread = Spread::log_uniform, .either_sign = true};
 
@@ -55,7 +55,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.2, .high = 0.9},  // less is wear, more is free-swinging
         }}},
         .size_count = 1,
-        .least_size = 0.03,  // magnets and amplifiers differ by as much from day to day
+        .least_size = 0.03,  // magnets and amplifiers differ by that much from day to day
     },
     {
         .kind = FaultKind::sensor_bias,
@@ -67,10 +67,10 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "lost counts or a wrong home offset, then home again.",
         .size_words = "the position reads {magnitude:.4g} {length} too {much}",
         .acts_on = FaultActsOn::sensor,
-        .shows_in_each_sample = false,  // only in its first: after it, samples look healthy
+        .shows_in_each_sample = false,  // only in its first one: later samples look healthy
         .size = {{{.measure = SizeMeasure::length, .twin = kShareOfRange}}},
         .size_count = 1,
-        .least_size = 0.001,  // a tenth of a degree of a joint that turns by a quarter of a turn
+        .least_size = 0.001,  // a tenth of a degree for a joint that turns by a quarter of a turn
     },
     {
         .kind = FaultKind::stuck_encoder,
@@ -92,7 +92,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             "slipping encoder coupling, lost counts or a warm sensor.",
         .size_words = "the position drifts by {first:+.3g} {length}/s",
         .acts_on = FaultActsOn::sensor,
-        .shows_in_each_sample = false,  // nor does a drift: from one sample to the next it is next to nothing
+        .shows_in_each_sample = false,  // a drift changes next to nothing between samples
         .size = {{{.measure = SizeMeasure::length_per_s, .twin = kShareOfRange}}},
         .size_count = 1,
         .least_size = 0.0005,  // a bias that matters after two seconds
@@ -118,7 +118,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
                       .twin = {.low = 0.4, .high = 3.0, .spread = Spread::log_uniform},
                   }}},
         .size_count = 2,
-        .least_size = 0.1,  // temperature alone does more
+        .least_size = 0.1,  // temperature alone changes friction by more
     },
     {
         .kind = FaultKind::payload_change,
@@ -136,7 +136,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.15, .high = 1.2, .spread = Spread::log_uniform},
         }}},
         .size_count = 1,
-        .least_size = 0.03,  // hoses and tools make as much
+        .least_size = 0.03,  // hoses and tools change the load by that much
     },
     {
         .kind = FaultKind::collision,
@@ -155,7 +155,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.15, .high = 1.0, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
-        .least_size = 0.03,  // half the least push that the twin knows
+        .least_size = 0.03,  // half of the least push that the twin draws
         .twin_length_s = {.low = 0.02, .high = 0.8, .spread = Spread::log_uniform},  // from a bump to a push
     },
     {
@@ -174,7 +174,7 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
             .twin = {.low = 0.1, .high = 0.6, .spread = Spread::log_uniform, .either_sign = true},
         }}},
         .size_count = 1,
-        .least_size = 0.02,  // offsets of healthy days reach half of it
+        .least_size = 0.02,  // offsets of healthy days reach half of that
     },
     {
         .kind = FaultKind::unknown,

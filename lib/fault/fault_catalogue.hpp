@@ -9,48 +9,47 @@
 
 namespace faultline {
 
-/// What a kind of fault makes different from a healthy robot.
+/// What a kind of fault changes, compared with a healthy robot.
 enum class FaultActsOn {
   nothing,
-  motion,  ///< the joints move otherwise
-  sensor,  ///< only what is read of them is false
+  motion,  ///< the motion of the joints
+  sensor,  ///< only the measured values
 };
 
 enum class FaultPlace {
   nowhere,
-  joint,  ///< any
-  link,   ///< the end of any link; the joint that moves the link stands for it
+  joint,  ///< any joint
+  link,   ///< the end of any link; identified by the joint that moves the link
 };
 
 inline constexpr int kMostSizes = 2;
 
-/// All that is to be known of a kind of fault, but for what it does to the joint: its columns stand in
-/// lib/explain/fault_columns and, apart from them on purpose, the simulated fault in
-/// lib/simulate/fault_event.
+/// All properties of a kind of fault but its effect on the joint: its columns are in
+/// lib/explain/fault_columns and, separate on purpose, the simulated fault in lib/simulate/fault_event.
 struct FaultDescription {
   FaultKind kind = FaultKind::none;
   const char* name = "";        ///< in labels, JSON and reports; never changes
   const char* heading = "";     ///< in words
   const char* of_a_joint = "";  ///< in words, after "joint N " or "link N "
-  const char* next_check = "";  ///< sentences to a technician; "{}" stands for the joint
-  /// How its size is said: {first} and {second} size; the {joint}; of the first its {percent}, its
-  /// {magnitude} and whether that is {much} or little; units {length} and {torque}.
+  const char* next_check = "";  ///< sentences for a technician; "{}" stands for the joint
+  /// Format of the size in words: {first} and {second} size; the {joint}; of the first size its {percent},
+  /// {magnitude} and sign as {much} or little; units {length} and {torque}.
   const char* size_words = "";
 
   FaultActsOn acts_on = FaultActsOn::nothing;
   FaultPlace place = FaultPlace::joint;
-  bool passes = false;  ///< it is over by itself, so that each time it is a fault of its own
-  /// Residuals show it for as long as it lasts, so that it can be told sample by sample.
+  bool passes = false;  ///< it ends by itself, so that each occurrence is a fault of its own
+  /// Whether the residuals show it in each sample while it lasts, so that samples can be classified singly.
   bool shows_in_each_sample = true;
-  bool hidden_by_measured_torque = false;  ///< a torque measured behind the drive holds it
+  bool hidden_by_measured_torque = false;  ///< contained in a torque that is measured behind the drive
 
   /// The last one is SimulatedFault::size (lib/simulate), the first of two its `viscous`.
   std::array<FaultSize, kMostSizes> size{};
   int size_count = 0;
-  /// Smaller ones are no fault to act on: share of usual_of() the measure that stands for each size among the
-  /// features. Below what the twin draws, about as much as healthy days differ. 0 for kinds without a size.
+  /// Least size of a fault to act on, for each size as a share of usual_of(FaultSize::feature): below what
+  /// the twin draws, about as much as healthy days differ. 0 for kinds without a size.
   double least_size = 0.0;
-  DrawRange twin_length_s{};  ///< of one that passes
+  DrawRange twin_length_s{};  ///< duration of one that passes, s
 
   std::span<const FaultSize> sizes() const { return {size.data(), static_cast<std::size_t>(size_count)}; }
 };

@@ -5,30 +5,30 @@
 
 namespace faultline {
 
-/// A kind of fault. What is to be known of it stands in fault_catalogue.cpp, in the same order.
+/// A kind of fault, described in fault_catalogue.cpp in the same order.
 enum class FaultKind {
   none,
   free_swinging,        ///< no torque reaches the joint
   locked,               ///< the joint does not move
   torque_loss,          ///< a share of the torque is lost
-  sensor_bias,          ///< the position reads too much by a constant
+  sensor_bias,          ///< the position has a constant error
   stuck_encoder,        ///< position and velocity repeat the last code
   sensor_drift,         ///< the position error grows with time
   friction_increase,    ///< more viscous and Coulomb friction
   payload_change,       ///< mass added at, or taken from, the end of a link
   collision,            ///< a short external force
-  torque_sensor_error,  ///< torque or motor current are measured with an offset
-  unknown,              ///< a fault like none of these; the last one
+  torque_sensor_error,  ///< torque or motor current is measured with an offset
+  unknown,              ///< a fault of no other kind; the last one
 };
 
 inline constexpr int kFaultKinds = static_cast<int>(FaultKind::unknown) + 1;
 
-/// The name used in labels, JSON and reports, such as "free_swinging".
+/// Returns the name used in labels, JSON and reports, such as "free_swinging".
 const char* to_string(FaultKind kind);
-/// Throws Error(usage) that lists the names when `name` is none of them.
+/// Returns the kind of that name. Throws Error(usage) that lists the names if `name` is none of them.
 FaultKind fault_kind_from(const std::string& name);
 
-/// A kind at a joint. Joints count from 1; 0 when the fault belongs to no joint (none, unknown).
+/// A kind at a joint. Joints count from 1; 0 if the fault belongs to no joint (none, unknown).
 struct FaultLabel {
   FaultKind kind = FaultKind::none;
   int joint = 0;

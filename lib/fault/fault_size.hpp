@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// What a number measures that says how large a fault is.
+/// Physical quantity of the size of a fault.
 enum class SizeMeasure {
   torque_share,      ///< 1, of the drive's torque
   length,            ///< rad or m
@@ -17,16 +17,16 @@ enum class SizeMeasure {
   impulse,           ///< N m s or N s
 };
 
-/// The unit at a joint that turns, or at one that slides.
+/// Returns the unit at a joint that turns, or at one that slides.
 const char* unit_of(SizeMeasure measure, bool turns);
 
-/// What is usual for the joint (or the robot), which the twin takes shares of: in words, such as "the range".
+/// Returns, in words such as "the range", the usual value of the measure, of which the twin draws a share.
 const char* usual_of(SizeMeasure measure);
 
 enum class Spread { uniform, log_uniform };
 const char* to_string(Spread spread);
 
-/// A range to draw from.
+/// A range of random values.
 struct DrawRange {
   double low = 0.0;
   double high = 0.0;
@@ -39,11 +39,11 @@ struct DrawRange {
 /// One size of a kind of fault.
 struct FaultSize {
   SizeMeasure measure = SizeMeasure::torque;
-  /// What stands for this size among the features of an episode: the same, or the impulse of a torque that
-  /// passes.
+  /// Quantity that represents this size among the features of an episode: the same one, or the impulse of a
+  /// torque that passes.
   SizeMeasure feature = measure;
   const char* feature_name = "size";  ///< before the label in the feature's name
-  DrawRange twin{};  ///< what a technician would call a fault, as a share of usual_of(measure)
+  DrawRange twin{};  ///< range that a technician would call a fault, as a share of usual_of(measure)
 };
 
 }  // namespace faultline

@@ -8,21 +8,21 @@
 
 namespace faultline {
 
-/// The kind in words a technician uses, such as "swings freely (no torque)".
+/// Returns the kind in words of a technician, such as "free-swinging joint (no torque)".
 const char* plain_name(FaultKind kind);
 
-/// Kind and joint in words, such as "joint 2 swings freely (no torque)" or "an unknown fault".
+/// Returns kind and joint in words, such as "joint 2 swings freely (no torque)" or "unknown fault".
 std::string plain_words(const FaultLabel& label);
 
-/// What to look at next, one or two sentences addressed to a technician.
+/// Returns what to check next: sentences for a technician.
 std::string next_check_for(const FaultLabel& label);
 
-/// How large the fault is, such as "about 40 % of the torque is lost"; empty for kinds whose size says
-/// nothing. `sizes` as in the catalogue, at a joint that turns or slides.
+/// Returns the size of the fault in words, such as "about 40 % of the torque is lost"; empty for kinds
+/// without such words. `sizes` as in the catalogue, at a joint that turns or slides.
 std::string size_text(const FaultLabel& label, const std::array<double, kMostSizes>& sizes, bool turns);
 
-/// Why two faults are hard to tell apart on a joint log, or empty when nothing speaks for confusing them
-/// (which pairs: the observability of rigid-body joint logs, docs/report.md).
+/// Returns why two faults are hard to distinguish on a joint log; empty if they are not known to be alike
+/// (for the pairs see the observability of rigid-body joint logs, docs/report.md).
 std::string why_alike(const FaultLabel& a, const FaultLabel& b);
 
 }  // namespace faultline

@@ -7,8 +7,8 @@
 
 namespace faultline {
 
-/// Kind and joint as in tables and messages: "torque_loss 2", or with " at joint " between them; the kind
-/// alone when the fault belongs to no joint.
+/// Returns kind and joint for tables and messages: "torque_loss 2", or with " at joint " between them; the
+/// kind alone if the fault belongs to no joint.
 std::string label_text(const FaultLabel& label, const char* between = " ");
 
 }  // namespace faultline

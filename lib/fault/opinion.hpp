@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// What one network says a fault is: the label of its largest output.
+/// Classification of a fault by one network: the label of its largest output.
 struct Opinion {
   FaultLabel label;
   double confidence = 0.0;  ///< 0 to 1
@@ -13,7 +13,7 @@ struct Opinion {
   bool operator==(const Opinion&) const = default;
 };
 
-/// What both say, the paper's dual classification.
+/// Classification by both networks, the paper's dual classification.
 struct Opinions {
   Opinion mlp;
   Opinion rbfn;
