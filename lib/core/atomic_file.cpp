@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::streamsize kBlock = 1 << 16;
 
-/// Whether a write failed because the reader closed the pipe early, as `head` does. This is no failure:
-/// nobody reads the rest of the output.
+/// Whether a write failed because the reader closed the pipe early, as `head` does. This is no failure: the
+/// rest of the output has no reader.
 bool reader_has_left() { return errno == EPIPE; }
 
 }  // namespace
@@ -55,7 +55,7 @@ void AtomicFile::fail(const char* doing) {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  if (bytes.empty()) return;  // its data may be null, which fwrite does not take
+  if (bytes.empty()) return;  // its data may be null, which fwrite does not accept
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size() && !reader_has_left())
     fail("written");
 }

@@ -11,9 +11,9 @@
 
 namespace faultline {
 
-/// A file that appears under its final name only when commit() succeeds: bytes go to a TemporaryFile beside
-/// it. The path "-" is standard output; a pipe, a device or an open file (/dev/stdout) is written straight.
-/// Every failure to write throws Error(output).
+/// A file that appears under its final name only if commit() succeeds: bytes go to a TemporaryFile beside it.
+/// The path "-" is standard output; a pipe, a device or an open file (/dev/stdout) is written directly. A
+/// failure to write throws Error(output), except for a pipe that its reader has closed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -34,8 +34,8 @@ class AtomicFile {
 };
 
 void write_file(const std::string& path, std::string_view bytes);
-/// Throws Error(input) that says missing, directory, unreadable or longer than `most_bytes`; a device that
-/// never ends is too long.
+/// Returns the bytes. Throws Error(input) for a file that is missing, a directory, unreadable or longer than
+/// `most_bytes`, as is a device without end.
 std::string read_file(const std::string& path, std::size_t most_bytes = std::size_t{1} << 30);
 
 }  // namespace faultline

@@ -17,14 +17,14 @@ bool is_number(const std::string& text) {
   return end == text.c_str() + text.size();
 }
 
-/// Where a spreadsheet takes semicolons for separators, a formula could begin behind one.
+/// Whether a formula could begin behind a semicolon, which some spreadsheets use as a separator.
 bool begins_cell_inside(std::string_view text) {
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == ';' && begins_like_formula(text.substr(i + 1))) return true;
   return false;
 }
 
-/// Before what a spreadsheet would run.
+/// Adds an apostrophe before text that a spreadsheet would run.
 std::string with_apostrophe(const std::string& text) {
   return begins_like_formula(text) && !is_number(text) ? "'" + text : text;
 }

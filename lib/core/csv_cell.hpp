@@ -4,20 +4,20 @@
 #include <string>
 #include <string_view>
 
-/// Cells of the comma-separated tables we write (RFC 4180).
+/// Cells of the comma-separated tables that faultline writes (RFC 4180).
 namespace faultline {
 
-/// Whether a spreadsheet would take the text for a formula, or for the beginning of one.
+/// Whether a spreadsheet would interpret the text as a formula, or as the beginning of one.
 bool begins_like_formula(std::string_view text);
-/// Text on one line that a spreadsheet shows and does not run: printable(), an apostrophe before it when it
-/// begins like a formula (=, +, -, @) and is no number.
+/// Returns text on one line that a spreadsheet shows and does not run: printable(), after an apostrophe if it
+/// begins like a formula (=, +, -, @) and is not a number.
 std::string inert_text(const std::string& text);
-/// The same with its line breaks, in quotes when it holds one, a comma, a quote, or a semicolon with the like
-/// of a formula behind it.
+/// Returns the same with its line breaks, in quotes if it contains one, a comma, a quote, or a semicolon
+/// before the beginning of a formula.
 std::string csv_cell(const std::string& text);
-/// With every bit; empty when not finite.
+/// Returns the number with every bit; empty if not finite.
 std::string csv_cell(double value);
-/// Empty unless at least 1: joints count from 1, 0 is none.
+/// Returns the number of a joint, from 1; empty for 0, which is no joint.
 std::string csv_joint(int joint);
 
 }  // namespace faultline

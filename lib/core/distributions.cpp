@@ -10,7 +10,7 @@ namespace faultline {
 
 double normal_tail(double z) { return elementary::erfc(std::abs(z) / std::numbers::sqrt2); }
 
-/// By its recurrence over degrees of freedom, from those of 1 and 2 (Abramowitz and Stegun 26.4.8).
+/// Uses the recurrence over degrees of freedom, from 1 and 2 (Abramowitz and Stegun 26.4.8).
 double chi_square_tail(double x, int degrees) {
   if (!(x > 0.0)) return 1.0;
   const bool odd = degrees % 2 == 1;
@@ -23,7 +23,7 @@ double chi_square_tail(double x, int degrees) {
   return tail;
 }
 
-/// By its finite series (Abramowitz and Stegun 26.7.3 and 26.7.4).
+/// Uses the finite series (Abramowitz and Stegun 26.7.3 and 26.7.4).
 double student_tail(double t, int degrees) {
   const double theta = elementary::atan(std::abs(t) / std::sqrt(degrees));
   const auto [sine, cosine] = elementary::sin_cos(theta);

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// The one of `all` that to_string() calls `name`; nullopt for none.
+/// Returns the value of `all` for which to_string() gives `name`; nullopt for none.
 template <typename Enum>
 std::optional<Enum> enum_named(std::string_view name, std::initializer_list<Enum> all) {
   for (const Enum value : all)

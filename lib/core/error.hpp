@@ -13,8 +13,8 @@ enum class ErrorCode {
   internal,  ///< a defect of the program; exit status 4
 };
 
-/// The only exception of the project. `where` is the file, and row or key inside it ("run.csv, row 17,
-/// column tau2"); `message` says what was found, what was expected and what to do.
+/// The only exception of the project. `where` is the file, and row or key inside it ("run.csv, row 17, column
+/// tau2"); `message` states what was found, what was expected and what to do.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, std::string where, std::string message);

@@ -3,8 +3,8 @@
 
 namespace faultline {
 
-/// Where `f` is least between `low` and `high`, if it falls and then rises there; each of the rounds calls it
-/// once and leaves .62 of the interval (Kiefer, 1953).
+/// Returns the place between `low` and `high` at which `f` is least, if it falls and then rises there; each
+/// round calls it once and keeps .62 of the interval (Kiefer, 1953).
 template <typename F>
 double golden_section(double low, double high, int rounds, const F& f) {
   constexpr double kGolden = 0.6180339887498949;

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// SHA-256 over bytes that arrive in pieces.
+/// SHA-256 over bytes that are added in pieces.
 class Sha256 {
  public:
   Sha256();
@@ -16,7 +16,7 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void update(std::string_view bytes);
-  /// Hexadecimal digest of all bytes so far; more may follow.
+  /// Returns the hexadecimal digest of all bytes so far; more may follow.
   std::string hex() const;
 
  private:
@@ -25,7 +25,7 @@ class Sha256 {
 };
 
 std::string sha256_hex(std::string_view bytes);
-/// Throws Error(input) when the file cannot be read.
+/// Throws Error(input) if the file cannot be read.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace faultline

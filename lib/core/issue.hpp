@@ -12,13 +12,13 @@ enum class Severity { note, warning, severe };
 
 const char* to_string(Severity severity);
 
-/// One kind of imperfection found while something was processed all the same. Occurrences of the same
-/// (code, channel) are counted in one Issue, so a broken log of a day does not make a million of them.
+/// One kind of imperfection of an input that was processed all the same. Occurrences of the same (code,
+/// channel) are counted in one Issue, so that a damaged log of a day does not produce a million of them.
 struct Issue {
   std::string code;     ///< stable identifier, such as "time_backward"
-  std::string channel;  ///< canonical channel name, empty when it concerns whole rows
+  std::string channel;  ///< canonical channel name, empty if it concerns whole rows
   Severity severity = Severity::warning;
-  std::string message;         ///< of the first occurrence: what, where, what was done about it
+  std::string message;         ///< of the first occurrence: what, where, how it was handled
   std::int64_t first_row = 0;  ///< data row in the file, from 1; 0 when it has none
   double first_time_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t count = 0;         ///< occurrences
@@ -28,13 +28,13 @@ struct Issue {
 /// Issues in the order of their first occurrence.
 class Issues {
  public:
-  /// Counts one more occurrence, or `issue.count` of them when that is positive.
+  /// Counts one more occurrence, or `issue.count` of them if that is positive.
   void add(Issue issue);
   void merge(const Issues& other);
 
   const std::vector<Issue>& all() const { return issues_; }
   bool empty() const { return issues_.empty(); }
-  /// Null when no such issue was added.
+  /// Returns null if no such issue was added.
   const Issue* find(const std::string& code, const std::string& channel = "") const;
   std::int64_t rows_dropped() const;
 

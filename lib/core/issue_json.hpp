@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// Its texts as they are; what a file holds may be no valid UTF-8.
+/// Returns the issue with its texts unchanged; those from a file may be invalid UTF-8.
 nlohmann::ordered_json issue_json(const Issue& issue);
 
 }  // namespace faultline

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-/// Values in JSON as all our files have them: what is not there is null, and a number that is not finite
-/// (JSON has none) counts as not there. What is written converts to both kinds of JSON.
+/// Values in JSON as in all files of faultline: a missing value is null, and a number that is not finite
+/// (JSON has none) counts as missing. Results convert to both kinds of JSON.
 namespace faultline {
 
 nlohmann::ordered_json number_or_null(double value);
-/// A list in which each number that is not finite is null.
+/// Returns a list in which each number that is not finite is null.
 nlohmann::ordered_json numbers_or_null(const std::vector<double>& values);
-/// Null for an empty text.
+/// Returns null for an empty text.
 nlohmann::ordered_json text_or_null(const std::string& text);
-/// Null unless `count` is at least 1: joints and rows count from 1, 0 is none.
+/// Returns null unless `count` is at least 1: joints and rows count from 1, 0 is none.
 nlohmann::ordered_json count_or_null(std::int64_t count);
 
-/// A list of render(item) for each item; `Json` is either kind.
+/// Returns a list of render(item) for each item; `Json` is either kind.
 template <typename Json, typename Items, typename Render>
 Json list_of(const Items& items, Render render) {
   Json list = Json::array();
@@ -26,7 +26,7 @@ Json list_of(const Items& items, Render render) {
   return list;
 }
 
-// What the four above wrote, back again; of anything else they throw what nlohmann::json throws.
+// Inverse functions of the four above; for any other value they throw what nlohmann::json throws.
 double number_or_nan(const nlohmann::json& value);
 double number_or_nan(const nlohmann::ordered_json& value);
 std::vector<double> numbers_or_nan(const nlohmann::json& list);

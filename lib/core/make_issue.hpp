@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// An issue of a whole log or of one `channel`, at no row in particular.
+/// Returns an issue of a whole log or of one `channel`, without a row.
 inline Issue make_issue(std::string code, Severity severity, std::string message, std::string channel = "") {
   Issue issue;
   issue.code = std::move(code);

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-/// Null for a character that stands for itself.
+/// Returns null for a character that needs no escape.
 const char* entity(char c) {
   switch (c) {
     case '&':

@@ -8,7 +8,7 @@ namespace faultline {
 
 enum class Paint { bold, dim, red, yellow, green, bold_red, bold_green };
 
-/// `text` between terminal colour codes when `color`, else as it is.
+/// Returns `text` between terminal colour codes if `color`, else unchanged.
 std::string painted(std::string_view text, Paint paint, bool color);
 
 }  // namespace faultline

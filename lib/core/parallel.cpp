@@ -28,7 +28,7 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work) 
   try {
     for (int t = 1; t < threads; ++t) helpers.emplace_back(run);
   } catch (const std::system_error&) {
-    // no more threads are to be had: those that started do all the work
+    // no more threads can be started: the existing ones do all the work
   }
   run();
   for (std::thread& helper : helpers) helper.join();

@@ -20,8 +20,8 @@ class Random {
   std::uint64_t below(std::uint64_t n);
   /// Normal with mean 0 and standard deviation 1.
   double normal();
-  /// An independent generator for item `stream` of this seed, so that parallel work draws the same numbers in
-  /// any order.
+  /// Returns an independent generator for item `stream` of this seed, so that parallel work draws the same
+  /// numbers in any order.
   static Random stream(std::uint64_t seed, std::uint64_t stream);
 
  private:

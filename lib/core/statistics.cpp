@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// The value with `rank` values before it, at most the largest.
+/// Returns the value with `rank` values before it, at most the largest.
 double ranked(std::span<double> values, double rank) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::size_t at = std::min(static_cast<std::size_t>(std::max(rank, 0.0)), values.size() - 1);

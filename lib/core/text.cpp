@@ -20,20 +20,20 @@ int characters(std::string_view text) {
   return static_cast<int>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
-/// The byte at which character `number` (from 0) of valid UTF-8 begins.
+/// Returns the byte at which character `number` (from 0) of valid UTF-8 begins.
 std::size_t byte_of(std::string_view text, std::size_t number) {
   for (std::size_t i = 0; i < text.size(); ++i)
     if (starts_character(text[i]) && number-- == 0) return i;
   return text.size();
 }
 
-/// Of the marks U+200E, U+200F, U+202A to U+202E and U+2066 to U+2069, whose first byte is E2.
+/// Whether it is one of U+200E, U+200F, U+202A to U+202E and U+2066 to U+2069, whose first byte is E2.
 bool turns_direction(unsigned char second, unsigned char third) {
   if (second == 0x81) return third >= 0xa6 && third <= 0xa9;
   return second == 0x80 && (third == 0x8e || third == 0x8f || (third >= 0xaa && third <= 0xae));
 }
 
-/// What is in `text` already printable(), in at most `most` characters.
+/// Returns `text`, which is printable() already, in at most `most` characters.
 std::string cut(std::string_view text, std::size_t most) {
   const auto length = static_cast<std::size_t>(characters(text));
   if (length <= most) return std::string(text);
@@ -43,7 +43,7 @@ std::string cut(std::string_view text, std::size_t most) {
                      text.substr(back));
 }
 
-/// Length of a code as painted() writes them (ESC [ digits m), 0 for none.
+/// Returns the length of a code as painted() writes it (ESC [ digits m), 0 for none.
 std::size_t paint_length(std::string_view text) {
   if (!text.starts_with("\x1b[")) return 0;
   const auto end = text.find_first_not_of("0123456789;", 2);

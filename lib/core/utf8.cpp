@@ -10,7 +10,7 @@ unsigned char byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
 }
 
-/// Bytes of the character that starts at `i`, 0 when none does (RFC 3629: no overlong forms, no surrogates).
+/// Returns the length of the character at `i`, 0 for none (RFC 3629: no overlong forms, no surrogates).
 std::size_t character_length(std::string_view text, std::size_t i) {
   const unsigned char first = byte_at(text, i);
   if (first < 0x80) return 1;

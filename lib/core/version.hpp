@@ -3,7 +3,7 @@
 
 namespace faultline {
 
-/// Of this program, such as "0.1.0".
+/// Returns the version of this program, such as "0.1.0".
 const char* program_version();
 
 }  // namespace faultline

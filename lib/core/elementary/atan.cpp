@@ -31,9 +31,9 @@ constexpr std::array<DoubleDouble, 17> kAngles{{
 }};
 constexpr DoubleDouble kRightAngle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr DoubleDouble kHalfTurn{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
-constexpr double kFar = 0x1p60;  // a ratio beyond it is one of the axes, but for its inverse
+constexpr double kFar = 0x1p60;  // of a larger ratio the angle is a right one, of its inverse the inverse
 
-/// atan of a ratio from 0 to 1: that of the nearest k / 16, and of the rest.
+/// Returns atan of a ratio from 0 to 1: that of the nearest k / 16, plus that of the rest.
 DoubleDouble angle_of(DoubleDouble ratio) {
   const double step = std::floor(ratio.high * 16.0 + 0.5), near = step / 16.0;
   DoubleDouble rest = ratio;
@@ -46,7 +46,7 @@ DoubleDouble angle_of(DoubleDouble ratio) {
   return kAngles[static_cast<int>(step)] + sum_of_ordered(t, rest.low + t * z * tail);
 }
 
-/// Of the direction (x, y), both above zero and finite, neither kFar times the other.
+/// Returns the angle of (x, y), both above zero and finite, neither kFar times the other.
 DoubleDouble direction(double y, double x) {
   if (y <= x) return angle_of(DoubleDouble{y} / DoubleDouble{x});
   return kRightAngle + -angle_of(DoubleDouble{x} / DoubleDouble{y});
@@ -75,7 +75,7 @@ double atan2(double y, double x) {
   } else if (up / right <= 1.0 / kFar) {
     angle = back ? kHalfTurn.high : up / right;
   } else {
-    int exponent = 0;  // taken from both, so that products neither over- nor underflow
+    int exponent = 0;  // removed from both, so that products neither over- nor underflow
     std::frexp(std::fmax(right, up), &exponent);
     const DoubleDouble sharp = direction(std::ldexp(up, -exponent), std::ldexp(right, -exponent));
     angle = back ? (kHalfTurn + -sharp).high : sharp.high;

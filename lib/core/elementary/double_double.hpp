@@ -3,34 +3,34 @@
 
 #include <cmath>
 
-/// Numbers of about 106 bits as unevaluated sums of two doubles, for what has to be more exact than the
-/// result (Dekker 1971). Exact only as long as nothing overflows and the compiler fuses or reorders nothing.
+/// Numbers of about 106 bits as unevaluated sums of two doubles, for intermediate values that need more bits
+/// than the result (Dekker 1971). Exact only if nothing overflows and the compiler fuses or reorders nothing.
 namespace faultline::elementary {
 
 struct DoubleDouble {
   double high = 0.0, low = 0.0;
 };
 
-/// a + b exactly, |a| >= |b| or a = 0.
+/// Returns a + b exactly, |a| >= |b| or a = 0.
 inline DoubleDouble sum_of_ordered(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a + b exactly.
+/// Returns a + b exactly.
 inline DoubleDouble sum_of(double a, double b) {
   const double sum = a + b, b_in_sum = sum - a;
   return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
 }
 
-/// The upper 26 bits of a, and the rest.
+/// Returns the upper 26 bits of a, and the rest.
 inline DoubleDouble halves_of(double a) {
   constexpr double kSplit = 0x1p27 + 1.0;
   const double scaled = kSplit * a, high = scaled - (scaled - a);
   return {high, a - high};
 }
 
-/// a b exactly, |a| and |b| below 2^996 and their product not near the smallest numbers.
+/// Returns a b exactly, |a| and |b| below 2^996 and their product not near the smallest numbers.
 inline DoubleDouble product_of(double a, double b) {
   const double product = a * b;
   const DoubleDouble x = halves_of(a), y = halves_of(b);
@@ -56,7 +56,7 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return sum_of_ordered(quotient, left / b.high);
 }
 
-/// a > 0.
+/// Returns the square root of a > 0.
 inline DoubleDouble square_root(DoubleDouble a) {
   const double root = std::sqrt(a.high);
   const DoubleDouble back = product_of(root, root);

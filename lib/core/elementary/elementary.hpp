@@ -3,12 +3,12 @@
 
 #include <type_traits>
 
-/// The elementary functions of this project, for all of lib/, formats/ and apps/: one path of plain IEEE
-/// additions, multiplications, divisions and square roots, so that an argument gives the same bits on every
-/// machine. The C library's give other bits where a processor has a fused multiply-add, and in other
-/// releases. Each is within one unit in the last place (most within 0.55; tests/core/elementary holds them to
-/// it) for every double, subnormal and huge ones too; zeros keep their sign, NaN stays NaN, and infinities
-/// and poles are as in C (Annex F). They neither set errno nor promise floating-point exceptions.
+/// The elementary functions of this project, for all of lib/, formats/ and apps/: plain IEEE additions,
+/// multiplications, divisions and square roots in a fixed order, so that an argument gives the same bits on
+/// every machine. Those of the C library differ with a fused multiply-add, and between releases. Each is
+/// within one unit in the last place (most within 0.55; see tests/core/elementary) for every double,
+/// subnormal and huge ones too; zeros keep their sign, NaN stays NaN, and infinities and poles are as in C
+/// (Annex F). They neither set errno nor promise floating-point exceptions.
 namespace faultline::elementary {
 
 double exp(double x);
@@ -28,7 +28,7 @@ double erfc(double x);
 struct SinCos {
   double sin, cos;
 };
-/// Both, for little more than one of them costs; the same bits as sin() and cos().
+/// Returns both, for little more time than one of them; the same bits as sin() and cos().
 SinCos sin_cos(double x);
 
 }  // namespace faultline::elementary

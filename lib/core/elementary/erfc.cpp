@@ -9,7 +9,7 @@ namespace faultline::elementary {
 namespace {
 
 constexpr DoubleDouble kTwoByRootPi{0x1.20dd750429b6dp+0, 0x1.1ae3a914fed80p-56};
-constexpr double kSeries = 2.5;     // up to there by the series, which leaves 80 of 106 bits
+constexpr double kSeries = 2.5;     // limit of the series, at which 80 of 106 bits are left
 constexpr int kSeriesTerms = 60;    // for 2^-70 of erfc at kSeries
 constexpr int kLevels = 60;         // of the continued fraction, for 2^-64 at kSeries
 constexpr double kAllAbove = 27.3;  // erfc is zero

@@ -8,9 +8,9 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kPlain = 707.0;        // up to there either way e^x is an ordinary number
-constexpr double kExpAllAbove = 710.0;  // e^x is infinite
-constexpr double kAllBelow = -746.0;    // e^x is zero
+constexpr double kPlain = 707.0;        // up to there e^x and e^-x are normal numbers
+constexpr double kExpAllAbove = 710.0;  // above it e^x is infinite
+constexpr double kAllBelow = -746.0;    // below it e^x is zero
 
 }  // namespace
 

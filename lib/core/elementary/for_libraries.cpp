@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Libraries that are linked into the program would still choose by processor: Ceres takes its functions from
-// the C library, and Eigen asks how large the caches are and cuts long sums accordingly, in Ceres and in
-// ours. The linker hands every function `f` listed in lib/CMakeLists.txt that they ask for to `__wrap_f`
-// here.
+// Without this file, linked libraries would depend on the processor: Ceres calls functions of the C library,
+// and Eigen queries the sizes of the caches and splits long sums accordingly, in Ceres and in faultline. The
+// linker redirects calls in them of every function `f` listed in lib/CMakeLists.txt to `__wrap_f` here.
 #include <Eigen/Core>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -35,8 +34,7 @@ void __wrap_sincos(double x, double* sine, double* cosine) {
 
 namespace {
 
-/// Set before main() begins, since the first product asks; Eigen's own defaults for a processor unknown to
-/// it.
+/// Set before main() begins, as the first product queries it; Eigen's own defaults for an unknown processor.
 [[maybe_unused]] const bool kCachesAreSet = [] {
   constexpr std::ptrdiff_t kLevel1 = 32 * 1024, kLevel2 = 256 * 1024, kLevel3 = 2 * 1024 * 1024;
   Eigen::setCpuCacheSizes(kLevel1, kLevel2, kLevel3);

@@ -7,11 +7,11 @@
 namespace faultline::elementary {
 namespace {
 
-constexpr double kHypotFar = 0x1p60;  // a length beyond it leaves the other one no say
+constexpr double kHypotFar = 0x1p60;  // ratio above which the shorter side has no effect
 constexpr double kLargest = 0x1p500,
                  kSmallest = 0x1p-400;  // between them squares neither over- nor underflow
 
-/// a >= b > 0, both between kSmallest and kLargest: the root h of the rounded sum of squares, less
+/// Returns the root h of the rounded sum of squares, a >= b > 0, both between kSmallest and kLargest, minus
 /// (h^2 - a^2 - b^2) / (2 h), in differences that cancel little (Borges 2021).
 double root_of_squares(double a, double b) {
   const double root = std::sqrt(a * a + b * b);

@@ -13,7 +13,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool is_ordinary(double x) { return x > 0.0 && x < kInfinity; }
 
-/// The logarithm of what is no positive finite number.
+/// Returns the logarithm of any other argument than a positive finite number.
 double log_of_other(double x) {
   if (x == 0.0) return -kInfinity;
   return x < 0.0 ? kNaN : x;
@@ -26,7 +26,7 @@ double log(double x) {
     return is_ordinary(x) ? precise_log(x).high : log_of_other(x);
   const LogParts p = log_parts(x);
   const double steps = p.power * kLn2High + p.entry.log_high;  // exact, and zero or above 1 / 256
-  const DoubleDouble r = sum_of_ordered(p.coarse, p.fine);     // exact where steps is zero
+  const DoubleDouble r = sum_of_ordered(p.coarse, p.fine);     // exact if steps is zero
   const DoubleDouble sum = sum_of_ordered(steps, r.high);
   const double small = r.low + (p.entry.log_low + p.power * kLn2Low);
   return sum.high + (sum.low + (small + r.high * r.high * (r.high * log_tail(r.high) - 0.5)));

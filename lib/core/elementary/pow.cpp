@@ -10,12 +10,12 @@ namespace faultline::elementary {
 namespace {
 
 constexpr double kPowInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPowAllAbove = 710.0, kPowAllBelow = -746.0;  // of the exponent: infinite, zero
+constexpr double kPowAllAbove = 710.0, kPowAllBelow = -746.0;  // exponents of e: infinite, zero
 
 bool is_whole(double y) { return std::trunc(y) == y; }
 bool is_odd(double y) { return is_whole(y) && !is_whole(0.5 * y); }
 
-/// x above zero and finite, y finite.
+/// Returns x^y for x above zero and finite, y finite.
 double power_of_positive(double x, double y) {
   const DoubleDouble log = precise_log(x);
   const double about = y * log.high;
@@ -26,7 +26,7 @@ double power_of_positive(double x, double y) {
   return scaled_exp(exponent.high, exponent.low).value();
 }
 
-/// x or y is infinite or x is zero; x is not negative.
+/// Returns x^y if x or y is infinite or x is zero; x is not negative.
 double power_at_limits(double x, double y) {
   if (std::isinf(y)) {
     if (x == 1.0) return 1.0;

@@ -23,9 +23,9 @@ constexpr std::array<Word, 22> kTwoOverPi{
     0x9c845f8bbdf9283b, 0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
     0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab, 0xf0cfbc209af4361d,
     0xa9e391615ee61b08, 0x6599855f14a06800};
-constexpr int kWindow = 192;  // digits that count for one angle
+constexpr int kWindow = 192;  // digits needed for one angle
 
-/// kWindow digits of 2 / pi from that one on (0 is the first after the point), lowest word first.
+/// Returns kWindow digits of 2 / pi from that one on (0 is the first after the point), lowest word first.
 std::array<Word, 3> digits_from(int first) {
   const int word = first / 64, shift = first % 64;
   std::array<Word, 3> out;
@@ -67,7 +67,7 @@ Wide negative(Wide value) {
   return value;
 }
 
-/// value / 2^256 to 106 bits and more.
+/// Returns value / 2^256 to 106 bits or more.
 DoubleDouble fraction(Wide value) {
   int zeros = 0;
   for (int k = 3; k >= 0 && value[k] == 0; --k) zeros += 64;
@@ -90,7 +90,7 @@ RightAngles right_angles_of_any(double x) {
   const int first = exponent > 2 ? exponent - 2 : 0;  // digits before it make whole turns
   const int point = kWindow + first - exponent;       // binary places of the product, 194 to 246
   const Wide product = product_of(whole, digits_from(first));
-  // The bits below the point moved to the top, and the two above it.
+  // The bits below the point move to the top, and the two above it.
   const Wide above = shifted_up(product, 254 - point);
   int quadrant = static_cast<int>(above[3] >> 62);
   Wide rest = shifted_up(above, 2);

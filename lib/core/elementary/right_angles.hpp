@@ -3,13 +3,13 @@
 
 namespace faultline::elementary {
 
-/// An angle as `quadrant` right angles and the rest high + low, within half a right angle of zero.
+/// An angle as `quadrant` right angles plus the rest high + low, within half a right angle of zero.
 struct RightAngles {
   int quadrant;  ///< modulo 4
   double high, low;
 };
 
-/// Of any finite angle, in whole numbers: exact to 2^-135 before it is rounded to the two doubles.
+/// Reduces any finite angle, in whole numbers: exact to 2^-135 before it is rounded to the two doubles.
 RightAngles right_angles_of_any(double x);
 
 }  // namespace faultline::elementary

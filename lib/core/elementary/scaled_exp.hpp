@@ -18,17 +18,17 @@ struct ScaledExp {
   double value() const {
     return power < -1021 || power > 1022 ? std::ldexp(high + low, power) : value_of_normal();
   }
-  /// Where neither it nor twice it is subnormal or infinite.
+  /// Returns the value, if neither it nor twice it is subnormal or infinite.
   double value_of_normal() const {
     return std::bit_cast<double>(std::bit_cast<std::int64_t>(high + low) +
                                  (static_cast<std::int64_t>(power) << 52));
   }
 };
 
-/// e^(x + more), |x| below 2^11 and `more` below an ulp of it; relative error about 2^-61.
+/// Returns e^(x + more), |x| below 2^11 and `more` below an ulp of it; relative error about 2^-61.
 /// x = (128 power + index) ln 2 / 128 + r with |r| <= ln 2 / 256.
 inline ScaledExp scaled_exp(double x, double more = 0.0) {
-  constexpr double kRounder = 0x1.8p52;  // added and taken away: rounds to the nearest whole number
+  constexpr double kRounder = 0x1.8p52;  // added and subtracted: rounds to the nearest whole number
   constexpr double kPerStep = 0x1.71547652b82fep+7;
   constexpr double kStepHigh = 0x1.62e42fefcp-8, kStepLow = -0x1.c610ca86c3899p-44;
   const double shifted = x * kPerStep + kRounder, steps = shifted - kRounder;

@@ -9,18 +9,18 @@
 
 namespace faultline::elementary {
 
-/// x = 2^power m, m from 0.703 to 1.406, and m entry.inverse = 1 + coarse + fine exactly, their sum within
-/// 1/128 of zero. Around x = 1 power is 0 and the inverse 1, so that nothing cancels.
+/// x = 2^power m, m from 0.703 to 1.406, and m entry.inverse = 1 + coarse + fine exactly, coarse + fine
+/// within 1/128 of zero. Around x = 1 power is 0 and the inverse 1, so that nothing cancels.
 struct LogParts {
   double power;
   const LogEntry& entry;
   double coarse, fine;
 };
 
-/// The numbers whose bits lie from kLeastNormal on and below kInfinite are positive, finite and normal.
+/// Numbers with bits from kLeastNormal on and below kInfinite are positive, finite and normal.
 inline constexpr std::uint64_t kLeastNormal = std::uint64_t{1} << 52, kInfinite = std::uint64_t{2047} << 52;
 
-/// x positive, finite and normal.
+/// Returns the parts of a positive, finite and normal x.
 inline LogParts log_parts(double x) {
   constexpr std::uint64_t kMantissa = kLeastNormal - 1, kUpperHalf = ~((std::uint64_t{1} << 27) - 1);
   const auto bits = std::bit_cast<std::uint64_t>(x);
@@ -33,7 +33,7 @@ inline LogParts log_parts(double x) {
   return {static_cast<double>(power), entry, head * entry.inverse - 1.0, (m - head) * entry.inverse};
 }
 
-/// (log(1 + r) - r + r^2 / 2) / r^3 to 2^-51.
+/// Returns (log(1 + r) - r + r^2 / 2) / r^3 to 2^-51.
 inline double log_tail(double r) {
   const double r2 = r * r;
   return (0x1.5555555555559p-2 - r * 0x1.fffffffffdd10p-3) +
@@ -43,7 +43,7 @@ inline double log_tail(double r) {
 
 inline constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;
 
-/// log(x + more) to about 66 bits of itself; x positive and finite, `more` at most an ulp of it or x = 1.
+/// Returns log(x + more) to about 66 bits; x positive and finite, `more` at most an ulp of it or x = 1.
 inline DoubleDouble precise_log(double x, double more = 0.0) {
   constexpr double kUp = 0x1p54;
   const bool subnormal = std::bit_cast<std::uint64_t>(x) < kLeastNormal;

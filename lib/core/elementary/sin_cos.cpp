@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kHalfRightAngle = 0x1.921fb54442d18p-1;
 constexpr double kCosLargest = std::numeric_limits<double>::max();
-constexpr double kMedium = 1e6;  // up to there the parts of a right angle below times the quadrant are exact
+constexpr double kMedium = 1e6;    // up to there the parts of a right angle times the quadrant are exact
 constexpr double kTiny = 0x1p-27;  // the sine rounds to x below it
 constexpr double kClose =
-    0x1p-13;  // nearer to a whole right angle those parts do not reach or are out of order
+    0x1p-13;  // nearer to a whole right angle those parts do not suffice or are out of order
 
-/// Cody and Waite 1980. |x| below kMedium.
+/// Returns the right angles of |x| below kMedium (Cody and Waite 1980).
 [[gnu::always_inline]] inline RightAngles right_angles(double x) {
   constexpr double kRounder = 0x1.8p52;
   constexpr double kPerRightAngle = 0x1.45f306dc9c883p-1;
@@ -29,7 +29,7 @@ constexpr double kClose =
   return {static_cast<int>(count) & 3, angle.high, angle.low};
 }
 
-/// x finite and beyond half a right angle.
+/// Returns the right angles of a finite x beyond half a right angle.
 [[gnu::always_inline]] inline RightAngles reduced(double x) {
   return std::abs(x) < kMedium ? right_angles(x) : right_angles_of_any(x);
 }
@@ -52,7 +52,7 @@ constexpr double kClose =
   return most + (((1.0 - most) - half) + (z2 * tail - x * more));
 }
 
-/// Of infinities and NaN.
+/// Returns NaN for infinities and NaN.
 double of_other(double x) { return x - x; }
 
 }  // namespace

@@ -8,10 +8,10 @@ namespace faultline::elementary {
 namespace {
 
 constexpr double kTanhTiny = 0x1p-28;  // tanh rounds to x below it
-constexpr double kSmall = 0.55;        // tanh is half of the largest there
+constexpr double kSmall = 0.55;        // tanh is half of its limit there
 constexpr double kOne = 20.0;          // beyond it tanh rounds to 1
 
-/// (tanh(x) - x) / x^3 of z = x^2, |x| up to kSmall.
+/// Returns (tanh(x) - x) / x^3 for z = x^2, |x| up to kSmall.
 double odd_tail(double z) {
   const double z2 = z * z, z4 = z2 * z2;
   const double low = (-0x1.5555555555555p-2 + z * 0x1.1111111111109p-3) +

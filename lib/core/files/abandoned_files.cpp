@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::time_t kLongUntouched_s = 24 * 3600;  // a living program writes more often
+constexpr std::time_t kLongUntouched_s = 24 * 3600;  // a running program writes more often
 
 bool is_untouched(const struct stat& facts) { return std::time(nullptr) - facts.st_mtime > kLongUntouched_s; }
 
@@ -28,7 +28,7 @@ bool is_dead(long long process) {
   return process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
 }
 
-/// Whether the program that made the open file, which nobody locks, cannot be alive.
+/// Whether the program that created the open file, which has no lock, cannot be running.
 bool is_abandoned(const fs::path& path, const struct stat& facts) {
   const std::string name = path.filename().string();
   switch (temporary_kind(name)) {
@@ -56,7 +56,7 @@ void remove_if_abandoned(const fs::path& path) {
   ::close(descriptor);
 }
 
-/// True once for each folder.
+/// Returns true once for each folder.
 bool is_new(const std::string& folder) {
   static std::mutex mutex;
   static std::set<std::string> known;

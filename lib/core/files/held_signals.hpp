@@ -5,8 +5,8 @@
 
 namespace faultline {
 
-/// As long as it lives, its thread takes none of the signals of remove_files_on_signals(), and the handler on
-/// another thread waits for its end, a second at most: so that a file that is just being made is found.
+/// While it exists, its thread receives none of the signals of remove_files_on_signals(), and the handler on
+/// another thread waits for its end, at most a second, so that a file being created is found.
 class HeldSignals {
  public:
   HeldSignals();

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kPiece = 1 << 16;
 
-/// An open file or folder; -1 when it could not be opened.
+/// An open file or folder; -1 if it could not be opened.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -52,7 +52,7 @@ class Descriptor {
               std::string("cannot be opened (") + std::strerror(errno) + "); check its permissions");
 }
 
-/// Looks without opening, as opening a device may already do something.
+/// Whether the entry exists, without opening it, as opening a device may already have an effect.
 bool is_there(const Descriptor& in, const std::string& name, const fs::path& path, bool is_folder) {
   struct stat facts {};
   if (::fstatat(in, name.c_str(), &facts, AT_SYMLINK_NOFOLLOW) != 0) {
@@ -66,7 +66,7 @@ bool is_there(const Descriptor& in, const std::string& name, const fs::path& pat
   return true;
 }
 
-/// Opens what is_there(); between the two it may have become a link or a pipe.
+/// Opens an entry after is_there(); in between it may have become a link or a pipe.
 Descriptor opened(const Descriptor& in, const std::string& name, const fs::path& path, bool is_folder) {
   Descriptor file(::openat(in, name.c_str(),
                            O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (is_folder ? O_DIRECTORY : 0)));
@@ -77,7 +77,7 @@ Descriptor opened(const Descriptor& in, const std::string& name, const fs::path&
   return file;
 }
 
-/// Number -1 where a part of the path is missing.
+/// Opens a file or folder below `folder`; -1 if a part of the path is missing.
 Descriptor open_inner(const std::string& folder, const std::string& path, bool ends_in_folder = false) {
   Descriptor at(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   fs::path so_far(folder);
@@ -125,7 +125,7 @@ std::string read_inner_file(const std::string& folder, const std::string& path, 
 
 void prepare_inner_file(const std::string& folder, const std::string& path) try {
   if (has_inner_file(folder, path)) return;
-  std::error_code error;  // writing says it
+  std::error_code error;  // writing the file reports it
   fs::create_directories((fs::path(folder) / path).parent_path(), error);
 } catch (const Error& error) {
   throw Error(ErrorCode::output, error.where(), error.message());

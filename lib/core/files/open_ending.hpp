@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// Throws Error(input) for a file that ends, without a line break, in a number: the end of the file may have
-/// cut digits off, and nothing would tell. Anything else that is cut does not parse.
+/// Throws Error(input) for a file that ends, without a line break, in a number: truncation may have cut off
+/// digits unnoticed. Any other truncated file does not parse.
 inline void refuse_open_number(const std::string& text, const std::string& path) {
   if (text.empty() || !(std::isdigit(static_cast<unsigned char>(text.back())) || text.back() == '.')) return;
   throw Error(

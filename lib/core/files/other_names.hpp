@@ -5,10 +5,10 @@
 
 namespace faultline {
 
-/// Whether an open file has several names (hard links): what is written into it changes it under all of them.
+/// Whether an open file has several names (hard links): writing to it changes it under all of them.
 bool has_other_names(int descriptor);
 
-/// Throws Error(output) where a file that is changed in place has several names; none where there is no file.
+/// Throws Error(output) if a file that is changed in place has several names; a missing file has none.
 void refuse_other_names(const std::string& path);
 
 }  // namespace faultline

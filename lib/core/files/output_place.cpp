@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;
 
-/// The folder that holds `path`.
+/// Returns the folder that contains `path`.
 fs::path folder_of(const fs::path& path) {
   const fs::path parent = path.parent_path();
   return parent.empty() ? fs::path(".") : parent;
 }
 
-/// N of /proc/self/fd/N, whatever leads there; -1 for other paths.
+/// Returns N of /proc/self/fd/N, also if links lead to its folder; -1 for other paths.
 int own_descriptor(const fs::path& path) {
   const std::string name = path.filename().string();
   int number = -1;

@@ -5,22 +5,22 @@
 
 namespace faultline {
 
-/// Where bytes for an output path go.
+/// The place to which the bytes for an output path are written.
 struct OutputPlace {
   std::string path;      ///< behind all symbolic links; the file need not exist
-  bool special = false;  ///< a pipe or a device, or an open file: it is written straight, never replaced
+  bool special = false;  ///< a pipe or a device, or an open file: it is written directly, never replaced
   int descriptor = -1;   ///< of this process, as of /dev/stdout or /dev/fd/3; -1: none
 };
 
-/// Follows symbolic links, also those that lead to nothing yet. Throws Error(output) for links without end
-/// and for those that the system does not let anybody follow.
+/// Follows symbolic links, also to targets that do not exist yet. Throws Error(output) for endless links and
+/// for links that the system does not allow to follow.
 OutputPlace output_place(const std::string& path);
 
-/// The same for two paths exactly when they lead to the same file: device and inode, and for what does not
-/// exist yet the folder's and the name below it. Empty for pipes and devices, which many may share.
+/// Returns the same for two paths exactly if they lead to the same file: device and inode, or for a missing
+/// file the folder's and the name below it. Empty for pipes and devices, which may be shared.
 std::string file_identity(const std::string& path);
 
-/// Absolute, behind all links, without . and .. and without a slash at its end.
+/// Returns the absolute path behind all links, without . and .. and without a slash at its end.
 std::string real_path(const std::string& path);
 
 }  // namespace faultline

@@ -15,8 +15,8 @@ namespace faultline {
 
 enum SlotState { kFree, kBeingSet, kArmed, kTaken };
 
-/// A path that the signal handler may read. Slots are used again and never freed, so that the handler may
-/// walk along them at any moment.
+/// A path that the signal handler may read. Slots are reused and never freed, so that the handler may
+/// traverse them at any moment.
 struct SignalSlot {
   std::atomic<int> state{kBeingSet};
   std::array<char, PATH_MAX> path{};
@@ -31,7 +31,7 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<SignalSlot*>:
 
 std::atomic<SignalSlot*> first_slot = nullptr;
 std::atomic<bool> ending = false;
-std::atomic<int> held = 0;  ///< threads that are just making a file
+std::atomic<int> held = 0;  ///< threads that are creating a file
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 constexpr int kLongestWait_ms = 1000;
@@ -53,7 +53,7 @@ SignalSlot* claim_slot() {
   return fresh;
 }
 
-/// Only what POSIX allows in a handler.
+/// Uses only what POSIX allows in a handler.
 extern "C" void end_by_signal(int number) {
   ending = true;
   for (int ms = 0; held > 0 && ms < kLongestWait_ms; ++ms) ::poll(nullptr, 0, 1);

@@ -5,13 +5,13 @@
 
 namespace faultline {
 
-/// From now on SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup) first remove every file that a
-/// RemovedOnSignal names, then end the program as they would have. For main(); the library sets no handler.
+/// Makes SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup) first remove every file of a
+/// RemovedOnSignal and then end the program as they would have. For main(); the library sets no handler.
 void remove_files_on_signals();
 
 struct SignalSlot;
 
-/// While this lives, a signal that ends the program removes the file. Any thread may hold any number.
+/// While it exists, a signal that ends the program removes the file. Any thread may hold any number.
 class RemovedOnSignal {
  public:
   explicit RemovedOnSignal(const std::string& path);
@@ -20,10 +20,10 @@ class RemovedOnSignal {
   RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
 
  private:
-  SignalSlot* slot_;  ///< null for a path too long for any file
+  SignalSlot* slot_;  ///< null for a path that is too long for any file
 };
 
-/// Does not return when a signal is ending the program: what fails then, fails because of that.
+/// Does not return if a signal is ending the program, as failures are then caused by that.
 void wait_if_ending();
 
 }  // namespace faultline

@@ -29,7 +29,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// The name in the folder is on the disk, too, where the file system can promise that.
+/// Ensures that the name in the folder is on the disk, too, if the file system supports that.
 void sync_folder(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -63,7 +63,7 @@ TemporaryFile::TemporaryFile(std::string target) : target_(std::move(target)) {
   if (exists) take_over_mode();
 }
 
-/// False with errno EEXIST when another try may succeed.
+/// Returns false with errno EEXIST if another try may succeed.
 bool TemporaryFile::create() {
   path_ = temporary_name(place_);
   {
@@ -81,7 +81,7 @@ bool TemporaryFile::create() {
   struct stat facts {};
   const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
   if (locked && ::fstat(descriptor_, &facts) == 0 && facts.st_nlink > 0) return true;
-  remove();  // another program took it for abandoned before it was locked
+  remove();  // another program removed it as abandoned before it was locked
   errno = EEXIST;
   return false;
 }
@@ -89,7 +89,7 @@ bool TemporaryFile::create() {
 void TemporaryFile::take_over_mode() {
   struct stat there {};
   if (::stat(place_.c_str(), &there) != 0) return;
-  if (::fchown(descriptor_, there.st_uid, there.st_gid) != 0) errno = 0;  // only root may give files away
+  if (::fchown(descriptor_, there.st_uid, there.st_gid) != 0) errno = 0;  // only root may change the owner
   if (::fchmod(descriptor_, there.st_mode & kPermissions) != 0) fail("given the mode it had");
 }
 

@@ -8,11 +8,11 @@
 
 namespace faultline {
 
-/// An empty file beside `target`, under a name that nobody can foretell (NAME.partial-..), which takes
-/// target's place by commit() or vanishes with the object, or with the program when a signal ends it. It is
-/// locked as long as it lives, so that what a killed program left is told from what another one writes; the
-/// first one in a folder removes what dead programs left there. Symbolic links at `target` are followed. A
-/// file that is there already keeps its mode and owner. Every failure throws Error(output) naming `target`.
+/// An empty file beside `target`, under an unpredictable name (NAME.partial-..), which replaces target by
+/// commit() or is removed with the object, or with the program if a signal ends it. It is locked while the
+/// object exists, which distinguishes it from the files of killed programs; the first one in a folder removes
+/// those. Symbolic links at `target` are followed. An existing file keeps its mode, and its owner if
+/// permitted. Every failure throws Error(output) naming `target`.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string target);
@@ -22,7 +22,7 @@ class TemporaryFile {
 
   const std::string& path() const { return path_; }
   int descriptor() const { return descriptor_; }  ///< for reading and writing
-  /// Puts bytes and name safely on the disk.
+  /// Ensures that bytes and name are on the disk.
   void commit();
 
  private:
@@ -38,11 +38,11 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
-/// Removes what programs that are dead left half written in the folder; what cannot be removed stays. Once a
-/// folder and process.
+/// Removes half-written files of dead programs from the folder; those that cannot be removed stay. Has an
+/// effect once per folder and process.
 void remove_abandoned_files(const std::string& folder);
 
-/// Throws Error(output) that says why `path` cannot be `doing` ("created", ..), by errno.
+/// Throws Error(output) stating why `path` cannot be `doing` ("created", ..), by errno.
 [[noreturn]] void fail_to_write(const std::string& path, const char* doing);
 
 }  // namespace faultline

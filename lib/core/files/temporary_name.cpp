@@ -40,7 +40,7 @@ bool is_hexadecimal(std::string_view text) {
                      [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
-/// What stands behind the mark; empty without one.
+/// Returns the text behind the mark; empty without one.
 std::string_view tail_of(std::string_view name) {
   const auto mark = name.rfind(kMark);
   return mark == std::string_view::npos ? std::string_view() : name.substr(mark + kMark.size());

@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-/// Of the character whose UTF-8 has these bytes, one to three.
+/// Returns the code point of the character whose UTF-8 has these bytes, one to three.
 unsigned code_point(std::string_view bytes) {
   const auto bits = [&](std::size_t i) { return static_cast<unsigned>(bytes[i]) & 0x3fU; };
   if (bytes.size() == 1) return static_cast<unsigned char>(bytes[0]);

@@ -6,8 +6,8 @@
 
 namespace faultline {
 
-/// A JSON report as text, indented by two blanks, ended by a line break. What commands a terminal or the
-/// reading direction is written as \uXXXX, which says the same and does nothing; what is no UTF-8 as U+FFFD.
+/// Returns a JSON report as text, indented by two blanks, with a line break at its end. Characters that
+/// command a terminal or the reading direction become the equivalent \uXXXX, invalid UTF-8 becomes U+FFFD.
 std::string json_text(const nlohmann::ordered_json& json);
 
 /// The same for text that is JSON already, such as one line of it.
