@@ -19,7 +19,7 @@ struct Issue {
   std::string channel;  ///< canonical channel name, empty if it concerns whole rows
   Severity severity = Severity::warning;
   std::string message;         ///< of the first occurrence: what, where, how it was handled
-  std::int64_t first_row = 0;  ///< data row in the file, from 1; 0 when it has none
+  std::int64_t first_row = 0;  ///< data row in the file, from 1; 0 if it has none
   double first_time_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t count = 0;         ///< occurrences
   std::int64_t rows_dropped = 0;  ///< rows left out because of it

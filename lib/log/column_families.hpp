@@ -46,7 +46,7 @@ using IsUsable = std::function<bool(const ColumnFamily&)>;
 const ColumnFamily* best_family(const std::vector<ColumnFamily>& families, Quantity quantity,
                                 const IsUsable& usable);
 
-/// The same for the torque of a log, where a commanded torque fits better than a measured one.
+/// The same for the torque of a log, as which a commanded torque fits better than a measured one.
 const ColumnFamily* best_torque(const std::vector<ColumnFamily>& families, const IsUsable& usable);
 
 /// Columns of seconds and nanoseconds, as in a ROS stamp.

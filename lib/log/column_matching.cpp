@@ -244,7 +244,7 @@ class Matcher {
     return best_family(families_, quantity, usable);
   }
 
-  /// Returns the commanded or measured torque if the name of the column for tau says so, else tau.
+  /// Returns tau_ref or tau_meas if the name of the column for tau means that, else tau.
   Quantity meaning_of_tau() const {
     for (const ChannelSource& source : matching_.channels)
       if (source.channel.quantity == Quantity::tau && source.column >= 0)

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// One quantity of every joint: [joint][row], joints from base to tip. Empty when the log does not have it.
+/// One quantity of every joint: [joint][row], joints from base to tip. Empty if the log does not have it.
 using JointSignals = std::vector<std::vector<double>>;
 
 /// A recorded quantity without a canonical meaning, kept under its own name.

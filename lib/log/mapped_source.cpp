@@ -153,7 +153,7 @@ void MappedSource::take(const ChannelSource& source, std::vector<double>& values
   for (std::size_t i = 0; i < values.size(); ++i) values[i] += 1e-9 * nanoseconds[i];
 }
 
-/// Gathers all issues so far in the order of their first rows, whatever the size of the segments; those of
+/// Gathers all issues so far in the order of their first rows, for any size of the segments; those of
 /// the reader get the names of the channels.
 void MappedSource::gather_issues() const {
   const std::vector<RawColumn>& columns = reader_->columns();

@@ -16,8 +16,7 @@ enum class RecorderState {
 /// Finds rows in which the recorder stood still while the robot moved: position, velocity and torque of every
 /// joint keep all digits although the velocity is not zero, or all become zero from one row to the next. Not
 /// found are: a stuck encoder of a single joint, as other columns change; a robot at rest, as its velocity is
-/// zero and its velocities allow the positions at which it comes to rest; and rows that a faster logger
-/// repeats for a moment.
+/// zero and agrees with the motion until then; and rows that a faster logger repeats for a moment.
 class StoppedRecorder {
  public:
   RecorderState take(const MeasuredRow& row);

@@ -47,7 +47,7 @@ void EmptyRowsSource::rewind() {
   rows_ = given_ = off_grid_ = 0;
 }
 
-/// Reads the first rows, whatever the segments of the source, and estimates the period; false without any.
+/// Reads the first rows, for any segments of the source, and estimates the period; false without any.
 bool EmptyRowsSource::read_head() {
   started_ = true;
   for (Log segment; head_.rows() < kHeadRows && source_.next(segment);) append(head_, segment);
