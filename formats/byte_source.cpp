@@ -67,7 +67,7 @@ void ByteSource::rewind() {
   if (!unpacker_) return;
   unpacker_ = unpacker_of(file_);
   head_given_ = 0;
-  // What stands in the head has been handed out of the fresh unpacker already.
+  // read() hands out the head from head_; skip these bytes in the fresh unpacker.
   std::string again(head_.size(), '\0');
   for (std::size_t got = 0, more; got < again.size(); got += more)
     if ((more = unpacker_->read(again.data() + got, again.size() - got)) == 0) break;

@@ -12,34 +12,34 @@
 
 namespace faultline {
 
-/// The bytes of a log from front to back: those of its file, or where that is compressed as a whole (gzip,
-/// zstd) those inside. Every failure of reading the file throws Error(input); damage of the compression ends
-/// the bytes and is told in issues().
+/// The bytes of a log from front to back: those of its file or, if the whole file is compressed (gzip, zstd),
+/// the unpacked ones. Every failure to read the file throws Error(input); damage of the compression ends the
+/// bytes and is reported in issues().
 class ByteSource {
  public:
-  /// Not `hashed`, it leaves sha256() empty and reads faster.
+  /// Without `hashed`, sha256() stays empty and reading is faster.
   explicit ByteSource(const std::string& path, bool hashed = true);
 
   const std::string& path() const { return file_.path(); }
-  /// The first bytes, up to 64 KiB unless extended, whatever was read before.
+  /// The first bytes, up to 64 KiB unless extended, independent of what was read.
   std::string_view head() const { return unpacker_ ? std::string_view(head_) : file_.head(); }
-  /// Doubles the head, as far as the bytes go; false at their end. Only before the first read(); views of the
-  /// head end here.
+  /// Doubles the head, as far as there are bytes; false at their end. Allowed only before the first read();
+  /// invalidates views of the head.
   bool extend_head();
   /// Copies up to `size` of the next bytes to `to`; 0 at the end.
   std::size_t read(char* to, std::size_t size);
   void rewind();
-  /// Of the file once its end was reached, empty before.
+  /// Of the file, once its end was reached; empty before.
   const std::string& sha256() const { return file_.sha256(); }
-  /// Reads what is left of the file, for its hash.
+  /// Reads the rest of the file, for its hash.
   void read_to_end();
   double share_read() const { return file_.share_read(); }
-  /// Size of the file, 0 for a pipe.
+  /// Size of the file in bytes, 0 for a pipe.
   std::int64_t file_size() const { return file_.size(); }
-  /// Name of the compression around the bytes, null for none: then a library may read the file by its path.
+  /// Name of the compression, or null for none: then a library may read the file by its path.
   const char* compression() const { return unpacker_ ? unpacker_->name() : nullptr; }
-  /// Counts work on the bytes read so far. Throws Error(input) when it is more than a log of so many bytes
-  /// asks for, see WorkBudget.
+  /// Counts work on the bytes read so far. Throws Error(input) when it exceeds what a log of this size needs,
+  /// see WorkBudget.
   void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_.position()); }
   /// Damage of the compression met so far.
   const Issues& issues() const { return issues_; }

@@ -11,7 +11,7 @@ constexpr std::size_t kLeastCapacity = 1 << 18;
 
 }  // namespace
 
-/// Room behind the view for at least one more byte, and not for a few only where there is more to be had.
+/// Makes room after the view for at least one byte: moves the view to the front or enlarges the buffer.
 void ByteWindow::make_room(std::size_t size) {
   const std::size_t have = end_ - begin_;
   if (have < capacity_) {

@@ -9,23 +9,23 @@
 
 namespace faultline {
 
-/// The bytes of a file from front to back, as many of them in one piece as are asked for. The memory it takes
-/// grows with what the file holds, never with what it promises.
+/// The bytes of a file from front to back, in contiguous pieces of the requested size. The memory it takes
+/// depends on the bytes that the file holds, never on the sizes that it states.
 class ByteWindow {
  public:
   explicit ByteWindow(ByteSource& source) : source_(source) {}
 
-  /// Brings at least the next `size` bytes into view, or all that are left; whether there are so many.
+  /// Brings at least the next `size` bytes into view, or all that remain; false when there are fewer.
   bool fill(std::size_t size);
-  /// The bytes in memory from the present place on; valid until the next fill().
+  /// The bytes in memory from the current position on; valid until the next fill().
   std::string_view view() const { return {bytes_.get() + begin_, end_ - begin_}; }
-  /// Goes on by so many of the bytes in view.
+  /// Moves forward by `size` bytes, which must be in view.
   void advance(std::size_t size);
-  /// Goes on by so many bytes, in view or not, as far as there are some.
+  /// Moves forward by `size` bytes, in view or not, or to the end of the file.
   void skip(std::uint64_t size);
   /// Bytes advanced over since the beginning.
   std::int64_t position() const { return position_; }
-  /// Reads on to the end of the file; the number of bytes that were left, view included.
+  /// Reads to the end of the file; returns the number of remaining bytes, including the view.
   std::int64_t drain();
   /// Starts again, after the source was rewound.
   void clear();

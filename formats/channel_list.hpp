@@ -15,8 +15,8 @@ struct WrittenChannel {
   const std::vector<double>* values = nullptr;
 };
 
-/// The columns of a log in the order t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., tau_ref1..,
-/// tau_meas1.., extra; an extra channel that bears a canonical name gets "other_" before it.
+/// Returns the columns of a log in the order t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., tau_ref1..,
+/// tau_meas1.., extra; an extra channel with a canonical name gets the prefix "other_".
 std::vector<WrittenChannel> channels_of(const Log& log);
 
 }  // namespace faultline

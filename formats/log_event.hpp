@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Something that happened during a log, for formats that hold it beside the rows.
+/// An event during a log, for formats that store events beside the rows.
 struct LogEvent {
   double time_s = 0.0;
   bool grave = false;  ///< an error rather than a remark

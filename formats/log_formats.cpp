@@ -22,7 +22,7 @@
 namespace faultline {
 
 const std::vector<LogFormat>& log_formats() {
-  // MATLAB comes before HDF5, on which its version 7.3 is built. CSV comes last, as it takes any text.
+  // MATLAB comes before HDF5, on which its version 7.3 is based. CSV comes last, as it accepts any text.
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
       {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},

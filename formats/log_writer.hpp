@@ -10,15 +10,15 @@
 namespace faultline {
 
 /// Writes a log segment by segment; the file appears under its name at commit() only. The first segment
-/// decides the channels, all others have the same. How the rows are cut into segments changes no byte of the
-/// file.
+/// determines the channels, all others have the same. The division of the rows into segments changes no byte
+/// of the file.
 class LogWriter {
  public:
   virtual ~LogWriter() = default;
   virtual void write(const Log& segment) = 0;
-  /// Puts what provenance_of() says behind the rows; to be called once at most, after all write().
+  /// Writes the text of provenance_of() after the rows; call it at most once, after all write().
   virtual void note_provenance(const std::string& provenance) = 0;
-  /// Puts events beside the rows; false where the format has no place for them. After all write().
+  /// Writes events beside the rows; false if the format cannot store them. Call it after all write().
   virtual bool note_events(const std::vector<LogEvent>&) { return false; }
   virtual void commit() = 0;
 };

@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Stands for a number that was not recorded or cannot be known.
+/// Stands for a number that was not recorded or cannot be computed.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace faultline

@@ -34,7 +34,7 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed) {
 
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
                                       const RecordingChoice& choice) {
-  // The hash of a log of several files is one of theirs.
+  // The hash of a log of several files is computed from the hashes of all files.
   const bool all_hashed = parts.hashed || !parts.then.empty() || !parts.join.empty();
   const auto open_chosen = [&](const std::string& file) {
     auto reader = open_raw(file, all_hashed);

@@ -12,32 +12,32 @@
 
 namespace faultline {
 
-/// Of which files a log is made, and which of their runs it is.
+/// Selects the files that form a log, and one of its runs.
 struct LogSelection {
-  std::vector<std::string> then{};  ///< files in which it goes on
+  std::vector<std::string> then{};  ///< files that continue it
   std::vector<std::string> join{};  ///< files with more columns of it
-  JoinBy by = JoinBy::automatic;    ///< how their rows are found
-  int run = kEveryRun;              ///< where the clock restarts, from 1
-  bool hashed = true;               ///< identity() has the SHA-256; text is read in half the time without
+  JoinBy by = JoinBy::automatic;    ///< how their rows are matched
+  int run = kEveryRun;              ///< number from 1; a run ends when the clock restarts
+  bool hashed = true;               ///< identity() has the SHA-256; without it text is read in half the time
 };
 
 struct OpenLogOptions {
   LogSelection parts{};
   ColumnMap columns{};          ///< [log.columns] of the robot file: robot.log.columns
   RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
-  int segment_rows = 4096;      ///< rows of a segment at most; changes no byte of any result
+  int segment_rows = 4096;      ///< upper limit of the rows of a segment; changes no byte of any result
   bool keep_extra =
-      true;  ///< hand out columns without a canonical meaning too; without them reading is faster
+      true;  ///< also return columns without a canonical meaning; reading is faster without them
 };
 
-/// Opens a log of any known format, told by its content first, then by its extension. Throws Error(input)
-/// when the file is missing, a directory, empty, of no known format, or has no time or position.
+/// Opens a log of any known format, recognised by its content first, then by its extension. Throws
+/// Error(input) when the file is missing, a directory, empty, of no known format, or has no time or position.
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options = {});
 
-/// The file's columns before any channel mapping; for looking into files that are no joint log.
+/// Opens the columns of a file before any channel mapping; also for files that are no joint log.
 std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed = true);
 
-/// The same of a log of several files: `choice` holds for each of them.
+/// Does the same for a log of several files: `choice` applies to each of them.
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
                                       const RecordingChoice& choice);
 

@@ -20,10 +20,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProvenanceSchema = "faultline/provenance/1";
 constexpr std::size_t kMostText = 300;  // characters of a message that are repeated
-constexpr std::size_t kMostIssues = 8;  // one a kind and channel
+constexpr std::size_t kMostIssues = 8;  // one per code and channel
 
-/// Issues of rows that stay, with a value less, of signals that were dropped, and of losses that were there
-/// before.
+/// Codes of warnings about lost values in rows that were kept, about omitted signals, and about earlier
+/// losses.
 constexpr std::array kLostValues{"not_a_number",  "value_implausible", "ragged_row",     "source_damaged",
                                  "joint_missing", "array_length",      "signal_left_out"};
 
@@ -40,7 +40,7 @@ Json loss_json(Issue issue) {
   return issue_json(issue);
 }
 
-/// Of what may come from another program.
+/// Returns a text, shortened, as another program may have written it.
 std::string text_at(const nlohmann::json& json, const char* key) {
   return shortened(json.at(key).get_ref<const std::string&>(), kMostText);
 }

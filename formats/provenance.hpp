@@ -9,13 +9,13 @@
 
 namespace faultline {
 
-/// What a copy of a damaged log says of its original, so that a gap in it is not taken for the robot's: one
-/// line of JSON, schema "faultline/provenance/1", ASCII only (docs/formats-csv.md). Empty when neither rows
-/// nor values were lost. `source` was read to its end; a file that was not hashed is read once more.
+/// Returns the losses of a damaged log as text for its copy, so that a gap is not attributed to the robot:
+/// one line of ASCII JSON, schema "faultline/provenance/1" (docs/formats-csv.md). Empty without lost rows or
+/// values and severe issues. `source` was read to its end; one without a hash is read once more.
 std::string provenance_of(const LogSource& source);
 
-/// The issue that a log has because of its provenance, severe when its original was severely damaged, or the
-/// text cannot be read any more.
+/// Returns the issue that a log has because of its provenance: severe when an issue of the original was
+/// severe or the text is not valid.
 Issue issue_from_provenance(std::string_view text);
 
 }  // namespace faultline

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-/// Such as ".csv (text)".
+/// Returns texts such as ".csv (text)".
 std::vector<std::string> choices(const std::vector<LogFormat>& formats) {
   std::vector<std::string> all;
   for (const LogFormat& format : formats) all.push_back(format.extensions.front() + " (" + format.what + ")");

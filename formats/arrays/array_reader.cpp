@@ -20,7 +20,7 @@
 namespace faultline {
 namespace {
 
-/// Of a slab, the rows that are read at once: 4 MiB whatever the columns, so that caches hold it.
+/// Values of a slab (rows that are read at once): 4 MiB for any number of columns, so that caches hold it.
 constexpr std::int64_t kSlabValues = 1 << 19;
 constexpr std::int64_t kMostSlabRows = 1 << 16;
 
@@ -62,7 +62,7 @@ class ArrayReader : public RawReader {
       const std::int64_t sound = pass_lost();
       if (sound == 0) continue;
       if (block.rows == 0) block.first_row = given_;
-      if (given_ != block.first_row + block.rows) break;  // rows of a block follow each other
+      if (given_ != block.first_row + block.rows) break;  // rows of a block are consecutive
       give(block, std::min<std::int64_t>(max_rows - block.rows, sound));
     }
     identity_.rows_read = given_ + rows_cut_;
@@ -83,14 +83,14 @@ class ArrayReader : public RawReader {
           "is no file but a pipe or a device, and arrays are not read in their order; copy it to a file");
   }
 
-  /// When no array is left, what became of the first one is the reason.
+  /// Throws Error(input) if no array could be read; the reason is the first issue.
   void refuse_damaged(const ArrayFile& file) const {
     if (arrays_.empty() && !file.issues().empty())
       throw Error(ErrorCode::input, identity_.path,
                   "has no array that can be read: " + file.issues().all().front().message);
   }
 
-  /// With the names that a written log had.
+  /// Returns the arrays of the file with the channel names of the log that was written to it.
   std::vector<NamedArray> named(const ArrayFile& file) {
     std::vector<NamedArray> arrays = file.arrays();
     if (file.notes().empty()) return arrays;
@@ -186,7 +186,7 @@ class ArrayReader : public RawReader {
       values_.columns[i].swap(slab_[used.first_column + static_cast<std::size_t>(band.columns[i])]);
   }
 
-  /// Lost values become NaN; a row without its time is to be dropped.
+  /// Sets lost values to NaN and marks rows without their time as dropped.
   void take_loss(const TableArray& used, const ArrayBand& band, const LostRows& lost, bool damaged) {
     for (std::size_t i = 0; i < band.columns.size(); ++i) {
       if (lost.column >= 0 && static_cast<int>(i) != lost.column) continue;
@@ -212,7 +212,7 @@ class ArrayReader : public RawReader {
                 row + 1, kNan, count});
   }
 
-  /// Goes past dropped rows, and returns how many sound ones follow in the slab.
+  /// Skips dropped rows; returns the number of valid rows that follow in the slab.
   std::int64_t pass_lost() {
     auto at = dropped_.begin() + (given_ - slab_first_);
     const auto sound = std::find(at, dropped_.end(), 0);
@@ -237,7 +237,7 @@ class ArrayReader : public RawReader {
     block.rows += static_cast<int>(rows);
   }
 
-  /// Tells the rows that the file cannot hold, and reads all bytes for the hash.
+  /// Reports the rows that the file cannot hold, and reads all bytes for the hash.
   void finish() {
     at_end_ = true;
     rows_cut_ = table_.rows - table_.rows_held;
@@ -260,16 +260,16 @@ class ArrayReader : public RawReader {
   std::vector<NamedArray> arrays_;
   ArrayTable table_;
   std::vector<bool> wanted_;
-  std::vector<std::vector<double>> slab_;  ///< by column of the table; empty where not wanted
+  std::vector<std::vector<double>> slab_;  ///< by column of the table; empty if not wanted
   std::vector<char> dropped_;              ///< by row of the slab
   std::vector<std::int64_t> values_lost_;  ///< by row of the slab
   BandValues values_;
   std::int64_t slab_first_ = 0, slab_rows_ = 0;
   std::int64_t given_ = 0;     ///< rows handed out or dropped so far
-  std::int64_t rows_cut_ = 0;  ///< behind the last that the file can hold, told already
+  std::int64_t rows_cut_ = 0;  ///< after the last that the file can hold, already reported
   bool at_end_ = false;
   LogIdentity identity_;
-  Issues opening_;  ///< what was found when it was opened
+  Issues opening_;  ///< issues found on opening
   Issues issues_;
 };
 

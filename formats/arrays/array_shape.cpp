@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kMostTold = 8;  ///< arrays that are named
+constexpr std::size_t kMostTold = 8;  ///< arrays that a message lists by name
 
-/// 100 x 3.
+/// Returns the shape as text, such as 100 x 3.
 std::string shape_text(const ArrayShape& shape) {
   std::string text;
   for (const std::int64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);

@@ -11,19 +11,19 @@ namespace faultline {
 
 using ArrayShape = std::vector<std::int64_t>;
 
-/// Columns of a table at most; no log has more.
+/// Upper limit of the columns of a table; no log has more.
 inline constexpr std::int64_t kMostArrayColumns = 1 << 14;
 
-/// Without dimensions of one, but a vector of one element stays a vector.
+/// Returns the shape without dimensions of one, except that a vector of one element stays a vector.
 ArrayShape squeezed(const ArrayShape& shape);
 double elements(const ArrayShape& shape);
 
-/// "q" (100 x 3), for messages.
+/// Returns the name and shape, such as "q" (100 x 3), for messages.
 std::string array_label(const NamedArray& array);
-/// The labels of the first ones, and how many more there are.
+/// Returns the labels of the first arrays and the number of further ones.
 std::string listed_arrays(const std::vector<const NamedArray*>& arrays);
 
-/// Why the arrays of a file, of which none is part of a table with rows, are no log.
+/// Returns the reason why the arrays of a file are no log, if none is part of a table with rows.
 std::string why_no_table(const std::vector<NamedArray>& arrays);
 
 }  // namespace faultline

@@ -21,7 +21,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kMostOfARobot = 64.0;  ///< numbers, such as limits of its joints
+constexpr double kMostOfARobot = 64.0;  ///< longest list of robot data, such as limits of its joints
 
 using Shape = ArrayShape;
 
@@ -30,11 +30,10 @@ std::string leaf_of(const std::string& name) {
   return at == std::string::npos || at + 1 == name.size() ? name : name.substr(at + 1);
 }
 
-/// Whether a vector of three or more dimensions becomes 1 x N once surplus dimensions of one are taken away,
-/// from the last on.
+/// True when a vector of three or more dimensions becomes 1 x N after trailing dimensions of one are removed.
 bool after_ones(const Shape& shape) { return shape.size() > 2 && shape.back() != 1; }
 
-/// Elements of arrays that have a dimension of each length.
+/// Returns, for each length, the number of elements of the arrays that have a dimension of that length.
 std::map<std::int64_t, double> votes_of(const std::vector<NamedArray>& arrays) {
   std::map<std::int64_t, double> votes;
   for (const NamedArray& array : arrays) {
@@ -50,7 +49,8 @@ bool looks_like_time(const NamedArray& array) {
   return squeezed(array.shape).size() == 1 && find_time_column({leaf}) >= 0;
 }
 
-/// By its name, or as a list longer than what a robot has of one kind; a picture is that long both ways.
+/// True when the name is that of a signal, or the array is a list longer than a robot has of one kind; an
+/// image is excluded because it is that long in both dimensions.
 bool looks_recorded(const NamedArray& array) {
   if (looks_like_time(array) || read_name(split_unit(leaf_of(array.name)).name).quantity) return true;
   const Shape shape = squeezed(array.shape);
@@ -59,7 +59,7 @@ bool looks_recorded(const NamedArray& array) {
   return longest > kMostOfARobot && elements(shape) <= kMostOfARobot * longest;
 }
 
-/// The length that the votes prefer, the largest when they are even.
+/// Returns the length with the most votes, the largest of equals.
 std::int64_t preferred(const std::map<std::int64_t, double>& votes) {
   std::int64_t best = 0;
   double most = -1.0;
@@ -68,7 +68,7 @@ std::int64_t preferred(const std::map<std::int64_t, double>& votes) {
   return best;
 }
 
-/// Whether most is written as one row: a single time is a sample period otherwise.
+/// True when most elements are stored as one row; else a single time is a sample period.
 bool is_one_row(const std::vector<NamedArray>& arrays) {
   double all = 0.0, in_one_row = 0.0;
   for (const NamedArray& array : arrays) {
@@ -113,7 +113,7 @@ class TableMaker {
   }
 
  private:
-  /// Whether the array's second dimension has the rows; nullopt when none has.
+  /// True when the second dimension of the array has the rows; nullopt when none has.
   std::optional<bool> is_channel_major(const NamedArray& array) const {
     const Shape shape = squeezed(array.shape);
     if (shape.empty() || shape.size() > 2) return std::nullopt;
@@ -161,7 +161,7 @@ class TableMaker {
     total_ += static_cast<std::size_t>(held);
   }
 
-  /// The last part of a name where no other array of the table has the same, else all of it.
+  /// Names the columns by the last part of the array's name if it is unique in the table, else by all of it.
   void name_columns() {
     std::map<std::string, int> leaves;
     for (const TableArray& used : table_.arrays) ++leaves[leaf_of(arrays_[used.array].name)];
@@ -196,7 +196,7 @@ class TableMaker {
     if (column.unit.empty() && !array.exact) column.unit = parts.unit;
   }
 
-  /// Two arrays may name their columns alike.
+  /// Returns the name, changed if another array has a column of that name.
   std::string unique(const std::string& name, const std::string& array) {
     std::string tried = name;
     if (!taken_.insert(tried).second) tried = valid_utf8(array) + "/" + name;
@@ -230,7 +230,7 @@ class TableMaker {
     note_other_clocks();
   }
 
-  /// Arrays of times beside the one that was taken: what belongs to them is taken row by row all the same.
+  /// Reports arrays of times other than the one used: their signals are matched row by row nevertheless.
   void note_other_clocks() {
     std::string clocks;
     int found = 0;

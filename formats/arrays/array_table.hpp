@@ -11,7 +11,7 @@
 
 namespace faultline {
 
-/// An array that is part of the table, with the table's columns that it gives.
+/// An array that is part of the table, with the columns of the table that it supplies.
 struct TableArray {
   std::size_t array = 0;
   bool channel_major = false;
@@ -22,20 +22,20 @@ struct TableArray {
 
 /// The arrays of a file as one table: those that have a value for each row of the log.
 struct ArrayTable {
-  std::int64_t rows = 0;       ///< that the shapes promise
-  std::int64_t rows_held = 0;  ///< that the file can hold at most
+  std::int64_t rows = 0;       ///< according to the shapes
+  std::int64_t rows_held = 0;  ///< upper limit of those that the file can hold
   std::vector<RawColumn> columns;
   std::vector<TableArray> arrays;
   int time_column = -1;
   Issues issues;  ///< arrays that do not fit
 };
 
-/// What will be read of the arrays of a table.
+/// Returns the bands that will be read of the arrays of a table.
 std::vector<ArrayBand> bands_of(const ArrayTable& table);
 
-/// The rows are as many as the time vector has, else as most elements share. A matrix has the rows along the
-/// dimension of that length, along the first when both have it. Throws Error(input) when there is no array of
-/// numbers.
+/// Forms the table. It has as many rows as the time vector, else the length that most elements share. A
+/// matrix has its rows along the dimension of that length, along the first if both have it. Throws
+/// Error(input) when there is no array of numbers.
 ArrayTable table_of(const std::vector<NamedArray>& arrays, const std::string& path);
 
 }  // namespace faultline

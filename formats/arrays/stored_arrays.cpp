@@ -16,7 +16,7 @@
 namespace faultline {
 namespace {
 
-/// Compressed contents are unpacked into memory while they take no more together; larger ones are streamed.
+/// Compressed contents are unpacked into memory while their total stays below this; larger ones are streamed.
 constexpr std::int64_t kMostUnpacked = 96 << 20;
 constexpr std::int64_t kRegionBytes = 16 << 20;     ///< read at once
 constexpr std::size_t kMostRegionBytes = 64 << 20;  ///< of one row, or of a column of few rows
@@ -34,8 +34,8 @@ void decode_as(const char* from, std::ptrdiff_t stride, bool swapped, std::size_
   }
 }
 
-/// Elements that lie `stride` bytes apart from `from` on, as doubles. `swapped` when their byte order is not
-/// the processor's.
+/// Converts elements that lie `stride` bytes apart from `from` on to doubles. `swapped` when their byte order
+/// is not the processor's.
 void decode(const char* from, std::ptrdiff_t stride, ElementType type, bool swapped, std::size_t count,
             double* to) {
   switch (type) {
@@ -62,7 +62,7 @@ void decode(const char* from, std::ptrdiff_t stride, ElementType type, bool swap
   }
 }
 
-/// How a two-dimensional array lies: bytes between its rows, and between its columns.
+/// Memory layout of a two-dimensional array: bytes between its rows, and between its columns.
 struct Lie {
   std::int64_t row_stride = 0, column_stride = 0, rows = 0, columns = 1;
   bool by_rows() const { return columns == 1 || column_stride <= row_stride; }
@@ -141,7 +141,7 @@ StoredArrays::StoredArrays(std::unique_ptr<RandomFile> file, StoredList list)
   }
 }
 
-/// The whole unpacked content, or null when it is plain or would take too much memory.
+/// Returns the whole unpacked content, or null when it is plain or would take too much memory.
 const std::string* StoredArrays::in_memory(std::size_t content) {
   const StoredContent& what = list_.contents[content];
   if (what.packing == Packing::plain) return nullptr;
@@ -163,7 +163,7 @@ const std::string* StoredArrays::in_memory(std::size_t content) {
   return &bytes;
 }
 
-/// Brings bytes of a content into region_.
+/// Reads bytes of a content into region_.
 void StoredArrays::fetch(std::size_t content, StreamKey key, std::int64_t at, std::size_t count) {
   if (region_.content == content && region_.at == at && region_.wanted == count) return;
   region_.content = content;

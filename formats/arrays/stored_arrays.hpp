@@ -18,7 +18,7 @@ enum class ElementType { f4, f8, i1, i2, i4, i8, u1, u2, u4, u8 };
 
 std::size_t size_of(ElementType type);
 
-/// An array whose elements lie at even distances in a content.
+/// An array whose elements have constant strides in a content.
 struct StoredArray {
   NamedArray array;  ///< with as many dimensions as `strides`
   std::size_t content = 0;
@@ -27,10 +27,10 @@ struct StoredArray {
   std::vector<std::int64_t> strides;  ///< bytes from element to element along each dimension
   ElementType type = ElementType::f8;
   bool swapped = false;    ///< the byte order is not the processor's
-  bool is_moment = false;  ///< its least integer is none, as numpy's NaT
+  bool is_moment = false;  ///< times, whose least integer means missing (numpy's NaT)
 };
 
-/// What a file of stored arrays holds, as its format's parser finds it.
+/// The content of a file of stored arrays, as the parser of the format finds it.
 struct StoredList {
   std::vector<StoredContent> contents;
   std::vector<StoredArray> arrays;
@@ -38,7 +38,7 @@ struct StoredList {
   std::string notes;
 };
 
-/// Strides of an array without gaps.
+/// Returns the strides, in bytes, of an array without gaps.
 std::vector<std::int64_t> packed_strides(const std::vector<std::int64_t>& shape, std::int64_t item,
                                          bool fortran_order);
 
@@ -59,7 +59,7 @@ class StoredArrays : public ArrayFile {
     std::size_t wanted = 0, got = 0;
     std::vector<char> bytes;
   };
-  using StreamKey = std::pair<std::size_t, std::int64_t>;  ///< array, and column of one that lies by columns
+  using StreamKey = std::pair<std::size_t, std::int64_t>;  ///< array, and the column of one stored by columns
 
   void fetch(std::size_t content, StreamKey key, std::int64_t at, std::size_t count);
   const std::string* in_memory(std::size_t content);
@@ -71,7 +71,7 @@ class StoredArrays : public ArrayFile {
   StoredList list_;
   std::vector<NamedArray> arrays_;
   std::map<StreamKey, ContentStream> streams_;
-  std::map<std::size_t, std::string> unpacked_;  ///< whole contents, of which the sum is bounded
+  std::map<std::size_t, std::string> unpacked_;  ///< whole contents; their total size is bounded
   std::int64_t memory_left_;
   Region region_;
 };

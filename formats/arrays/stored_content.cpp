@@ -16,7 +16,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::int64_t kMostExpansion = 1032;  ///< of what deflate compresses
+constexpr std::int64_t kMostExpansion = 1032;  ///< upper limit of the compression ratio of deflate
 constexpr std::size_t kInputBytes = 1 << 16;
 
 }  // namespace
@@ -91,7 +91,7 @@ struct ContentStream::Inflater {
     stream.avail_in = static_cast<uInt>(got);
   }
 
-  /// The next bytes, fewer where the stream ends.
+  /// Unpacks the next bytes; returns fewer if the stream ends.
   std::size_t next(char* to, std::size_t count) {
     std::size_t got = 0;
     while (ok && !ended && got < count) {
@@ -122,7 +122,7 @@ struct ContentStream::Inflater {
   std::int64_t position = 0;  ///< unpacked bytes
   unsigned long crc = 0;
   bool begun = false, ok = false, ended = false;
-  bool wrong = false;  ///< the compressed bytes, or what zlib checks them by
+  bool wrong = false;  ///< compressed bytes or zlib checksum are damaged
 };
 
 ContentStream::ContentStream(const RandomFile& file, const StoredContent& content)
@@ -152,7 +152,7 @@ bool ContentStream::mismatch() {
   if (!inflater_) return false;
   if (content_.packing == Packing::deflate)
     return content_.crc && inflater_->ended && inflater_->crc != *content_.crc;
-  // zlib checks at its end, behind the last number.
+  // The zlib checksum is at the end, after the last number.
   inflater_->passed.resize(kInputBytes);
   while (inflater_->next(inflater_->passed.data(), kInputBytes) > 0) {
   }

@@ -10,7 +10,7 @@
 
 namespace faultline {
 
-/// A file that is open for reading anywhere in it.
+/// A file that is open for reading at any position.
 class RandomFile {
  public:
   /// Throws Error(input) when it cannot be opened.
@@ -20,7 +20,8 @@ class RandomFile {
   RandomFile& operator=(const RandomFile&) = delete;
 
   std::int64_t size() const { return size_; }
-  /// Bytes read, fewer than `count` at the end only. Throws Error(input) when reading fails.
+  /// Returns the number of bytes read, less than `count` only at the end. Throws Error(input) when reading
+  /// fails.
   std::size_t read(std::int64_t at, char* to, std::size_t count) const;
   std::string text(std::int64_t at, std::size_t count) const;
   /// Counts the work of unpacking, see WorkBudget.
@@ -36,28 +37,28 @@ class RandomFile {
 
 enum class Packing { plain, deflate, zlib };
 
-/// A stretch of a file, perhaps compressed.
+/// A stretch of a file, plain or compressed.
 struct StoredContent {
   std::string name;
   std::int64_t offset = 0, bytes = 0;  ///< in the file, within its end
   Packing packing = Packing::plain;
-  std::optional<std::int64_t> unpacked{};  ///< bytes that it promises
+  std::optional<std::int64_t> unpacked{};  ///< bytes, according to the file
   std::optional<std::uint32_t> crc{};      ///< of the unpacked bytes
 };
 
-/// Bytes that it can have unpacked at most.
+/// Returns the upper limit of the unpacked size in bytes.
 std::int64_t most_bytes(const StoredContent& content);
 
-/// The unpacked bytes of a content; going back costs unpacking from its beginning.
+/// The unpacked bytes of a content; reading an earlier position unpacks again from the beginning.
 class ContentStream {
  public:
   ContentStream(const RandomFile& file, const StoredContent& content);
   ~ContentStream();
   ContentStream(ContentStream&&) noexcept;
 
-  /// Bytes read, fewer where the content ends or is damaged.
+  /// Returns the number of bytes read, fewer if the content ends or is damaged.
   std::size_t read(std::int64_t at, char* to, std::size_t count);
-  /// Whether all was read in its order and does not match the checksum; of zlib, the rest is read for that.
+  /// True when all was read in order and the checksum does not match; for zlib, reads the rest to check it.
   bool mismatch();
 
  private:
@@ -65,7 +66,7 @@ class ContentStream {
 
   const RandomFile* file_;
   StoredContent content_;
-  std::unique_ptr<Inflater> inflater_;  ///< null for a plain one
+  std::unique_ptr<Inflater> inflater_;  ///< null for plain contents
 };
 
 }  // namespace faultline

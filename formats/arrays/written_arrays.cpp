@@ -13,9 +13,9 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kLongestPart = 40;  ///< of a channel's name; MATLAB takes names of 63
+constexpr std::size_t kLongestPart = 40;  ///< of a channel's name; MATLAB allows names of 63
 
-/// Columns of a log, an array after the other.
+/// Returns the columns of a log, one list per array.
 std::vector<std::vector<const std::vector<double>*>> columns_of(const Log& log) {
   std::vector<std::vector<const std::vector<double>*>> all{{&log.time}};
   for (const Quantity quantity : kJointQuantities) {

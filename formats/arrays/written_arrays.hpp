@@ -10,7 +10,7 @@
 
 namespace faultline {
 
-/// An array of a log that is being written: rows x width, row by row; a vector when `vector`.
+/// An array of a log that is being written: rows x width, row by row; a vector if `vector` is set.
 struct WrittenArray {
   std::string name;
   std::string unit;  ///< empty for joint channels, which are SI
@@ -19,11 +19,11 @@ struct WrittenArray {
   std::vector<double> values;
 };
 
-/// A log as arrays: t, one a quantity (q, dq, tau ..) with a column a joint, and one a further channel, named
-/// by `prefix` and a part of its name that any program takes.
+/// A log as arrays: t, one per quantity (q, dq, tau ..) with a column per joint, and one per extra channel,
+/// named by `prefix` and a part of its name that any program accepts.
 class WrittenArrays {
  public:
-  /// `path` for messages.
+  /// `path` is used in messages.
   WrittenArrays(std::string path, std::string prefix);
 
   /// Appends rows [begin, end) of a segment, whose channels are those of the first. Throws Error(internal)
@@ -31,10 +31,10 @@ class WrittenArrays {
   void add(const Log& segment, int begin, int end);
   std::int64_t rows() const { return rows_; }
   const std::vector<WrittenArray>& arrays() const { return arrays_; }
-  /// Forgets the rows, not the arrays.
+  /// Removes the rows, not the arrays.
   void clear();
   void note_provenance(const std::string& provenance) { notes_.provenance = provenance; }
-  /// What is to be stored beside the arrays; empty when they tell all.
+  /// Returns the text to store beside the arrays; empty when they hold everything.
   std::string notes() const;
 
  private:
@@ -47,8 +47,7 @@ class WrittenArrays {
   std::int64_t rows_ = 0;
 };
 
-/// Throws Error(output) when bytes can only be sent there, as into a pipe, but `format` must be put together
-/// in a file.
+/// Throws Error(output) when the path is a pipe or a device, as `format` must be assembled in a file.
 void refuse_pipe_for(const std::string& path, const std::string& format);
 
 }  // namespace faultline

@@ -25,7 +25,7 @@ class ByteBuilder {
     bytes_.append(bytes);
     return *this;
   }
-  /// Behind its length in 32 bits.
+  /// Appends the text after its length in 32 bits.
   ByteBuilder& put_text(std::string_view text) {
     return put(static_cast<std::uint32_t>(text.size())).put_bytes(text);
   }

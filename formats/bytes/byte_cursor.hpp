@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// Takes little-endian values from the front of bytes. What goes beyond their end gives zeros and empty
-/// text, and leaves ok() false.
+/// Takes little-endian values from the front of bytes. Reading past their end gives zeros and empty text, and
+/// sets ok() to false.
 class ByteCursor {
  public:
   explicit ByteCursor(std::string_view bytes) : bytes_(bytes) {}
@@ -33,7 +33,7 @@ class ByteCursor {
     at_ += size;
     return taken;
   }
-  /// Bytes behind their number, which is of type T.
+  /// Bytes that follow their number, which is of type T.
   template <std::unsigned_integral T = std::uint32_t>
   std::string_view text() {
     return bytes(take<T>());

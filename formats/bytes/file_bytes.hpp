@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// The bytes of a file from front to back, hashed as they pass where that is asked for. A regular file is
-/// open only while it is being read, so that a command may have any number of them; one that is another file
-/// by then is refused. Every failure throws Error(input).
+/// The bytes of a file from front to back, with a hash if requested. A regular file is open only while it is
+/// read, so that a command may have any number of them; a file that was replaced meanwhile is rejected. Every
+/// failure throws Error(input).
 class FileBytes {
  public:
   explicit FileBytes(std::string path, bool hashed = true);
@@ -21,26 +21,26 @@ class FileBytes {
   FileBytes& operator=(const FileBytes&) = delete;
 
   const std::string& path() const { return path_; }
-  /// The first bytes of the file, up to 64 KiB unless extended, whatever was read before.
+  /// The first bytes of the file, up to 64 KiB unless extended, independent of what was read.
   std::string_view head() const { return head_; }
-  /// Doubles the head, as far as the file goes; false at its end. Only before the first read(); views of the
-  /// head end here.
+  /// Doubles the head, as far as the file goes; false at its end. Allowed only before the first read();
+  /// invalidates views of the head.
   bool extend_head();
   /// Copies up to `size` of the next bytes to `to`; 0 at the end of the file.
   std::size_t read(char* to, std::size_t size);
   void rewind();
   /// Closes a regular file until the next read().
   void pause();
-  /// Of all bytes once the end was reached, empty before and where they are not hashed.
+  /// Of all bytes, once the end was reached; empty before and if hashing is off.
   const std::string& sha256() const { return sha256_; }
   double share_read() const;
   /// Bytes read since the beginning.
   std::int64_t position() const { return position_; }
-  /// Of the file, 0 for a pipe.
+  /// Of the file in bytes, 0 for a pipe.
   std::int64_t size() const { return regular_ ? stamp_.size : 0; }
 
  private:
-  /// Of the file, to tell whether it is still the same.
+  /// Properties of the file that show whether it was replaced or changed.
   struct Stamp {
     std::uint64_t device = 0, inode = 0;
     std::int64_t size = 0;
@@ -61,7 +61,7 @@ class FileBytes {
   std::int64_t position_ = 0;
   std::string head_;
   std::size_t head_given_ = 0;  ///< bytes of head_ handed out by read()
-  std::optional<Sha256> hash_;  ///< none where it is not asked for, or done
+  std::optional<Sha256> hash_;  ///< empty if not requested, or finished
   std::string sha256_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace faultline {
 
-/// The compressed bytes of a file on their way into a library that takes what it wants of those in view.
+/// Buffers the compressed bytes of a file for a library that consumes any number of those in view.
 class PackedInput {
  public:
   explicit PackedInput(FileBytes& file) : file_(file), bytes_(kAtOnce, '\0') {}
 
-  /// Bytes not yet taken; reads on when there are none. Empty at the end of the file.
+  /// Bytes not yet taken; reads more when there are none. Empty at the end of the file.
   std::string_view view() {
     if (begin_ == end_) {
       begin_ = 0;
