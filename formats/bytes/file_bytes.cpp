@@ -52,7 +52,7 @@ void FileBytes::open() {
   stamp_ = {facts.st_dev, facts.st_ino, facts.st_size};
 }
 
-/// Goes on behind what was read.
+/// Reopens the file and continues after the bytes that were read.
 void FileBytes::open_again() {
   const Stamp before = stamp_;
   open();

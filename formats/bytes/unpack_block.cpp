@@ -14,14 +14,14 @@
 namespace faultline {
 namespace {
 
-/// What one step of a library did.
+/// Result of one step of a library.
 struct Step {
   std::size_t taken = 0, made = 0;
   bool failed = false, ended = false;
 };
 
-/// Lets `step(in, in_size, out, out_size)` work until its end, failure, the end of `packed`, or `promised`
-/// bytes came out.
+/// Calls `step(in, in_size, out, out_size)` until its end, a failure, the end of `packed`, or `promised`
+/// bytes of output.
 template <typename StepOnce>
 bool unpack_in_steps(std::string_view packed, std::uint64_t promised, BlockBytes& out, StepOnce step) {
   char* const to = out.make_room(promised);

@@ -21,7 +21,7 @@ constexpr int kGzipWindow = 15 + 16;          // largest window, gzip header (zl
 constexpr std::size_t kMostAtOnce = 1 << 30;  // bytes that are unpacked at once
 constexpr unsigned char kFirstByte = 0x1F;    // of a gzip member
 
-/// Several gzip members may follow each other.
+/// Unpacks gzip; one member may follow another.
 class GzipUnpacker : public Unpacker {
  public:
   explicit GzipUnpacker(FileBytes& file) : input_(file) {
@@ -77,7 +77,7 @@ class GzipUnpacker : public Unpacker {
   std::string damage_;
 };
 
-/// Several zstd frames may follow each other.
+/// Unpacks zstd; one frame may follow another.
 class ZstdUnpacker : public Unpacker {
  public:
   explicit ZstdUnpacker(FileBytes& file) : input_(file), stream_(ZSTD_createDStream()) {

@@ -13,10 +13,10 @@
 namespace faultline {
 namespace {
 
-constexpr int kLeastRows = 10;  ///< of a sparse table
-/// Columns that all rows of a sparse table have: the time.
+constexpr int kLeastRows = 10;  ///< rows of a sparse table
+/// Largest number of columns that all rows of a sparse table have: the time.
 constexpr int kCommonColumns = 1;
-/// Share of the rows that a way of being filled must have to count.
+/// Least share of the rows with the same filled columns for this pattern to count.
 constexpr double kLeastShare = 0.1;
 
 using Presence = std::vector<bool>;  ///< by field
@@ -32,8 +32,8 @@ bool share_nothing(const Presence& a, const Presence& b, const Presence& always)
   return some_a && some_b;
 }
 
-/// Whether these rows look like a table that merges signals of different rates: some rows hold signals that
-/// others lack, and those others hold what the first lack, and all hold the time alone.
+/// True when the rows look like a table that merges signals of different rates: at most one column, the time,
+/// is filled in all rows, and two frequent patterns of filled columns have no other column in common.
 bool is_sparse_table(std::span<const CsvLine> lines, int fields, char decimal) {
   std::map<Presence, int> rows_of;
   Presence always(static_cast<std::size_t>(fields), true);
@@ -81,8 +81,8 @@ void choose_separator(std::vector<CsvLine>& lines, CsvDialect& dialect) {
   score(lines, dialect.separator, dialect.decimal);
 }
 
-/// The line behind a header without data, or behind the first line of any text: the first one with the usual
-/// number of fields.
+/// Returns the line after the first one with the usual number of fields: a header without data, or the first
+/// line of any text.
 std::size_t behind_first_line(const std::vector<CsvLine>& lines, int fields) {
   const auto header = std::find_if(lines.begin(), lines.end(), [&](const CsvLine& line) {
     return !line.comment && static_cast<int>(line.fields.size()) == fields;

@@ -19,12 +19,12 @@ struct CsvDialect {
   std::int64_t lines_before = 0;    ///< lines before it
   std::int64_t preamble_lines = 0;  ///< of these, lines that are neither header, units, comments nor blank
   bool has_header = false;
-  bool sparse = false;            ///< each row holds some of the signals only
-  bool names_in_rows = false;     ///< each value has its name in the column before it
+  bool sparse = false;            ///< each row holds only some of the signals
+  bool names_in_rows = false;     ///< the name of each value is in the column before it
   std::vector<int> value_fields;  ///< field of each column
   int fields = 0;                 ///< of a whole row
-  std::string time_note{};        ///< how the unit of the time was recognised, where the file does not say
-  LastCells last_cells{};         ///< how the last cells of the first rows are written
+  std::string time_note{};        ///< how the unit of the time was derived, if the file does not give it
+  LastCells last_cells{};         ///< format of the last cells of the first rows
 };
 
 /// Finds the dialect from the first bytes of a file: the separator and decimal sign that make most cells

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r";
 constexpr int kHours = 24, kSixty = 60, kMonths = 12, kDays = 31;
 
-/// Takes parts of a text from its front; `ok` turns false where one is not there.
+/// Takes parts from the front of a text; sets `ok` to false if one is missing.
 struct ClockText {
   std::string_view rest;
   bool ok = true;
@@ -40,7 +40,7 @@ struct ClockText {
   }
   void demand(char c) { ok = takes(c) && ok; }
 
-  /// Whole seconds of hh:mm:ss; 60 for a leap second.
+  /// Reads hh:mm:ss; returns seconds. The second may be 60 (leap second).
   std::int64_t time_of_day() {
     const int hours = digits(2);
     demand(':');
@@ -50,7 +50,7 @@ struct ClockText {
     ok = ok && hours < kHours && minutes < kSixty && seconds <= kSixty;
     return (std::int64_t{hours} * kSixty + minutes) * kSixty + seconds;
   }
-  /// What stands behind a decimal sign, if there is one: nanoseconds, with digits beyond them left out.
+  /// Reads the digits after a decimal sign, if there is one; returns nanoseconds, truncated.
   std::int64_t nanoseconds() {
     if (!takes('.') && !takes(',')) return 0;
     std::int64_t value = 0, scale = 1'000'000'000;
@@ -63,7 +63,7 @@ struct ClockText {
     ok = ok && rest.size() < before;
     return value;
   }
-  /// Seconds east of UTC.
+  /// Reads the time zone; returns seconds east of UTC.
   std::int64_t zone() {
     if (rest.empty() || takes('Z') || takes('z')) return 0;
     const bool west = takes('-');
@@ -82,8 +82,8 @@ std::int64_t days_after_1970(int year, int month, int day) {
   return sys_days(date).time_since_epoch().count();
 }
 
-/// Seconds that a date and time as ISO 8601 writes it ("2026-05-01T12:30:00.125+02:00", with a blank for the
-/// T, a decimal comma, without a zone = UTC) lies after 1970, or a time of day ("12:30:00.125") after
+/// Converts a date and time in ISO 8601 ("2026-05-01T12:30:00.125+02:00", also with a blank for the T, a
+/// decimal comma, or no zone = UTC) to seconds since 1970, or a time of day ("12:30:00.125") to seconds since
 /// midnight; nullopt for any other text.
 std::optional<double> clock_seconds(std::string_view text) {
   constexpr std::size_t kShortest = 8;  // hh:mm:ss

@@ -6,23 +6,23 @@
 
 namespace faultline {
 
-/// A cell of a text table as it was read.
+/// A cell of a text table.
 enum class CellKind { number, missing, text };
 struct Cell {
   CellKind kind = CellKind::missing;
   double value = 0.0;  ///< NaN unless a number
 };
 
-/// Reads one cell: blanks and quotes around it do not matter; empty, "nan", "null", "NA", "-" are missing;
+/// Reads one cell: blanks and quotes around it are ignored; empty, "nan", "null", "NA", "-" are missing;
 /// "true" and "false" are 1 and 0.
 Cell read_cell(std::string_view text, char decimal);
 
-/// More columns than a log has; a text with more is refused, so that no small file takes much memory.
+/// Upper limit of the columns; a text with more is rejected, so that a small file cannot take much memory.
 inline constexpr int kMostFields = 1 << 14;
 
-/// Cuts a line at its separators into `fields`, without quotes and blanks around each. A separator between
-/// double quotes does not cut. The separator ' ' means any run of blanks. What is behind kMostFields fields
-/// is one more, uncut.
+/// Splits a line at its separators into `fields`, without quotes and blanks around each. A separator between
+/// double quotes does not split. The separator ' ' means any run of blanks. The rest after kMostFields fields
+/// is one more field, not split.
 void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 std::string_view without_blanks(std::string_view text);

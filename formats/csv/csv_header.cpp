@@ -15,7 +15,7 @@
 namespace faultline {
 namespace {
 
-/// A header behind a comment sign, as numpy.savetxt and rostopic write it.
+/// Reads a header after a comment sign, as numpy.savetxt and rostopic write it; false if the line is none.
 bool take_commented_header(const CsvLine& line, const CsvDialect& dialect, int fields,
                            std::vector<std::string>& names) {
   std::string_view text = without_blanks(line.text);
@@ -52,8 +52,8 @@ struct Header {
   std::vector<std::string> names, units;
 };
 
-/// A line of groups above the names, such as "Joint 1,,Joint 2,": needed where names repeat. Each group goes
-/// on until the next one. Whether there is one.
+/// Adds groups from the line above the names, such as "Joint 1,,Joint 2,", if names repeat. Each group
+/// extends to the next one. True when the line has groups.
 bool add_groups(const CsvLine& above, std::vector<std::string>& names) {
   const std::set<std::string> different(names.begin(), names.end());
   if (different.size() == names.size() || above.comment || above.fields.size() != names.size()) return false;
@@ -66,7 +66,7 @@ bool add_groups(const CsvLine& above, std::vector<std::string>& names) {
   return true;
 }
 
-/// From the lines above the rows.
+/// Finds the header in the lines above the rows.
 Header find_header(std::span<const CsvLine> above, bool open_end, int fields, CsvDialect& dialect) {
   Header header;
   std::size_t line = above.size();
@@ -92,7 +92,7 @@ Header find_header(std::span<const CsvLine> above, bool open_end, int fields, Cs
   return header;
 }
 
-/// "name,value,name,value" rows, as `ros2 topic echo --csv` writes key-value statistics.
+/// Finds "name,value,name,value" rows, as `ros2 topic echo --csv` writes key-value statistics.
 bool names_stand_in_rows(const CsvLine& first, const CsvLine* second, std::vector<std::string>& names) {
   int pairs = 0;
   std::vector<std::string> found(first.fields.size());
@@ -109,7 +109,7 @@ bool names_stand_in_rows(const CsvLine& first, const CsvLine* second, std::vecto
   return true;
 }
 
-/// The first two fields of a row without header when they are seconds since 1970 and nanoseconds.
+/// True when a row without header begins with whole seconds since 1970 and nanoseconds.
 bool starts_with_stamp(const CsvLine& line) {
   if (line.fields.size() < 3) return false;
   const Cell seconds = read_cell(line.fields[0], '.'), nanoseconds = read_cell(line.fields[1], '.');
@@ -120,7 +120,7 @@ bool starts_with_stamp(const CsvLine& line) {
           (nanoseconds.value >= 0.0 && read_cell(line.fields[2], '.').kind != CellKind::number));
 }
 
-/// The fields of `ros2 topic echo --csv` of a JointState: stamp, frame, names, then the numbers of each
+/// Names the fields of `ros2 topic echo --csv` of a JointState: stamp, frame, names, then the numbers of each
 /// joint.
 void name_joint_states(const CsvLine& row, std::vector<std::string>& names) {
   constexpr std::size_t kNamesBegin = 3;
@@ -144,13 +144,13 @@ void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vect
   if (!dialect.names_in_rows) name_joint_states(rows[0], names);
 }
 
-/// Without the apostrophe that keeps a spreadsheet from running a name, see inert_text().
+/// Removes the apostrophe that keeps a spreadsheet from executing a name, see inert_text().
 std::string without_apostrophe(const std::string& name) {
   const bool inert = name[0] == '\'' && begins_like_formula(std::string_view(name).substr(1));
   return inert ? name.substr(1) : name;
 }
 
-/// Of a field in the rows that have it.
+/// Returns the values of a field in the data rows.
 std::vector<double> values_of(std::span<const CsvLine> rows, int field, const CsvDialect& dialect) {
   std::vector<double> values;
   for (const CsvLine& row : rows)
@@ -159,7 +159,7 @@ std::vector<double> values_of(std::span<const CsvLine> rows, int field, const Cs
   return values;
 }
 
-/// Gives a time without unit the one in which it seems to count.
+/// Sets the unit of a time without unit to the one that its steps suggest.
 void find_time_unit(std::span<const CsvLine> rows, CsvDialect& dialect) {
   std::vector<std::string> names;
   for (const RawColumn& column : dialect.columns) names.push_back(column.name);
@@ -176,7 +176,7 @@ void find_time_unit(std::span<const CsvLine> rows, CsvDialect& dialect) {
   const bool is_clock = std::any_of(rows.begin(), rows.end(), [&](const CsvLine& row) {
     return is_data(row, dialect.fields) && cell_of_time(row).find(':') != std::string_view::npos;
   });
-  if (is_clock) return;  // of seconds
+  if (is_clock) return;  // in seconds
   const CountedTime counted =
       counted_time(values_of(rows, dialect.value_fields[static_cast<std::size_t>(time)], dialect), moving);
   dialect.columns[static_cast<std::size_t>(time)].unit = counted.unit;

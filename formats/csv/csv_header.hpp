@@ -10,12 +10,12 @@
 
 namespace faultline {
 
-/// Finds names and units of the columns in the lines above the table, else in its first rows, if it has any,
-/// and sets what `dialect` says of columns and header.
+/// Finds names and units of the columns in the lines above the table or, without a header, in its first rows;
+/// sets the columns, header flags and unit of time of `dialect`.
 void find_columns(std::span<const CsvLine> above, std::span<const CsvLine> rows, int fields,
                   CsvDialect& dialect);
 
-/// Whether these fields of a row are the header once more, as where files were joined.
+/// True when these fields of a row repeat the header, as in concatenated files.
 bool repeats_header(const CsvDialect& dialect, const std::vector<std::string_view>& fields);
 
 }  // namespace faultline

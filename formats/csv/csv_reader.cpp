@@ -22,12 +22,12 @@
 namespace faultline {
 namespace {
 
-/// Values of a block at most, whatever its columns: 8 MiB.
+/// Largest number of values of a block, for any number of columns: 8 MiB.
 constexpr int kBlockValues = 1 << 20;
-/// Fields that may be missing at the ends of rows before it is asked whether most are.
+/// Number of fields missing at the ends of rows from which on their share is tested.
 constexpr std::int64_t kMostAbsent = 1 << 26;
 constexpr double kMostAbsentShare = 0.9;
-/// Of any line, also one that is no row.
+/// Work of any line, also one that is no row.
 constexpr std::int64_t kLineWork_ns = 200;
 
 constexpr std::size_t kLongestHeadLine = 1 << 20;  ///< bytes; 16384 names of 64 characters
@@ -35,22 +35,23 @@ constexpr std::size_t kLongestLine = 1 << 24;      ///< bytes
 constexpr std::size_t kBlock = 1 << 18;            ///< bytes that are read at once
 constexpr std::size_t kKeptBefore = 1 << 12;       ///< bytes of the lines before
 
-/// Whole lines of a text file in a window of bounded size, with kNumberMargin bytes around them. A file whose
-/// last line has no newline gets one.
+/// Whole lines of a text file in a window of bounded size, with kNumberMargin bytes around them. A newline is
+/// added to a last line without one.
 class LineBuffer {
  public:
   explicit LineBuffer(ByteSource& bytes) : bytes_(bytes) {}
 
-  /// Whole lines from `position()` on, each ended by '\n'; empty when more must be filled in.
+  /// Whole lines from `position()` on, each ended by '
+  /// '; empty when fill() must be called.
   const char* position() const { return text() + begin_; }
   const char* end_of_lines() const { return text() + lines_end_; }
   void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text()); }
-  /// Reads on until a whole line is there; false at the end of the file. Pointers into the buffer end here.
-  /// Throws Error(input) for a line longer than kLongestLine.
+  /// Reads until a whole line is in the buffer; false at the end of the file. Invalidates pointers into the
+  /// buffer. Throws Error(input) for a line longer than kLongestLine.
   bool fill();
-  /// True when the line that ends the present lines is the last of the file and had no newline.
+  /// True when the last of the present lines is the last of the file and had no newline.
   bool last_line_was_open() const { return last_line_was_open_; }
-  /// Whole lines just before that one, a few KiB at most.
+  /// Whole lines just before that one, at most a few KiB.
   std::string_view lines_before() const { return before_; }
   void clear();
 
@@ -61,7 +62,7 @@ class LineBuffer {
 
   ByteSource& bytes_;
   std::vector<char> bytes_read_;  ///< with kNumberMargin bytes around them
-  std::string before_;            ///< the last lines that fill() dropped
+  std::string before_;            ///< the last lines that fill() removed
   std::size_t begin_ = 0;
   std::size_t lines_end_ = 0;
   std::size_t end_ = 0;
@@ -120,8 +121,8 @@ std::size_t longest_line(std::string_view text) {
   return longest;
 }
 
-/// A head of the file with room for some of its longest lines, so that a long header is whole and has rows
-/// below.
+/// Returns a head of the file with room for some of its longest lines, so that a long header is whole and has
+/// rows below.
 std::string_view whole_lines_head(ByteSource& bytes) {
   constexpr std::size_t kLines = 4;
   std::size_t longest = longest_line(bytes.head());
@@ -187,7 +188,7 @@ void CsvReader::refuse_many_columns() const {
                     kMostFields));
 }
 
-/// Rows that hold a small part of their fields each would make much of a small file.
+/// Rejects files whose rows lack most fields, as they expand to much more data than the file holds.
 void CsvReader::refuse_mostly_absent() const {
   const double all = static_cast<double>(at_.row) * dialect_.fields;
   if (rows_.absent_fields() < kMostAbsent ||
@@ -218,7 +219,7 @@ void CsvReader::spend(const CsvPlace& before, std::int64_t absent_before) {
                 kValueWork_ns * absent);
 }
 
-/// Reads past the header.
+/// Skips the header.
 void CsvReader::start() {
   at_ = {0, dialect_.lines_before};
   std::size_t to_skip = dialect_.data_begin;
@@ -239,7 +240,8 @@ void CsvReader::rewind() {
   start();
 }
 
-/// Rows of numbers from `p` on that are read together; none where a line needs care.
+/// Reads rows of numbers from `p` on together; returns their number, 0 if read_line() must read the next
+/// line.
 int CsvReader::read_many(const char*& p, const char* end, int row, int max_rows) {
   if (lines_.last_line_was_open()) return 0;
   const int rows = rows_.read_many(p, end, row, max_rows);
@@ -248,10 +250,10 @@ int CsvReader::read_many(const char*& p, const char* end, int row, int max_rows)
   return rows;
 }
 
-/// Reads the line at `p` and returns what is behind it.
+/// Reads the line at `p` and returns the position after it.
 const char* CsvReader::read_line(const char* p, const char* end, int row, CsvRow& verdict) {
   verdict = CsvRow::keep;
-  const bool open = lines_.last_line_was_open();  // then it is the only one there
+  const bool open = lines_.last_line_was_open();  // then it is the only line in the buffer
   if (const char* after = open ? nullptr : rows_.read_plain(p, end, row)) return after;
   const char* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
   const std::string_view line(p, static_cast<std::size_t>(newline - p));
@@ -282,7 +284,7 @@ bool CsvReader::next(RawBlock& block, int max_rows) {
       row += verdict == CsvRow::keep;
       if (verdict == CsvRow::drop) {
         if (row == 0) block.first_row = at_.row;
-        stop = row > 0;  // rows of a block follow each other
+        stop = row > 0;  // rows of a block are consecutive
       }
     }
     lines_.advance_to(p);

@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// True for any text; false when the bytes are binary.
+/// True for any text; false for binary bytes and UTF-16.
 bool looks_like_csv(std::string_view head);
 
-/// Opens a text table in whatever dialect it is written; see docs/formats-csv.md. Throws Error(input) for a
-/// column named twice or a text that is not UTF-8 (UTF-16).
+/// Opens a text table in any dialect; see docs/formats-csv.md. Throws Error(input) for a column named twice,
+/// too many columns, or a line that is too long.
 std::unique_ptr<RawReader> open_csv(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline

@@ -23,13 +23,13 @@ namespace {
 
 constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characters that are shown
 
-/// A header that stands among the rows of a table, as where files were joined.
+/// A header among the rows of a table, as in concatenated files.
 struct LaterHeader {
-  std::vector<int> fields;  ///< of each column of the table; -1 for a column that it does not have
-  bool has_all = false;     ///< the same columns with the same units, in whatever order, and no others
+  std::vector<int> fields;  ///< of each column of the table; -1 for a column that it lacks
+  bool has_all = false;     ///< the same columns with the same units in any order, and no others
 };
 
-/// The field that names the column; -1 for none.
+/// Returns the field that names the column; -1 for none.
 int field_of(const RawColumn& column, bool unit_stood_there, const std::vector<NameAndUnit>& names) {
   for (std::size_t f = 0; f < names.size(); ++f)
     if (names[f].name == column.name && (!unit_stood_there || names[f].unit == column.unit))
@@ -37,8 +37,8 @@ int field_of(const RawColumn& column, bool unit_stood_there, const std::vector<N
   return -1;
 }
 
-/// Nullopt for a line that is no header: of its cells, all are text, and half of the table's columns at least
-/// are among them.
+/// Returns nullopt for a line that is no header: a header has no number and at least half of the table's
+/// columns.
 std::optional<LaterHeader> find_later_header(const CsvDialect& dialect,
                                              const std::vector<std::string_view>& fields) {
   if (!dialect.has_header || dialect.columns.size() < 2) return {};
@@ -79,7 +79,7 @@ void CsvRowReader::want(const std::vector<bool>& columns) {
   place_columns(value_fields_);
 }
 
-/// From here on, the columns stand in these fields.
+/// Sets the field of each column for the following rows.
 void CsvRowReader::place_columns(const std::vector<int>& fields) {
   value_fields_ = fields;
   column_of_field_.assign(dialect_.fields, -1);
@@ -148,7 +148,7 @@ CsvRow CsvRowReader::read_open(std::string_view line, std::string_view before, c
   return read_line(line, at, row, &usual);
 }
 
-/// `usual` says how last cells are written where the file ended in the line; null elsewhere.
+/// Reads a line. `usual` is the format of last cells if the file ended in this line; else null.
 CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual) {
   if (is_comment_or_blank(line)) {
     if (line.starts_with(kProvenanceComment)) issues_.add_provenance(line.substr(kProvenanceComment.size()));
@@ -169,12 +169,12 @@ CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int ro
   return verdict;
 }
 
-/// Whether the fields are a header once more, and what follows from it for the rows below.
+/// True when the fields are a header; sets the order of the columns for the rows below.
 bool CsvRowReader::take_header(const CsvPlace& at) {
   const std::optional<LaterHeader> header = find_later_header(dialect_, fields_);
   if (!header && !repeats_header(dialect_, fields_)) return false;
   is_other_table_ = header && !header->has_all;
-  if (is_other_table_) return true;  // the rows below say so
+  if (is_other_table_) return true;  // reported for the rows below
   const bool is_same = !header || header->fields == value_fields_;
   issues_.add_row(
       at, is_same ? "header_repeated" : "header_changed",

@@ -12,7 +12,7 @@
 
 namespace faultline {
 
-/// What becomes of a line that is no plain row of numbers: it is a row, or none, or a row that is left out.
+/// Result of reading a line that is no plain row of numbers: a row, no row, or a row that is omitted.
 enum class CsvRow { keep, skip, drop };
 
 /// Reads lines of a text table into the rows of a block.
@@ -21,23 +21,23 @@ class CsvRowReader {
   /// Both must outlive the object.
   CsvRowReader(const CsvDialect& dialect, CsvIssues& issues);
 
-  /// As RawReader::want().
+  /// Selects columns, as RawReader::want() does.
   void want(const std::vector<bool>& columns);
-  /// The rows that follow go into `block`, which has place for `max_rows`.
+  /// Sets the block for the following rows, with room for `max_rows`.
   void begin_block(RawBlock& block, int max_rows);
-  /// Reads as many lines of nothing but numbers and separators as it can quickly into the rows from `row` on
-  /// and moves `p` behind them; how many. kNumberMargin bytes around the text must be readable.
+  /// Reads as many lines of only numbers and separators as it quickly can into the rows from `row` on and
+  /// moves `p` behind them; returns their number. kNumberMargin bytes around the text must be readable.
   int read_many(const char*& p, const char* end, int row, int max_rows);
-  /// Reads a line of nothing but numbers and separators into row `row` of the block and returns what is
-  /// behind it; null when it is anything else and must be read with care. `end` is behind a newline.
+  /// Reads a line of only numbers and separators into row `row` of the block and returns the position after
+  /// it; null for any other line, which read_any() must read. `end` is after a newline.
   const char* read_plain(const char* p, const char* end, int row);
   /// Reads any line, without its newline.
   CsvRow read_any(std::string_view line, const CsvPlace& at, int row);
-  /// The same for a last line in which the file ended; `before` are whole lines before it.
+  /// Reads a last line that has no newline; `before` are whole lines before it.
   CsvRow read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row);
-  /// Fields that rows lacked at their ends so far.
+  /// Number of fields that rows lacked at their ends so far.
   std::int64_t absent_fields() const { return absent_fields_; }
-  /// Begins again at the first row.
+  /// Restarts at the first row.
   void start();
 
  private:
@@ -55,9 +55,9 @@ class CsvRowReader {
   std::vector<bool> wanted_;           ///< of each column
   std::vector<int> value_fields_;      ///< field of each column, by the latest header
   bool is_other_table_ = false;        ///< the latest header has other columns than the first one
-  RawBlock* block_ = nullptr;          ///< that is being filled
+  RawBlock* block_ = nullptr;          ///< block that is being filled
   std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted
-  std::vector<double*> field_values_;  ///< of the block that is being filled; null for a field not wanted
+  std::vector<double*> field_values_;  ///< in block_; null for a field that is not wanted
   std::vector<std::string_view> fields_;
   WideRows wide_;
   std::int64_t absent_fields_ = 0;

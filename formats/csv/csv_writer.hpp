@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// Comma-separated text: header `t,q1..,dq1..,tau1..`, further channels after them, the shortest digits that
-/// read back as the same double, an empty cell for a missing value.
+/// Creates comma-separated text: header `t,q1..,dq1..,tau1..`, further channels after them, the shortest
+/// digits that restore the same double, an empty cell for a missing value.
 std::unique_ptr<LogWriter> create_csv(const std::string& path);
 
 }  // namespace faultline

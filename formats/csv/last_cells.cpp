@@ -9,15 +9,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kDigitsOfADouble = 15;  // that always come back
-constexpr int kExponentDigits = 2;    // as the usual libraries write at the least
+constexpr int kDigitsOfADouble = 15;  // that a double always preserves
+constexpr int kExponentDigits = 2;    // that the usual libraries write at least
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// The parts of a number in text.
 struct Digits {
-  int significant = 0;  ///< without zeros in front
-  int decimals = 0;     ///< behind the decimal sign; -1 without one
+  int significant = 0;  ///< without leading zeros
+  int decimals = 0;     ///< after the decimal sign; -1 without one
   int exponent = -1;    ///< -1 without one
   bool ends_in_digit = false;
 };
@@ -40,7 +40,7 @@ Digits digits_of(std::string_view cell, char decimal) {
   return digits;
 }
 
-/// Such as "true" and "inf", which read as numbers too.
+/// True for words such as "true" and "inf", which are read as numbers.
 bool is_word(std::string_view cell) { return std::none_of(cell.begin(), cell.end(), is_digit); }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How read_number() reads a number without a loop over its digits. Only for code that was chosen at run time:
-// see wide_rows.hpp.
+// How read_number() reads a number without a loop over its digits. Only for code selected at run time: see
+// wide_rows.hpp.
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -18,12 +18,12 @@
 namespace faultline::avx2 {
 
 inline constexpr int kWidth = 32;  ///< bytes of a register
-/// Digits that surely are a whole number of the double's 53 bits, so that one division rounds correctly.
+/// Number of digits that always fit into the 53 bits of a double, so that one division rounds correctly.
 inline constexpr unsigned kExactDigits = 15;
-/// The most that may stand before 16 more digits in a mantissa of 64 bits.
+/// Largest number before 16 more digits that fits into a mantissa of 64 bits.
 inline constexpr std::uint64_t kMostUpper = 999;
 
-/// Bytes 0 up to kWidth, then 0xff: from place n on, the mask of the last n of kWidth bytes.
+/// Bytes 0 up to kWidth, then 0xff: from index n on, the mask of the last n of kWidth bytes.
 alignas(64) inline constexpr auto kLastBytes = [] {
   std::array<unsigned char, 3 * kWidth> bytes{};
   for (std::size_t i = kWidth; i < bytes.size(); ++i) bytes[i] = 0xff;
@@ -33,7 +33,7 @@ alignas(64) inline constexpr auto kLastBytes = [] {
 inline constexpr std::array<double, kExactDigits + 1> kPowersOfTen = {
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-/// Digits as numbers from 0 to 9; any other character becomes more than 9.
+/// Returns digits as numbers from 0 to 9; any other character becomes more than 9.
 FAULTLINE_AVX2_INLINE __m256i digits_at(const char* p) {
   const __m256i bytes = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
   return _mm256_xor_si256(bytes, _mm256_set1_epi16('0' * 0x101));
@@ -43,13 +43,13 @@ FAULTLINE_AVX2_INLINE __m256i last_bytes(unsigned count) {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(kLastBytes.data() + count));
 }
 
-/// A bit for each byte that is no digit, the highest for the last one.
+/// Returns a bit for each byte that is no digit, the highest for the last byte.
 FAULTLINE_AVX2_INLINE std::uint32_t others_of(__m256i digits) {
   const __m256i is_digit = _mm256_cmpeq_epi8(_mm256_min_epu8(digits, _mm256_set1_epi16(9 * 0x101)), digits);
   return ~static_cast<std::uint32_t>(_mm256_movemask_epi8(is_digit));
 }
 
-/// The number of 16 digits in each half.
+/// Returns the number of 16 digits in each half.
 FAULTLINE_AVX2_INLINE __m256i sixteens_of(__m256i digits) {
   const __m256i tens = _mm256_set1_epi16(10 | 1 << 8);
   const __m256i hundreds = _mm256_set1_epi32(100 | 1 << 16);
@@ -60,7 +60,7 @@ FAULTLINE_AVX2_INLINE __m256i sixteens_of(__m256i digits) {
                           _mm256_srli_epi64(eights, 32));
 }
 
-/// The highest bit for a minus, 0 for anything else; no comparison, whose result would wait for a register.
+/// Returns the highest bit for a minus, 0 for anything else; without a comparison, which would be slower.
 FAULTLINE_AVX2_INLINE std::uint64_t sign_bit_of(char c) {
   constexpr std::uint64_t kHighest = std::uint64_t{1} << 63;
   return (static_cast<std::uint64_t>(static_cast<unsigned char>(c ^ '-')) - 1) & kHighest;
@@ -79,7 +79,7 @@ struct Decimal {
   }
 };
 
-/// Reads [-]digits with a decimal sign anywhere, of no more bytes than fit; false when it is anything else.
+/// Reads [-]digits with a decimal sign anywhere that fit into kWidth bytes; false for anything else.
 FAULTLINE_AVX2_INLINE bool read_decimal(const char* begin, const char* end, char sign, Decimal& decimal) {
   const std::uint64_t sign_bit = sign_bit_of(*begin);
   const auto total = static_cast<unsigned>(end - begin - 1) - static_cast<unsigned>(sign_bit >> 63);
@@ -91,7 +91,7 @@ FAULTLINE_AVX2_INLINE bool read_decimal(const char* begin, const char* end, char
                           (end[-1 - static_cast<std::ptrdiff_t>(decimals)] == sign);
   if (!is_decimal) [[unlikely]]
     return false;
-  // Those before the decimal sign move up by one, over it.
+  // Digits before the decimal sign move up by one byte, over it.
   const __m256i moved = digits_at(end - kWidth - 1);
   const __m256i joint = _mm256_blendv_epi8(moved, digits, last_bytes(decimals));
   const __m256i sixteens = sixteens_of(_mm256_and_si256(joint, last_bytes(total)));
@@ -101,22 +101,22 @@ FAULTLINE_AVX2_INLINE bool read_decimal(const char* begin, const char* end, char
   return true;
 }
 
-/// mantissa / 10^decimals where both are exact doubles.
+/// Returns mantissa / 10^decimals if both are exact doubles.
 FAULTLINE_AVX2_INLINE double quotient_of(const Decimal& decimal) {
-  // With these bits above its own, a number below 2^52 is a double of 2^52 more.
+  // A number below 2^52 with these bits above it is the double 2^52 + number.
   constexpr double kTwoTo52 = 4503599627370496.0;
   const __m128i above = _mm_set1_epi64x(std::bit_cast<std::int64_t>(kTwoTo52));
   const double mantissa = _mm_cvtsd_f64(_mm_castsi128_pd(_mm_or_si128(decimal.lower, above))) - kTwoTo52;
-  // The divisor takes the sign, so that -0 comes out, too.
+  // The divisor takes the sign, so that -0 is correct too.
   const auto divisor = std::bit_cast<std::uint64_t>(kPowersOfTen[decimal.decimals]) | decimal.sign_bit;
   return mantissa / std::bit_cast<double>(divisor);
 }
 
-/// The double next to mantissa / 10^decimals by the method of Eisel and Lemire; false where that takes more
-/// than one product of 64 bits, one time in some hundred. The mantissa is not 0.
+/// Rounds mantissa / 10^decimals to the nearest double by the method of Eisel and Lemire; false if that needs
+/// more than one product of 64 bits, about once in several hundred. The mantissa is not 0.
 FAULTLINE_AVX2_INLINE bool round_decimal(std::uint64_t mantissa, const Decimal& decimal, double& value) {
   using Double = fast_float::binary_format<double>;
-  constexpr std::uint64_t kLowBits = 0x1ff;  // below those that are kept and the one that rounds
+  constexpr std::uint64_t kLowBits = 0x1ff;  // below the kept bits and the rounding bit
   const auto zeros = static_cast<int>(_lzcnt_u64(mantissa));
   const int exponent = -static_cast<int>(decimal.decimals);
   const int entry = 2 * (exponent - fast_float::powers::smallest_power_of_five);
@@ -129,14 +129,14 @@ FAULTLINE_AVX2_INLINE bool round_decimal(std::uint64_t mantissa, const Decimal& 
   const int top = static_cast<int>(high >> 63);
   const std::uint64_t kept = high >> (top + 9);
   const int power = fast_float::detail::power(exponent) + top - zeros - Double::minimum_exponent();
-  // The leading bit of the kept ones adds 1 to the power; so does a carry.
+  // The leading kept bit adds 1 to the power; so does a carry.
   value = std::bit_cast<double>(((static_cast<std::uint64_t>(power - 1) << Double::mantissa_explicit_bits()) +
                                  ((kept + (kept & 1)) >> 1)) |
                                 decimal.sign_bit);
   return true;
 }
 
-/// The double next to mantissa * 10^exponent; false when that takes more than 128 bits.
+/// Computes the double nearest to mantissa * 10^exponent; false when that takes more than 128 bits.
 FAULTLINE_AVX2 inline bool scale(std::uint64_t mantissa, int exponent, std::uint64_t sign_bit,
                                  double& value) {
   using Double = fast_float::binary_format<double>;
@@ -170,7 +170,7 @@ FAULTLINE_AVX2 inline bool read_scientific(const char* begin, const char* end, c
   return read_scientific(begin, end, sign, value) || faultline::read_number(begin, end, sign, value);
 }
 
-/// As faultline::read_number(), with kNumberMargin bytes readable on both sides.
+/// Reads as faultline::read_number() does; kNumberMargin bytes must be readable on both sides.
 FAULTLINE_AVX2_INLINE bool read_number(const char* begin, const char* end, char sign, double& value) {
   Decimal decimal;
   if (read_decimal(begin, end, sign, decimal)) [[likely]] {

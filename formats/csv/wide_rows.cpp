@@ -13,9 +13,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kWideBlock = 64;  ///< bytes whose ends are one word of bits
+constexpr int kWideBlock = 64;  ///< bytes whose ends fit into one word of bits
 
-/// A bit for each of 64 bytes that ends a field.
+/// Returns a bit for each of 64 bytes, set if it ends a field.
 FAULTLINE_AVX2_INLINE std::uint64_t end_bits(const char* p, __m256i separator, __m256i newline) {
   const __m256i lower = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
   const __m256i upper = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p + avx2::kWidth));
@@ -41,9 +41,9 @@ bool WideRows::can_read() const {
   return has_avx2 && separator_ != ' ';
 }
 
-/// Places of separators and newlines in the text; how many.
+/// Stores the positions of separators and newlines in ends_; returns their number.
 FAULTLINE_AVX2 int WideRows::find_ends(const char* text, int size) {
-  constexpr int kAtOnce = 4;  // written without asking how many there are
+  constexpr int kAtOnce = 4;  // written without testing how many remain
   const __m256i separator = _mm256_set1_epi8(separator_), newline = _mm256_set1_epi8('\n');
   std::uint32_t* out = ends_.data();
   for (int at = 0; at < size; at += kWideBlock) {
@@ -59,7 +59,7 @@ FAULTLINE_AVX2 int WideRows::find_ends(const char* text, int size) {
   return static_cast<int>(out - ends_.data());
 }
 
-/// Reads the row at `p`, whose fields have the next `ends`; returns what is behind it, or null.
+/// Reads the row at `p`, whose fields have the next `ends`; returns the position after it, or null.
 FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const char* p,
                                                      const std::uint32_t* ends,
                                                      const std::vector<double*>& columns, int row) const {
@@ -86,7 +86,7 @@ FAULTLINE_AVX2_INLINE const char* WideRows::read_row(const char* text, const cha
       return nullptr;
     }
   }
-  // A line without any number may be a blank one or a comment.
+  // A line without any number may be blank or a comment.
   return some_empty && !has_number(columns, row) ? nullptr : p;
 }
 
