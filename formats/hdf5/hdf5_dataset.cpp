@@ -34,7 +34,7 @@ std::optional<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& path
   }
   const Hdf5Id type(H5Dget_type(opened.dataset_), H5Tclose);
   if (!type.ok() || !opened.find_fields(type) || !opened.find_shape()) return std::nullopt;
-  if (opened.shape_.size() > 2) return opened;  // its shape is told, no more
+  if (opened.shape_.size() > 2) return opened;  // only its shape is reported
   if (!opened.find_storage(file_bytes, why)) return std::nullopt;
   opened.path_ = path;
   return opened;
@@ -81,7 +81,7 @@ bool Hdf5Dataset::add_member(hid_t type, unsigned index) {
   return fits;
 }
 
-/// Also the type under which elements are read: all numbers as doubles.
+/// Finds the fields, and the memory type by which elements are read: all numbers as doubles.
 bool Hdf5Dataset::find_fields(hid_t type) {
   if (is_number(type)) {
     fields_.push_back({});
@@ -144,7 +144,7 @@ std::int64_t Hdf5Dataset::columns_held(bool channel_major) const {
   return std::max<std::int64_t>(storage_.elements_held / shape_[1], storage_.elements_held > 0 ? 1 : 0);
 }
 
-/// Whether the chunks of rows within one row of chunks are there, where some are not.
+/// True when all chunks in the row of chunks that begins with row `first` were written.
 bool Hdf5Dataset::is_written(bool channel_major, std::int64_t first) const {
   if (!storage_.has_holes) return true;
   std::vector<hsize_t> at(dimensions_.size(), 0);
@@ -173,14 +173,14 @@ bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_
     start[other] = static_cast<hsize_t>(column);
     count[other] = static_cast<hsize_t>(columns);
   }
-  // A memory of the same shape lets the library copy whole chunks.
+  // A memory space of the same shape lets the library copy whole chunks.
   const Hdf5Id space(H5Dget_space(dataset_), H5Sclose),
       memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   return H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
          H5Dread(dataset_, memory_type_, memory, space, H5P_DEFAULT, to) >= 0;
 }
 
-/// Reads rows, all in one row of chunks where chunks are missing; whether that went well.
+/// Reads rows, all in one row of chunks if some chunks are missing; true on success.
 bool Hdf5Dataset::read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first,
                             std::int64_t rows, BandValues& values) {
   const bool matrix = shape_.size() > 1, by_columns = matrix && band.channel_major;
@@ -206,7 +206,7 @@ bool Hdf5Dataset::read_rows(const Hdf5Field& field, const ArrayBand& band, std::
   return true;
 }
 
-/// One row of chunks after the other; what cannot be read is lost.
+/// Reads one row of chunks after the other; adds those that cannot be read to values.lost.
 void Hdf5Dataset::read_by_chunks(const Hdf5Field& field, const ArrayBand& band, std::int64_t first,
                                  std::int64_t rows, BandValues& values) {
   const bool chunked = !storage_.chunk.empty();

@@ -12,11 +12,11 @@
 
 namespace faultline {
 
-/// Numbers of one element of a dataset: a number is its own only field.
+/// Numbers of one element of a dataset. A plain number is its own only field.
 struct Hdf5Field {
-  std::string name;        ///< empty for a number
-  std::size_t at = 0;      ///< numbers before it in the element
-  std::int64_t width = 1;  ///< numbers, more than one for an array in a record
+  std::string name;        ///< empty for a plain number
+  std::size_t at = 0;      ///< index of its first number in the element
+  std::int64_t width = 1;  ///< count of numbers, more than one for an array in a record
   std::string unit{};
   std::vector<std::string> names{}, units{};
 };
@@ -24,7 +24,7 @@ struct Hdf5Field {
 /// A dataset of numbers, or of records of numbers, that is read by blocks of rows.
 class Hdf5Dataset {
  public:
-  /// Nullopt when it holds no numbers; `why` says so when it might have.
+  /// Opens a dataset; nullopt when it holds no numbers. `why` gives the reason if it could hold some.
   static std::optional<Hdf5Dataset> open(hid_t file, const std::string& path, std::int64_t file_bytes,
                                          std::string& why);
 
@@ -35,9 +35,9 @@ class Hdf5Dataset {
   bool unwritten() const { return storage_.unwritten; }
   std::int64_t columns_held(bool channel_major) const;
   hid_t id() const { return dataset_; }
-  /// Bytes of the chunks in which a row lies, unpacked.
+  /// Bytes of the unpacked chunks that contain a row.
   std::int64_t row_chunk_bytes(bool channel_major) const;
-  /// Keeps so many bytes of chunks, so that none is unpacked twice.
+  /// Sets the size in bytes of the chunk cache, so that no chunk is unpacked twice.
   void set_chunk_cache(hid_t file, std::int64_t bytes);
 
   /// Reads rows of the columns of a field, as ArrayFile::read() does.
@@ -60,14 +60,14 @@ class Hdf5Dataset {
 
   std::string path_;
   Hdf5Id dataset_, memory_type_;
-  std::vector<hsize_t> dimensions_;  ///< all
+  std::vector<hsize_t> dimensions_;  ///< all of them
   std::vector<std::size_t> kept_;    ///< indices of those in shape_
   std::vector<std::int64_t> shape_;
   std::vector<Hdf5Field> fields_;
   std::size_t numbers_ = 1;  ///< of an element
   Hdf5Storage storage_;
   std::vector<double> block_;
-  std::int64_t block_first_ = -1, block_rows_ = 0;  ///< what block_ holds of a dataset of records
+  std::int64_t block_first_ = -1, block_rows_ = 0;  ///< rows in block_, of a dataset of records
 };
 
 }  // namespace faultline

@@ -14,10 +14,10 @@ namespace {
 
 constexpr haddr_t kFarEnd = haddr_t{1} << 62;
 
-/// What a file of this driver is opened with.
+/// The data with which a file of this driver is opened.
 struct Hdf5Descriptor {
   int file = -1;
-  Hdf5Failure* failure = nullptr;  ///< of a file that is written; null: it is read
+  Hdf5Failure* failure = nullptr;  ///< of a file that is written; null for reading
 
   bool is_written() const { return failure != nullptr; }
 };
@@ -48,7 +48,7 @@ herr_t close_file(H5FD_t* file) {
 
 int compare(const H5FD_t* a, const H5FD_t* b) { return a == b ? 0 : a < b ? -1 : 1; }
 
-/// Bytes that were not asked for may lie behind the end of a cut file, so nothing is read ahead.
+/// Disables read-ahead for reading, as the end of a cut file may be before bytes that were not requested.
 herr_t query(const H5FD_t* file, unsigned long* features) {
   *features = H5FD_FEAT_SUPPORTS_SWMR_IO;
   if (file && file_of(file)->descriptor.is_written())
@@ -63,7 +63,7 @@ herr_t set_end_of_addresses(H5FD_t* file, H5FD_mem_t, haddr_t end) {
   return 0;
 }
 
-/// Of a file that is read, no end before that which it promises.
+/// Returns, for a file that is read, an end after every address that it states.
 haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) {
   const Hdf5Descriptor& descriptor = file_of(file)->descriptor;
   if (!descriptor.is_written()) return kFarEnd;
@@ -88,7 +88,7 @@ herr_t transfer(Transfer once, int file, haddr_t at, std::size_t size, Byte* byt
   return 0;
 }
 
-/// Puts what could not be written over what the file holds there.
+/// Overlays the bytes that were read with those that could not be written.
 void lay_over(const Hdf5Failure& failure, haddr_t at, std::size_t size, char* to) {
   for (const auto& [begin, bytes] : failure.unwritten) {
     const haddr_t first = std::max(at, begin), last = std::min(at + size, begin + bytes.size());
@@ -174,7 +174,7 @@ Hdf5Id access_by(const Hdf5Descriptor& opened) {
   Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_driver(access, id, &opened);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_metadata_read_attempts(access, 1);  // nobody writes meanwhile; the library would wait for it
+  H5Pset_metadata_read_attempts(access, 1);  // there is no concurrent writer for which the library would wait
   return access;
 }
 

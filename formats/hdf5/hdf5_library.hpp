@@ -10,12 +10,11 @@
 
 namespace faultline {
 
-/// Whoever calls the HDF5 library holds one: calls come one after another, as the library has state of its
-/// own, and it prints nothing.
+/// A lock for calls of the HDF5 library, which has global state; it also turns off the library's messages.
 class Hdf5Turn {
  public:
   Hdf5Turn();
-  /// From now on this process has one thread, and waits for no other: for a copy made by fork().
+  /// Declares that this process has one thread and needs no lock: for a copy made by fork().
   static void be_alone();
 
  private:
@@ -40,7 +39,7 @@ class Hdf5Id {
 
   operator hid_t() const { return id_; }
   bool ok() const { return id_ >= 0; }
-  /// Closes it now; whether that went well.
+  /// Closes it now; returns true on success.
   bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
  private:
@@ -48,19 +47,19 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
-/// What could not be written to a file. The library cannot close a file whose writing failed, and would try
-/// once more when the program ends, with what is gone by then. So it never sees a failure: from the first one
-/// on everything is kept here instead, until the file is closed.
+/// Bytes that could not be written to a file. The library cannot close a file after a failed write, and would
+/// try again when the program ends, with objects that no longer exist. So failures are hidden from it: from
+/// the first one on all bytes are kept here until the file is closed.
 struct Hdf5Failure {
   int reason = 0;  ///< errno of the first failure; 0: all was written
   std::vector<std::pair<haddr_t, std::string>> unwritten;
 };
 
-/// Properties by which the library reads the open file `descriptor`, which stays open. Reading past the end
-/// of the file fails, so that a cut file can be read up to there.
+/// Returns the access properties to read the open file `descriptor`, which stays open. Reading past the end
+/// of the file fails, so that a cut file can be read up to its end.
 Hdf5Id hdf5_read_access(int descriptor);
 
-/// The same for writing; `failure` outlives the file.
+/// Does the same for writing; `failure` must outlive the file.
 Hdf5Id hdf5_write_access(int descriptor, Hdf5Failure& failure);
 
 }  // namespace faultline

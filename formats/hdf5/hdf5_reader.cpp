@@ -30,13 +30,13 @@ namespace faultline {
 namespace {
 
 constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
-/// Chunks that are unpacked at once, together, and what HDF5 keeps of them at the least.
+/// Total bytes of chunks that are unpacked at once, and least bytes of the chunk cache of HDF5.
 constexpr std::int64_t kMostChunks = 96 << 20, kLeastCache = 1 << 20;
 constexpr std::size_t kMostDescription = 16 << 20;
-constexpr std::size_t kFirstBlock = 512;  ///< where the signature may be, and at twice that, and so on
+constexpr std::size_t kFirstBlock = 512;  ///< second place of the signature; the next ones double
 constexpr rlim_t kLongest_s = 10;         ///< of a trial in a copy of this process
 
-/// Never returns. What the library or the C library says of its end is not shown.
+/// Runs `work` and ends the process. Messages of the HDF5 and C libraries about a crash are not shown.
 [[noreturn]] void try_in_copy(const std::function<void()>& work) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM}) std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_WRONLY);
@@ -55,10 +55,10 @@ constexpr rlim_t kLongest_s = 10;         ///< of a trial in a copy of this proc
   ::_exit(0);
 }
 
-/// Whether `work` comes to an end, be it by an Error, in a copy of this process. The HDF5 library crashes on
-/// some damaged files; what it did not survive there is not tried here.
+/// True when `work` ends, also by an Error, in a copy of this process. The HDF5 library crashes on some
+/// damaged files; work that crashes there is not done here.
 bool survives(const std::function<void()>& work) {
-  const Hdf5Turn turn;  // so that no other thread is within the library when the copy is made
+  const Hdf5Turn turn;  // so that no other thread is in the library when the copy is made
   const pid_t copy = ::fork();
   if (copy < 0) return true;
   if (copy == 0) try_in_copy(work);
@@ -90,7 +90,7 @@ class Hdf5Arrays : public ArrayFile {
   const Issues& issues() const override { return issues_; }
   std::string notes() const override { return notes_; }
 
-  /// Chunks are unpacked whole, and those of a row are kept until the rows go past them.
+  /// Chunks are unpacked whole, and those of a row are cached until later rows no longer need them.
   void will_read(const std::vector<ArrayBand>& bands) override {
     const Hdf5Turn turn;
     std::map<std::size_t, std::int64_t> bytes_of;
@@ -236,7 +236,7 @@ class Hdf5Arrays : public ArrayFile {
   std::vector<NamedArray> arrays_;
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  ///< dataset and field of each array
   Issues issues_;
-  std::string notes_, no_numbers_;   ///< names of datasets without numbers, the first
+  std::string notes_, no_numbers_;   ///< names of the first datasets without numbers
   std::size_t described_bytes_ = 0;  ///< of names and units
 };
 

@@ -7,17 +7,17 @@
 namespace faultline {
 namespace {
 
-constexpr double kStorageMostExpansion = 1100.0;  ///< of what a filter compresses
+constexpr double kStorageMostExpansion = 1100.0;  ///< upper limit of the compression ratio of a filter
 constexpr double kLeastChunk = 1 << 20;           ///< bytes that a chunk may take in any file
-constexpr hsize_t kMostListed = 4096;             ///< chunks of which each is looked at
+constexpr hsize_t kMostListed = 4096;             ///< chunks that are queried one by one
 constexpr hsize_t kMostPlaces = hsize_t{1} << 40;
 
-/// Those that bear damaged input.
+/// True for filters that are robust against damaged input.
 bool is_safe(H5Z_filter_t filter) {
   return filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_SHUFFLE || filter == H5Z_FILTER_FLETCHER32;
 }
 
-/// Whether all filters that the dataset was written with are there.
+/// True when all filters that the dataset was written with are available.
 bool has_filters(hid_t creation) {
   const int count = H5Pget_nfilters(creation);
   for (int i = 0; i < count; ++i) {
@@ -30,7 +30,7 @@ bool has_filters(hid_t creation) {
   return count >= 0;
 }
 
-/// Up to where chunks were written, when some are missing.
+/// Returns the end of the written chunks along each kept dimension, if some are missing.
 std::vector<std::int64_t> written_part(hid_t dataset, hid_t space, const Hdf5Shape& shape,
                                        const std::vector<std::int64_t>& chunk, hsize_t written) {
   const auto part = [&](std::size_t i, hsize_t end) {

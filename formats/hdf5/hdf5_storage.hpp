@@ -10,24 +10,24 @@
 
 namespace faultline {
 
-/// Dimensions of a dataset, all, and those that are kept as its shape.
+/// All dimensions of a dataset, and those that its shape keeps.
 struct Hdf5Shape {
   std::vector<hsize_t> dimensions;
   std::vector<std::size_t> kept;
   std::vector<std::int64_t> shape;
 };
 
-/// How the elements of a dataset are stored. Vectors are along the kept dimensions.
+/// Storage of the elements of a dataset. Vectors are along the kept dimensions.
 struct Hdf5Storage {
   std::vector<std::int64_t> chunk;  ///< empty when it is in one piece
   std::int64_t chunk_bytes = 0;
-  std::vector<std::int64_t> held;  ///< of chunked ones, up to where chunks were written
+  std::vector<std::int64_t> held;  ///< of chunked ones, up to the last chunks written
   bool unwritten = false;          ///< there is room for elements, but none was written
   bool has_holes = false;          ///< some chunks were never written
-  std::int64_t elements_held = 0;  ///< of others: from the front on, that the file can hold
+  std::int64_t elements_held = 0;  ///< of others: number from the front that the file can hold
 };
 
-/// Nullopt, with `why`, when the elements cannot be read.
+/// Returns nullopt, with `why`, when the elements cannot be read.
 std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, std::int64_t file_bytes,
                                         std::string& why);
 

@@ -25,7 +25,7 @@ constexpr std::size_t kLongestPath = 1 << 12;
 constexpr hssize_t kMostTexts = 1 << 14;     ///< of an attribute or dataset
 constexpr std::size_t kMostBytes = 1 << 24;  ///< of its texts
 
-/// Reads texts by `read`, which takes a memory type and where to put them.
+/// Reads texts by `read`, which takes the destination.
 template <typename Read>
 std::vector<std::string> texts_of(hid_t type, hid_t space, Read read) {
   std::vector<std::string> texts;
@@ -52,7 +52,7 @@ std::vector<std::string> texts_of(hid_t type, hid_t space, Read read) {
   return texts;
 }
 
-/// The texts of the first of these attributes that the object has, one or a list; empty when it has none.
+/// Returns the texts of the first of these attributes that the object has, one or a list; empty for none.
 std::vector<std::string> hdf5_attribute(hid_t object, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (H5Aexists(object, name.c_str()) <= 0) continue;
@@ -65,7 +65,7 @@ std::vector<std::string> hdf5_attribute(hid_t object, const std::vector<std::str
   return {};
 }
 
-/// The texts that a dataset of texts holds; empty when it holds something else.
+/// Returns the texts of a dataset of texts; empty for other datasets.
 std::vector<std::string> hdf5_texts(hid_t dataset) {
   const Hdf5Id type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   return texts_of(type, space,
@@ -75,7 +75,7 @@ std::vector<std::string> hdf5_texts(hid_t dataset) {
 /// A walk through the groups.
 struct Walk {
   std::set<std::string> places;                                 ///< paths of groups and datasets
-  std::vector<std::pair<std::string, std::string>> soft_links;  ///< path, and the path it leads to
+  std::vector<std::pair<std::string, std::string>> soft_links;  ///< path, and the path of the target
   hid_t file = -1;
   Hdf5Tree tree;
   std::string path;  ///< of the group that is being read, ended by '/'
@@ -90,7 +90,7 @@ void leave_out(Walk& walk, const std::string& path, const char* why) {
                                   fmt::format("\"{}\" {}", shortened(path, kLongestName), why), path));
 }
 
-/// Groups that MATLAB (#refs#) and PyTables (_i_table, an index) keep for themselves.
+/// True for groups of internal data of MATLAB (#refs#) and PyTables (_i_table, an index).
 bool is_own_affair(std::string_view name) { return name.starts_with("#") || name.starts_with("_i_"); }
 
 void visit(Walk& walk, hid_t group, const char* name) {
@@ -116,7 +116,7 @@ void visit(Walk& walk, hid_t group, const char* name) {
     walk_group(walk, walk.path + name + "/");
 }
 
-/// The path that a soft link leads to, from the root; empty when it cannot be read.
+/// Returns the target of a soft link as path from the root; empty when it cannot be read.
 std::string soft_target(const Walk& walk, hid_t group, const char* name, std::size_t bytes) {
   std::string target(std::min(bytes, kLongestTarget), '\0');
   if (H5Lget_val(group, name, target.data(), target.size(), H5P_DEFAULT) < 0) return "";
@@ -124,7 +124,7 @@ std::string soft_target(const Walk& walk, hid_t group, const char* name, std::si
   return target.starts_with('/') ? target : walk.path + target;
 }
 
-/// A link that cannot be followed does not end the walk.
+/// Visits a link; one that cannot be followed does not end the walk.
 herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* walk_at) {
   Walk& walk = *static_cast<Walk*>(walk_at);
   if (++walk.objects > kMostObjects) return 1;
@@ -138,7 +138,7 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* w
   if (link->type == H5L_TYPE_HARD) visit(walk, group, name);
   if (link->type == H5L_TYPE_SOFT)
     walk.soft_links.emplace_back(walk.path + name, soft_target(walk, group, name, link->u.val_size));
-  if (link->type >= H5L_TYPE_UD_MIN)  // of those the library knows links into other files
+  if (link->type >= H5L_TYPE_UD_MIN)  // in the library, these are links into other files
     leave_out(
         walk, walk.path + name,
         "is a link into another file, which is not read, and was left out; copy what it leads to into this "
@@ -146,7 +146,7 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* w
   return 0;
 }
 
-/// A soft link to what the file holds is another name of it.
+/// Reports soft links without a target in the file. One with a target is only another name of it.
 void tell_open_links(Walk& walk) {
   for (const auto& [link, target] : walk.soft_links)
     if (!walk.places.count(target))
@@ -169,7 +169,7 @@ void walk_group(Walk& walk, const std::string& path) {
   walk.path = before;
 }
 
-/// Texts of a list that Python pickled in its oldest way, as PyTables does: each in a line after a V.
+/// Returns the texts of a list pickled by Python in protocol 0, as PyTables does: each in a line after a V.
 std::vector<std::string> pickled_texts(const std::string& pickle) {
   std::vector<std::string> texts;
   for (std::size_t begin = 0; begin < pickle.size();) {
@@ -182,7 +182,7 @@ std::vector<std::string> pickled_texts(const std::string& pickle) {
   return texts;
 }
 
-/// "q1, q2" as two; a list as it is.
+/// Splits a single text such as "q1, q2" at its commas; returns a list unchanged.
 std::vector<std::string> as_list(std::vector<std::string> texts) {
   if (texts.size() != 1) return texts;
   const std::string text = texts.front();

@@ -9,21 +9,21 @@
 
 namespace faultline {
 
-/// What a file holds.
+/// The content of a file.
 struct Hdf5Tree {
   std::vector<std::string> datasets;  ///< paths from the root, beginning with '/', in their order
-  std::string notes;                  ///< of a log that was written
+  std::string notes;                  ///< text stored by a written log, else empty
   Issues issues;                      ///< groups that cannot be read
 };
 
-/// Links to other places and files are not followed.
+/// Walks through the groups; links to other places and files are not followed.
 Hdf5Tree hdf5_tree(hid_t file);
 
-/// Gives the fields of a dataset the units and names that its attributes tell, and what pandas keeps beside
-/// it.
+/// Sets units and names of the fields of a dataset from its attributes and from the item names that pandas
+/// stores.
 void describe_hdf5_fields(hid_t file, const std::string& path, Hdf5Dataset& dataset);
 
-/// Whether MATLAB says that these numbers are characters.
+/// True when the MATLAB attributes of the dataset declare characters or cells.
 bool is_text_of_matlab(hid_t dataset);
 
 }  // namespace faultline

@@ -62,7 +62,7 @@ class Hdf5Writer : public LogWriter {
     fail_to_write(path_, "written");
   }
 
-  /// Without times, so that the same log gives the same bytes.
+  /// Creates properties without times, so that the same log gives the same bytes.
   static Hdf5Id plain(hid_t kind) {
     Hdf5Id properties(H5Pcreate(kind), H5Pclose);
     H5Pset_obj_track_times(properties, 0);

@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// An HDF5 file with a dataset a quantity, see docs/formats-hdf5.md: chunks with checksums, written as they
-/// fill.
+/// Creates an HDF5 file with a dataset per quantity, see docs/formats-hdf5.md: chunks with checksums, written
+/// when they are full.
 std::unique_ptr<LogWriter> create_hdf5(const std::string& path);
 
 }  // namespace faultline
