@@ -57,18 +57,18 @@ std::optional<ElementType> number_of(std::uint32_t type) {
   return std::nullopt;
 }
 
-/// An element: where its data is, and where the next one begins.
+/// An element: the positions of its data and of the next element.
 struct MatElement {
   std::uint32_t type = 0;
   std::int64_t bytes = 0, data = 0, next = 0;
 };
 
-/// What stands before the data of a matrix.
+/// The part of a matrix before its data.
 struct MatrixHead {
   std::uint32_t kind = 0, flags = 0;
   std::vector<std::int64_t> shape;
   std::string name;
-  std::int64_t data = 0;  ///< where its data begins
+  std::int64_t data = 0;  ///< position of its data
 };
 
 std::int64_t count_of(const std::vector<std::int64_t>& shape) {
@@ -78,7 +78,7 @@ std::int64_t count_of(const std::vector<std::int64_t>& shape) {
   return count;
 }
 
-/// The matrices of one content.
+/// Parses the matrices of one content.
 class MatrixParser {
  public:
   MatrixParser(const RandomFile& file, StoredList& list, std::size_t content, bool swapped)
@@ -96,7 +96,7 @@ class MatrixParser {
     return MatElement{type, bytes, at + kTagBytes, at + kTagBytes + padded};
   }
 
-  /// Reads the matrix that the element is; false when it is damaged.
+  /// Reads the matrix in the element; false when it is damaged.
   bool read_matrix(const MatElement& element, const std::string& path, int depth) {
     if (element.type != kMatrix) return false;
     if (element.bytes == 0) return true;
@@ -174,7 +174,7 @@ class MatrixParser {
                    name));
   }
 
-  /// Text of one byte a character, or of two of which the second is 0.
+  /// Reads a text of one byte per character, or of two of which the second is 0.
   bool read_text(const MatrixHead& head, const std::string& name, int depth) {
     const auto data = element_at(head.data);
     if (!data) return false;
@@ -212,7 +212,7 @@ class MatrixParser {
       if (!element || !read_matrix(*element, name + "." + field, depth + 1)) return false;
       at = element->next;
     }
-    // What Simulink writes: the label says what the values are of.
+    // In structures of Simulink the label names the signal.
     const bool has_values = std::find(fields.begin(), fields.end(), "values") != fields.end();
     if (has_values && !label_.empty() && list_.arrays.size() > before)
       list_.arrays[before].array.name = name.substr(0, name.rfind('.')) + "." + label_;
@@ -234,7 +234,7 @@ void tell_damaged(StoredList& list, std::int64_t at, bool cut) {
           : fmt::format("a variable at byte {} is damaged and was left out, or what is left of it", at)));
 }
 
-/// The variables one after another.
+/// Reads the variables one after another.
 void read_variables(const RandomFile& file, bool swapped, StoredList& list) {
   MatrixParser plain(file, list, 0, swapped);
   for (std::int64_t at = kMatHeaderBytes; at < file.size();) {

@@ -10,12 +10,12 @@ namespace faultline {
 
 inline constexpr std::size_t kMatHeaderBytes = 128;
 
-/// The matrices of numbers of a MATLAB file of version 5 (6, 7), those in structures under their path, as
-/// name.field. Throws Error(input) when it is cut inside its header.
+/// Opens the matrices of numbers of a MATLAB file of version 5 (6, 7); those in structures are named by their
+/// path, as name.field. Throws Error(input) when it is cut inside its header.
 std::unique_ptr<ArrayFile> open_mat5_arrays(const std::string& path);
 
-/// The name under which an array in MATLAB's structures is known: for what Simulink writes and for time
-/// series that of the signal, "q" for "q.signals.values" and "q.Data".
+/// Returns the name of an array in structures of MATLAB: for the output of Simulink and for time series the
+/// name of the signal, "q" for "q.signals.values" and "q.Data".
 std::string matlab_name(const std::string& path);
 
 }  // namespace faultline

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kFirstWords = "MATLAB 5.0 MAT-file", kFirstWords73 = "MATLAB 7.3 MAT-file";
 constexpr std::size_t kVersionAt = 124;
 
-/// Paths in HDF5 as MATLAB writes them.
+/// Converts a path in HDF5 to the name that MATLAB shows.
 std::string name_of_path(const std::string& path) {
   std::string name = path;
   std::replace(name.begin(), name.end(), '/', '.');

@@ -11,7 +11,7 @@ namespace faultline {
 
 bool looks_like_matlab(std::string_view head);
 
-/// Opens a MATLAB file of version 5 to 7.3, see docs/formats-matlab.md. Throws Error(input) when it holds no
+/// Opens a MATLAB file of version 5 to 7.3, see docs/formats-matlab.md. Throws Error(input) when it has no
 /// matrix of numbers that can be read.
 std::unique_ptr<RawReader> open_matlab(std::unique_ptr<ByteSource> bytes);
 

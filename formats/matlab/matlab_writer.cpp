@@ -14,10 +14,10 @@ namespace faultline {
 namespace {
 
 constexpr std::string_view kHeaderText = "MATLAB 5.0 MAT-file, written by faultline";
-constexpr std::size_t kTextBytes = 116, kFree = 8;  ///< of the header
+constexpr std::size_t kTextBytes = 116, kFree = 8;  ///< bytes of the header
 constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kWriterMatrix = 14, kUtf8 = 16;
 constexpr std::uint32_t kCharClass = 4, kDoubleClass = 6;
-constexpr std::size_t kStep = 8;  ///< elements begin at multiples of it
+constexpr std::size_t kStep = 8;  ///< elements begin at multiples of this many bytes
 constexpr std::size_t kWriterMostBytes = (std::size_t{1} << 31) - 4096;
 
 void put(std::string& bytes, std::uint32_t number) {
@@ -26,7 +26,7 @@ void put(std::string& bytes, std::uint32_t number) {
 
 void pad(std::string& bytes) { bytes.append((kStep - bytes.size() % kStep) % kStep, '\0'); }
 
-/// All of a matrix but its data, to whose tag it leads.
+/// Returns a matrix without its data, up to the tag of the data.
 std::string matrix_head(std::uint32_t kind, std::size_t rows, std::size_t columns, const std::string& name,
                         std::uint32_t data_type, std::size_t data_bytes) {
   std::string head;
