@@ -30,7 +30,7 @@ void put_record(ByteBuilder& out, McapOp op, std::string_view content) {
   out.put(static_cast<unsigned char>(op)).put(static_cast<std::uint64_t>(content.size())).put_bytes(content);
 }
 
-/// Of channels, each with a number of 64 bits.
+/// Writes a map from channels to numbers of 64 bits.
 void put_map(ByteBuilder& out, const std::map<std::uint16_t, std::uint64_t>& values) {
   out.put(static_cast<std::uint32_t>(values.size() * (sizeof(std::uint16_t) + kCount)));
   for (const auto& [channel, value] : values) out.put(channel).put(value);
@@ -136,7 +136,7 @@ void McapFile::write_summary() {
     put_record(summary, McapOp::chunk_index, index.bytes());
   }
   const std::uint64_t begin = written_;
-  // The footer's checksum covers the summary and the footer up to itself.
+  // The footer's checksum covers the summary and the footer up to the checksum.
   ByteBuilder footer_head;
   footer_head.put(static_cast<unsigned char>(McapOp::footer))
       .put(std::uint64_t{2 * kTime + sizeof(std::uint32_t)});

@@ -13,7 +13,7 @@
 
 namespace faultline {
 
-/// What an MCAP file says of the messages of a channel.
+/// The declaration of a channel in an MCAP file.
 struct McapTopic {
   std::string name;
   std::string type;
@@ -22,29 +22,29 @@ struct McapTopic {
   std::string message_encoding;  ///< "cdr", "json"
 };
 
-/// How the chunks of a file that is written are compressed.
+/// Compression of the chunks of a file that is written.
 enum class McapPacking { none, zstd };
 
-/// Writes an MCAP file: chunks, their index, statistics and a summary, so that programs
-/// can jump in it. It appears under its name at finish() only.
+/// Writes an MCAP file with chunks, their index, statistics and a summary, for programs with random access.
+/// It appears under its name at finish() only.
 class McapFile {
  public:
   explicit McapFile(const std::string& path, McapPacking packing = McapPacking::zstd);
 
-  /// The number of the channel, for message().
+  /// Returns the number of the channel, for message().
   std::uint16_t add_topic(const McapTopic& topic);
   void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view bytes);
-  /// A text under a name, behind the messages so far.
+  /// Writes a text under a name, after the messages so far.
   void metadata(const std::string& name, const std::string& key, const std::string& text);
   void finish();
 
  private:
-  /// What the summary says of a chunk.
+  /// The summary of a chunk.
   struct ChunkPlace {
     std::uint64_t first_ns = 0, last_ns = 0, begin = 0, size = 0, index_size = 0, packed = 0, unpacked = 0;
     std::map<std::uint16_t, std::uint64_t> index_of;  ///< byte of the message index by channel
   };
-  /// A message of the open chunk: its time, and its byte in it.
+  /// A message of the open chunk: its time, and its byte in the chunk.
   struct Entry {
     std::uint64_t time_ns = 0, at = 0;
   };

@@ -23,13 +23,13 @@ enum class McapOp : unsigned char {
 };
 
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
-/// Of a record, before its content: kind and length.
+/// Bytes of a record before its content: kind and length.
 inline constexpr std::size_t kMcapRecordHead = 9;
 
-/// The kinds that the specification knows; others are of its future or damaged.
+/// True for the kinds of the specification; others are of a later version or damaged.
 constexpr bool is_mcap_op(unsigned char op) { return op >= 0x01 && op <= 0x0F; }
 
-/// The checksum of chunks and of the summary: CRC-32 as zlib has it.
+/// Returns the checksum of chunks and of the summary: CRC-32 as in zlib.
 std::uint32_t mcap_crc(std::string_view bytes);
 
 }  // namespace faultline

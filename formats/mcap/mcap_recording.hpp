@@ -12,10 +12,10 @@ namespace faultline {
 /// Signals of the joints that were computed from a log, under a topic of their own.
 struct ComputedSignals {
   std::string topic;
-  JointSignals position, velocity, effort;  ///< joints x ComputedRows::row; empty for what there is none of
+  JointSignals position, velocity, effort;  ///< joints x ComputedRows::row; empty for missing ones
 };
 
-/// What was computed from rows of a segment.
+/// Results that were computed from rows of a segment.
 struct ComputedRows {
   std::vector<int> row;  ///< of the segment, ascending
   std::vector<ComputedSignals> signals;
@@ -26,18 +26,18 @@ struct NamedCurves {
   std::string topic;
   std::vector<std::string> names;
   std::vector<double> time;                 ///< s
-  std::vector<std::vector<double>> values;  ///< names x time; NaN where there is none
+  std::vector<std::vector<double>> values;  ///< names x time; NaN for missing values
 };
 
-/// A log in MCAP with what was computed from it. Names of topics are those of own_topics.hpp.
+/// Writes a log and the results computed from it as MCAP. Topics have the names of own_topics.hpp.
 class McapRecording : public LogWriter {
  public:
   using LogWriter::write;
-  /// A segment, each row with what was computed from it.
+  /// Writes a segment, each row with the results computed from it.
   virtual void write(const Log& segment, const ComputedRows& computed) = 0;
-  /// As JSON messages, null for NaN. After all rows.
+  /// Writes JSON messages, with null for NaN. Call it after all rows.
   virtual void write(const NamedCurves& curves) = 0;
-  /// A text under a name and the key "json", which programs show as metadata. After all rows.
+  /// Writes a text under a name and the key "json", which programs show as metadata. Call it after all rows.
   virtual void note(const std::string& name, const std::string& json) = 0;
 };
 

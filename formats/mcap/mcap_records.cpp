@@ -12,16 +12,16 @@
 namespace faultline {
 namespace {
 
-/// Content that is looked at; larger records are passed over.
+/// Largest content in bytes that is read; larger records are skipped.
 constexpr std::uint64_t kLargestContent = kLargestBlock;
-/// Of a message, before its data.
+/// Bytes of a message before its data.
 constexpr std::uint64_t kMessageHead = 22;
 constexpr std::uint64_t kFooterSize = 20, kDataEndSize = 4;
-/// Behind damage a message is believed that is not later than this after the last one.
+/// After damage a message is accepted only if it is less than this later than the last one.
 constexpr std::uint64_t kLikelyStep_ns = 86'400'000'000'000;
 constexpr std::size_t kSearchedAtOnce = 1 << 16;
 
-/// Whether the content of a chunk, of which some is in view, can be one of this size.
+/// True when `content`, the beginning of a chunk's content of this size, has a valid chunk header.
 bool is_chunk(std::string_view content, std::uint64_t size) {
   ByteCursor chunk(content);
   const auto first = chunk.take<std::uint64_t>(), last = chunk.take<std::uint64_t>();
@@ -49,7 +49,7 @@ std::uint64_t McapRecords::left() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, file_size_ - bytes_.position()));
 }
 
-/// Whether a record that would be found by search stands at the front of `bytes`.
+/// True when a record that find_record() can recognise is at the front of `bytes`.
 bool McapRecords::is_record(std::string_view bytes) const {
   if (bytes.starts_with(kMcapMagic)) return true;  // another recording follows
   ByteCursor head(bytes);
@@ -68,7 +68,7 @@ bool McapRecords::is_record(std::string_view bytes) const {
   return head.ok() && topic >= 0 && time >= last_time_ && time - last_time_ < kLikelyStep_ns;
 }
 
-/// Goes on behind damaged bytes.
+/// Moves past damaged bytes to the next record; false when there is none.
 bool McapRecords::find_record() {
   const std::int64_t begin = bytes_.position();
   bool found = false;
@@ -76,7 +76,7 @@ bool McapRecords::find_record() {
     bytes_.advance(std::min<std::size_t>(1, bytes_.view().size()));
     bytes_.fill(kSearchedAtOnce);
     const std::string_view view = bytes_.view();
-    // The last bytes are looked at again with what follows them.
+    // The last bytes are searched again together with those that follow them.
     const std::size_t reach = view.size() < kSearchedAtOnce ? view.size() : view.size() - kSearchedAtOnce / 2;
     std::size_t at = 0;
     while (at < reach && !(found = is_record(view.substr(at)))) ++at;
@@ -98,7 +98,7 @@ void McapRecords::end() {
                    bytes_.position() + static_cast<std::int64_t>(bytes_.view().size()))});
 }
 
-/// Goes past the marks that stand here; a recording begins and ends with one.
+/// Skips the marks at this position and returns their number; a recording begins and ends with one.
 int McapRecords::pass_marks() {
   int marks = 0;
   for (; bytes_.fill(kMcapMagic.size()) && bytes_.view().starts_with(kMcapMagic); ++marks) {
@@ -120,7 +120,7 @@ void McapRecords::begin_recording() {
                    recording_begin_)});
 }
 
-/// Behind the footer the mark of the beginning stands once more, and perhaps another recording.
+/// Handles the end of a recording: after the footer the mark is repeated, and another recording may follow.
 void McapRecords::end_recording(int marks) {
   const bool more = bytes_.fill(kMcapRecordHead);
   const bool header_follows = more && static_cast<McapOp>(bytes_.view()[0]) == McapOp::header;
@@ -138,7 +138,7 @@ void McapRecords::end_recording(int marks) {
   }
 }
 
-/// Whether a record that is larger than is read at once can be what it says.
+/// True when a record that is too large to be read at once has a plausible beginning.
 bool McapRecords::is_likely(McapOp op, std::uint64_t size) {
   constexpr std::size_t kHeadOfAChunk = 64;
   bytes_.fill(kMcapRecordHead + kHeadOfAChunk);
@@ -149,7 +149,7 @@ bool McapRecords::is_likely(McapOp op, std::uint64_t size) {
          (op == McapOp::message && topics_.topic_of(message.take<std::uint16_t>()) >= 0);
 }
 
-/// Takes the record whose head stands here; false when there is none.
+/// Takes the record at this position; false when there is none.
 bool McapRecords::take_record() {
   ByteCursor head(bytes_.view());
   const auto op = head.take<unsigned char>();
@@ -157,7 +157,7 @@ bool McapRecords::take_record() {
   op_ = static_cast<McapOp>(op);
   too_large_ = is_mcap_op(op) && size > kLargestContent && size <= left() && is_likely(op_, size);
   const bool whole = is_mcap_op(op) && size <= kLargestContent && bytes_.fill(kMcapRecordHead + size);
-  // A chunk or message that the file ends in still holds what came before.
+  // A chunk in which the file ends still holds the messages before the end.
   cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > left() && op_ == McapOp::chunk &&
          is_chunk(bytes_.view().substr(kMcapRecordHead), size);
   if (!whole && !cut_ && !too_large_) return false;

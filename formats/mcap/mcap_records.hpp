@@ -11,7 +11,7 @@
 
 namespace faultline {
 
-/// The records at the top level of an MCAP file in their order. Behind damage they go on at the next record
+/// The records at the top level of an MCAP file in their order. After damage they continue at the next record
 /// that can be found.
 class McapRecords {
  public:
@@ -21,25 +21,25 @@ class McapRecords {
 
   /// Begins at the front of the bytes; `file_size` is 0 when it is not known.
   void start(std::int64_t file_size);
-  /// Goes on to the next record; false at the end of the file or of its data.
+  /// Moves to the next record; false at the end of the file or of its data.
   bool next();
   McapOp op() const { return op_; }
-  /// Valid until the next call; shorter than the record where the file ends in it.
+  /// Valid until the next call; shorter than the record if the file ends in it.
   std::string_view content() const { return bytes_.view().substr(kMcapRecordHead, size_); }
-  /// Of the content as the record says, which may be more than is in view.
+  /// Size of the content as stated in the record; more than content() may hold.
   std::uint64_t size() const { return record_size_ - kMcapRecordHead; }
-  /// Whether the file ends in this record.
+  /// True when the file ends in this record, which is then a chunk.
   bool is_cut() const { return cut_; }
-  /// Whether the record is larger than is read at once; then only its beginning is in content().
+  /// True when the record is too large to be read at once; content() then has only its beginning.
   bool is_too_large() const { return too_large_; }
-  /// Recordings that begin before this record: one, unless the file was joined from several.
+  /// Number of recordings that begin before this record: one, unless files were concatenated.
   std::size_t recordings() const { return recordings_; }
   /// Byte of the file at which the recording begins.
   std::int64_t recording_begin() const { return recording_begin_; }
   /// Byte of the file at which the record begins.
   std::int64_t begin() const { return bytes_.position(); }
   bool damaged() const { return damaged_; }
-  /// Time of the last message that was met, to tell a likely one behind damage.
+  /// Sets the time of the last message, which helps to recognise a message after damage.
   void met_time(std::uint64_t log_time_ns) { last_time_ = log_time_ns; }
 
  private:
@@ -59,7 +59,7 @@ class McapRecords {
   std::int64_t file_size_ = 0;
   McapOp op_{};
   std::size_t size_ = 0;           ///< of the content in view
-  std::uint64_t record_size_ = 0;  ///< with its head; passed at the next call
+  std::uint64_t record_size_ = 0;  ///< with its head; skipped at the next call
   std::uint64_t last_time_ = 0;
   bool cut_ = false, too_large_ = false, finished_ = false, damaged_ = false;
   bool behind_footer_ = false;

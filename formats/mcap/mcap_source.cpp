@@ -25,7 +25,7 @@
 namespace faultline {
 namespace {
 
-/// The next record in the bytes of a chunk, which go on behind it; false at their end.
+/// Takes the next record in the bytes of a chunk and moves `inside` after it; false at their end.
 bool take_inside(std::string_view& inside, McapOp& op, std::string_view& content) {
   if (inside.size() < kMcapRecordHead) return false;
   ByteCursor record(inside);
@@ -43,14 +43,12 @@ std::uint64_t time_of_message(std::string_view content) {
   return message.take<std::uint64_t>();
 }
 
-/// The messages of an unpacked chunk of an MCAP file in the order of their times, whatever theirs is in the
-/// chunk.
+/// The messages of an unpacked chunk of an MCAP file, sorted by time.
 class McapChunk {
  public:
-  /// Goes through the chunk once for what it defines, and for the order of its messages. `inside` must
-  /// outlive it.
+  /// Reads the definitions of the chunk, and sorts its messages if needed. `inside` must outlive the object.
   void begin(std::string_view inside, McapTopics& topics);
-  /// The content of the next message; false behind the last.
+  /// Returns the content of the next message; false after the last.
   bool next(std::string_view& content);
   void close();
 
@@ -62,7 +60,7 @@ class McapChunk {
   void sort(std::size_t messages);
 
   std::string_view all_, left_;
-  std::vector<Place> sorted_;  ///< where they are not in the order of their times
+  std::vector<Place> sorted_;  ///< empty if the chunk is sorted by time
   std::size_t next_sorted_ = 0;
 };
 
@@ -114,17 +112,17 @@ void McapChunk::close() {
   next_sorted_ = 0;
 }
 
-/// What was met while an MCAP file was read from front to back, against what its summary says of it. The data
-/// are right; an issue reports a summary that contradicts them.
+/// Compares the records of an MCAP file, read from front to back, with its summary. The data are right; an
+/// issue reports a summary that contradicts them.
 class McapIndex {
  public:
   void met_message() { ++messages_; }
-  /// A chunk record at this byte, with its head; false when there is no memory for more of them.
+  /// Adds the chunk record at this byte; `size` includes its head.
   void met_chunk(std::int64_t begin, std::int64_t size);
   /// Content of a chunk index or statistics record of the summary.
   void check_chunk_index(std::string_view content);
   void check_statistics(std::string_view content);
-  /// Adds what is wrong with the summary; of a damaged file nothing is expected.
+  /// Adds the errors of the summary; nothing for a damaged file.
   void tell(bool damaged, Issues& issues) const;
 
  private:
@@ -223,7 +221,7 @@ class McapSource : public MessageSource {
  private:
   std::int64_t size_if_known() const { return bytes_->compression() ? 0 : bytes_->file_size(); }
 
-  /// Takes the next record; `given_` when it is a message. False at the end.
+  /// Takes the next record; `given_` is true when it is a message. False at the end.
   bool next_record(Message& message) {
     if (!records_.next()) return false;
     const std::string_view content = records_.content();
@@ -336,7 +334,7 @@ class McapSource : public MessageSource {
                              doubtful ? "; its messages were left out" : "")});
   }
 
-  /// The index behind a damaged chunk tells how many messages it had.
+  /// Counts the messages of a damaged chunk from the index after it.
   void count_lost(std::string_view content) {
     ByteCursor record(content);
     const auto channel = record.take<std::uint16_t>();
@@ -358,7 +356,7 @@ class McapSource : public MessageSource {
   Issues issues_;
   McapRecords records_;
   McapIndex index_;
-  BlockBytes unpacked_;          ///< the open chunk, where it was compressed
+  BlockBytes unpacked_;          ///< the open chunk, if it was compressed
   McapChunk chunk_;              ///< the open one
   bool chunk_doubtful_ = false;  ///< its bytes may be wrong
   LostMessages lost_;

@@ -11,7 +11,7 @@ namespace faultline {
 
 bool looks_like_mcap(std::string_view head);
 
-/// The joint states of an MCAP recording, read from front to back; its index is only checked.
+/// Opens the joint states of an MCAP recording, read from front to back; its index is only checked.
 std::unique_ptr<RawReader> open_mcap(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline

@@ -6,8 +6,7 @@
 
 namespace faultline {
 
-/// A time as a member of a JSON message in the form that programs know as a time, and what a schema says of
-/// it.
+/// Returns a time as a member of a JSON message, in the form that programs recognise, and its schema.
 nlohmann::ordered_json mcap_stamp(std::int64_t stamp_ns);
 nlohmann::ordered_json mcap_stamp_schema();
 

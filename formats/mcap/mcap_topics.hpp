@@ -11,22 +11,22 @@
 
 namespace faultline {
 
-/// Schemas and channels of an MCAP file, as they are met.
+/// Schemas and channels of an MCAP file, in the order in which they are met.
 class McapTopics {
  public:
-  /// `path` for messages.
+  /// `path` is used in messages.
   explicit McapTopics(const std::string& path) : topics_(path) {}
-  /// From here on numbers are those of this recording of the file, from 0; each has its own.
+  /// Selects the recording of the file, from 0, whose numbers follow; each recording has its own.
   void start_recording(std::size_t recording);
-  /// Content of a schema or channel record; those that are damaged or known already are passed over.
+  /// Adds the content of a schema or channel record; damaged and repeated ones are ignored.
   void add_schema(std::string_view content);
   void add_channel(std::string_view content);
   const std::vector<Topic>& all() const { return topics_.all(); }
-  /// Of a channel id; -1 for one that was not met.
+  /// Returns the topic of a channel id; -1 for an unknown one.
   int topic_of(std::uint16_t channel) const;
 
  private:
-  /// Of one recording, by their numbers.
+  /// Types and topics of one recording, by their numbers.
   struct Numbers {
     std::map<std::uint16_t, std::string> type_of_schema;
     std::map<std::uint16_t, int> topic_of_channel;

@@ -23,12 +23,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Seconds that a stamp can hold: 32 bits, of which the first is the sign.
+/// Largest number of seconds of a stamp: 32 bits with sign.
 constexpr double kMostSeconds = 2147483647.0;
 /// Levels of foxglove.Log.
 constexpr int kInfo = 2, kError = 4;
 
-/// A topic of joint states, and where its values are in a log.
+/// A topic of joint states, and the signals of a log that it holds.
 struct StatesTopic {
   const char* name;
   const JointSignals Log::*position;
@@ -36,7 +36,7 @@ struct StatesTopic {
   const JointSignals Log::*effort;
 };
 const JointSignals Log::*const kNothing = nullptr;
-/// What was commanded comes before the states of the same time, so that it is known when they are read.
+/// Commands come before the states of the same time, so that they are available when the states are read.
 const StatesTopic kTopics[] = {{kCommandsTopic, &Log::q_ref, &Log::dq_ref, &Log::tau_ref},
                                {kMeasuredTopic, kNothing, kNothing, &Log::tau_meas},
                                {kStatesTopic, &Log::q, &Log::dq, &Log::tau}};
@@ -69,7 +69,7 @@ std::vector<std::string> extra_names(const Log& log) {
   return names;
 }
 
-/// Where named curves stand in a recording: messages as JSON with a member a name, which can be plotted.
+/// Returns the topic of named curves: JSON messages with a member per name, which can be plotted.
 McapTopic curves_topic(const NamedCurves& curves) {
   Json members{{"timestamp", mcap_stamp_schema()}};
   for (const std::string& name : curves.names) members[name] = {{"type", Json::array({"number", "null"})}};
@@ -77,7 +77,7 @@ McapTopic curves_topic(const NamedCurves& curves) {
   return {curves.topic, curves.topic.substr(1), "jsonschema", schema.dump(), "json"};
 }
 
-/// The values of all curves at a point.
+/// Returns the values of all curves at a point.
 std::string curves_message(std::int64_t stamp_ns, const NamedCurves& curves, std::size_t point) {
   Json message{{"timestamp", mcap_stamp(stamp_ns)}};
   for (std::size_t i = 0; i < curves.names.size(); ++i) {
@@ -87,8 +87,7 @@ std::string curves_message(std::int64_t stamp_ns, const NamedCurves& curves, std
   return message.dump();
 }
 
-/// Where events stand in a recording: messages of type foxglove.Log as JSON, which Foxglove lists by their
-/// times.
+/// Returns the topic of events: messages of type foxglove.Log as JSON, which Foxglove lists by their times.
 McapTopic event_topic() {
   const Json integer{{"type", "integer"}}, text{{"type", "string"}};
   const Json schema{{"title", "foxglove.Log"},
@@ -199,7 +198,7 @@ class McapWriter : public McapRecording {
     }
   }
 
-  /// Of a time of the log, in ns.
+  /// Converts a time of the log to ns.
   std::int64_t stamp_of(double time) const {
     if (!(time >= 0.0 && time < kMostSeconds))
       throw Error(
@@ -207,7 +206,7 @@ class McapWriter : public McapRecording {
           fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv "
                       "or .flog, or let the clock of the log start at 0",
                       time, kMostSeconds));
-    // Seconds and their fraction apart, so that a time since 1970 keeps its bits.
+    // Seconds and fraction are converted separately, so that a time since 1970 keeps its bits.
     const double seconds = std::floor(time);
     return static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((time - seconds) * 1e9);
   }
@@ -221,7 +220,7 @@ class McapWriter : public McapRecording {
   std::string path_;
   McapFile file_;
   std::optional<JointStateEncoder> states_, extra_;
-  std::vector<std::uint16_t> channels_;  ///< by kTopics; 0 for what the log has not
+  std::vector<std::uint16_t> channels_;  ///< by kTopics; 0 for topics that the log lacks
   std::uint16_t extra_channel_ = 0;
   std::map<std::string, std::uint16_t> computed_channels_;  ///< by topic
   JointRow row_;

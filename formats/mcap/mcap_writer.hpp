@@ -12,8 +12,8 @@ namespace faultline {
 inline constexpr const char* kMcapProvenance = "faultline/provenance";
 inline constexpr const char* kMcapProvenanceKey = "json";
 
-/// A recording of sensor_msgs/JointState messages of ROS 2, which Foxglove and PlotJuggler open. Times are
-/// written in whole nanoseconds and cannot be before 0.
+/// Creates a recording of sensor_msgs/JointState messages of ROS 2, which Foxglove and PlotJuggler open.
+/// Times are written in whole nanoseconds and cannot be before 0.
 std::unique_ptr<LogWriter> create_mcap(const std::string& path);
 
 }  // namespace faultline
