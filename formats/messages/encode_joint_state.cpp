@@ -13,7 +13,7 @@ constexpr std::string_view kLittleEndian{"\0\1\0\0", 4};
 constexpr std::size_t kStamp = 8;
 constexpr std::int64_t kStateSecond = 1'000'000'000;
 
-/// Pads to a multiple of `to` behind byte `begin`.
+/// Pads to a multiple of `to`, counted from byte `begin`.
 void align(std::string& out, std::size_t begin, std::size_t to) {
   out.append((to - (out.size() - begin) % to) % to, '\0');
 }
@@ -41,7 +41,7 @@ void append_numbers(std::string& out, std::size_t begin, const std::vector<doubl
 }  // namespace
 
 JointStateEncoder::JointStateEncoder(const std::vector<std::string>& names) {
-  std::string out(kStamp, '\0');  // what comes before decides the padding
+  std::string out(kStamp, '\0');  // the bytes before determine the padding
   append_text(out, "");
   align(out, 0, sizeof(std::uint32_t));
   append_word(out, static_cast<std::uint32_t>(names.size()));

@@ -29,7 +29,7 @@ class JointStateEncoder {
       "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
 
  private:
-  std::string names_;  ///< encoded, with the frame before them
+  std::string names_;  ///< encoded, after the frame
 };
 
 }  // namespace faultline

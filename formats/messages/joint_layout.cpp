@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::array kMeasured{Quantity::q, Quantity::dq, Quantity::tau};
 constexpr std::array kCommanded{Quantity::q_ref, Quantity::dq_ref, Quantity::tau_ref};
-/// Of a stream with torques only.
+/// Quantities of a stream with torques only.
 constexpr std::array kMeasuredBeside{Quantity::q, Quantity::dq, Quantity::tau_meas};
-/// Columns beyond those of the log's own joints; each has a value in each row.
+/// Upper limit of the columns; each column beyond those of the main stream has a value in each row.
 constexpr std::size_t kMostLogColumns = 1024;
 constexpr std::array kArrays{"position", "velocity", "effort"};
 
@@ -32,7 +32,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// A topic of what the robot was told to do.
+/// True for a topic of commands to the robot.
 bool is_command(const std::string& topic) {
   NameReading reading = read_name("position/" + topic);
   return reading.quantity == Quantity::q_ref;
@@ -60,7 +60,7 @@ int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>
                   listed({names.begin(), names.end()}));
 }
 
-/// Joints whose names differ by a number only stand in the order of the numbers; empty when they do not.
+/// Returns the order by number of joints whose names differ by a number only; empty for other names.
 std::vector<int> numbered_order(const std::vector<std::string>& joints) {
   std::vector<std::pair<int, int>> numbered;
   std::set<std::string> stems;
@@ -79,7 +79,7 @@ std::vector<int> numbered_order(const std::vector<std::string>& joints) {
   return order;
 }
 
-/// The joints of the log, base to tip, as indices of the main stream's.
+/// Returns the joints of the log, base to tip, as indices into those of the main stream.
 std::vector<int> order_joints(const JointStream& stream, const RecordingChoice& choice,
                               const std::string& path, Issues& issues) {
   std::vector<int> order;
@@ -145,8 +145,8 @@ class Layouter {
     if (is_time) layout_.columns.back().meaning = Channel{};
   }
 
-  /// A stream of the same joints that was commanded is the reference of the main one; one of measured torques
-  /// alone stands beside its torque.
+  /// Adds a stream other than the main one: commands for the same joints are its references, measured torques
+  /// alone are tau_meas, other streams have no meaning.
   void add_other(int s, const std::vector<int>& order) {
     const JointStream& stream = streams_[s];
     const std::string& topic = topics_[stream.topic].name;
@@ -165,7 +165,7 @@ class Layouter {
     }
   }
 
-  /// Positions, not commanded, of joints on the same topic or with some of the same names.
+  /// True for positions, not commanded, of joints on the same topic or with some of the same names.
   bool is_rival(const JointStream& stream, const JointStream& main) const {
     const std::string& topic = topics_[stream.topic].name;
     if (!stream.position || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
@@ -193,7 +193,7 @@ class Layouter {
     for (JointColumns& columns : layout_.of_stream[s]) columns.assign(streams_[s].joints.size(), -1);
   }
 
-  /// The joints of the log in a stream; empty when it lacks some.
+  /// Returns the joints of the log as indices into the stream; empty when it lacks some.
   std::vector<int> same_joints(const JointStream& stream, const std::vector<int>& order) const {
     std::vector<int> same;
     for (const int joint : order) {
@@ -205,7 +205,7 @@ class Layouter {
     return same;
   }
 
-  /// Columns of a stream: `joints` are the log's, with the meaning `quantities`, others have none.
+  /// Adds the columns of a stream: `joints` are the log's, with the meaning `quantities`, others have none.
   void add_stream(int s, const std::array<Quantity, 3>& quantities, const std::vector<int>& joints) {
     const JointStream& stream = streams_[s];
     const std::array<bool, 3> there{stream.position, stream.velocity, stream.effort};
@@ -229,7 +229,7 @@ class Layouter {
     layout_.columns.push_back(column);
   }
 
-  /// Named by topic, joint and array; what this program wrote beside the joints has its own name again.
+  /// Names a column by topic, joint and array; extra channels written by this program get their own name.
   RawColumn column_of(const JointStream& stream, int joint, const char* array) const {
     const std::string &topic = topics_[stream.topic].name, &name = stream.joints[joint];
     if (topic != kExtraTopic) return {topic + "/" + name + "/" + array, ""};
@@ -241,7 +241,7 @@ class Layouter {
   const std::vector<JointStream>& streams_;
   JointLayout layout_;
   bool has_reference_ = false, has_measured_ = false;
-  int left_out_ = 0;  ///< streams for which there are too many columns
+  int left_out_ = 0;  ///< streams that would exceed the number of columns
   std::string first_left_out_;
 };
 

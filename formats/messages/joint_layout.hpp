@@ -15,22 +15,22 @@ namespace faultline {
 /// Columns of the values of one array of a stream, by joint of the stream; -1 for none.
 using JointColumns = std::vector<int>;
 
-/// Which columns a recording makes. Rows are the messages of the main stream; the values of the others are
+/// The columns of a recording. Rows are the messages of the main stream; the values of other streams are
 /// those of their latest message.
 struct JointLayout {
-  int main = -1;  ///< stream
+  int main = -1;  ///< index of the stream
   std::vector<RawColumn> columns;
-  int stamp_column = -1, receipt_column = -1;  ///< s; -1 where it says nothing
+  int stamp_column = -1, receipt_column = -1;  ///< s; -1 if the recording lacks it or it is redundant
   /// By stream: the columns of position, velocity and effort.
   std::vector<std::array<JointColumns, 3>> of_stream;
-  /// By stream: whether its messages could be rows of the log, as those of another publisher or under other
-  /// names.
+  /// By stream: true when its messages could be rows of the log, such as those of another publisher or with
+  /// other names.
   std::vector<bool> is_rival;
-  Issues issues;  ///< choices that somebody may want to know of
+  Issues issues;  ///< choices that the user may want to change
 };
 
-/// The stream that has positions and most looks like a measurement is the main one, unless `choice` names its
-/// topic. Throws Error(input) naming `path` when no stream fits.
+/// Chooses the columns. The main stream is the one with positions that most resembles a measurement, unless
+/// `choice` names its topic. Throws Error(input) naming `path` when no stream fits.
 JointLayout layout_joints(const std::vector<Topic>& topics, const std::vector<JointStream>& streams,
                           const RecordingChoice& choice, const std::string& path);
 

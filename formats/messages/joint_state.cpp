@@ -16,12 +16,12 @@ using MessageJson = nlohmann::json;
 
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
 constexpr std::size_t kDoubleBytes = sizeof(double);
-/// Of a stamp; more would not fit 64 bits of nanoseconds.
+/// Upper limit of a stamp; more seconds would not fit 64 bits of nanoseconds.
 constexpr double kStateMostSeconds = 9e9;
-/// Bytes of a message; parsed, it takes many times as much memory.
+/// Largest message in bytes; parsed, it takes many times as much memory.
 constexpr std::size_t kLongestJson = 1 << 20;
 
-/// How the members of a message follow each other.
+/// Layout of the members of a message.
 struct Wire {
   std::size_t begin = 0;             ///< byte from which alignment counts
   std::size_t word_alignment = 1;    ///< of lengths
@@ -35,7 +35,7 @@ constexpr std::uint32_t swap_bytes(std::uint32_t value) {
   return (value >> 24) | ((value >> 8) & 0xFF00U) | ((value << 8) & 0xFF0000U) | (value << 24);
 }
 
-/// Takes the members of a message in their order; what goes beyond its end leaves `ok` false.
+/// Takes the members of a message in their order; `ok` becomes false at the end of its bytes.
 class Members {
  public:
   Members(std::string_view bytes, const Wire& wire) : bytes_(bytes), wire_(wire), at_(wire.begin) {}
@@ -67,7 +67,7 @@ class Members {
     return found;
   }
 
-  /// Goes on behind `same` when it stands here.
+  /// Skips `same` if it is at this position; else returns false.
   bool passes(std::string_view same) {
     if (same.empty() || bytes_.substr(at_, same.size()) != same) return false;
     at_ += same.size();
@@ -87,7 +87,7 @@ class Members {
   std::size_t at_;
 };
 
-/// Messages of ROS 1, and of ROS 2 behind the four bytes that say their byte order.
+/// Decodes messages of ROS 1, and those of ROS 2 after four bytes that give their byte order.
 class RosDecoder : public JointStateDecoder {
  public:
   explicit RosDecoder(bool cdr) : cdr_(cdr) {}
@@ -97,7 +97,7 @@ class RosDecoder : public JointStateDecoder {
     if (!wire_of(bytes, wire)) return false;
     Members members(bytes, wire);
     if (wire.sequence_number) members.word();
-    // Seconds are signed in ROS 2, but none are below 0.
+    // Seconds are signed in ROS 2, but never negative.
     const std::int64_t seconds = members.word(), nanoseconds = members.word();
     state.stamp_ns = seconds * kNanoseconds + nanoseconds;
     members.text();  // the frame
@@ -148,7 +148,7 @@ class RosDecoder : public JointStateDecoder {
   Wire last_wire_;
 };
 
-/// The first of the members that is a number; 0 for none.
+/// Returns the first of the members that is a number; 0 for none.
 double number_of(const MessageJson& object, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const auto found = object.find(name); found != object.end() && found->is_number())
@@ -169,7 +169,7 @@ std::int64_t stamp_of(const MessageJson& message) {
   return static_cast<std::int64_t>(seconds) * kNanoseconds + static_cast<std::int64_t>(nanoseconds);
 }
 
-/// A member that is an array of numbers; what is no number in it (such as null) is NaN.
+/// Reads a member that is an array of numbers; any other element (such as null) is NaN.
 bool take_numbers(const MessageJson& message, const char* name, std::vector<double>& numbers) {
   numbers.clear();
   const auto found = message.find(name);
@@ -183,8 +183,8 @@ PackedNumbers packed(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size(), false};
 }
 
-/// Messages as JSON objects with the members of the ROS message; the stamp's nanoseconds are "nsec",
-/// "nanosec" or "nsecs", its seconds "sec" or "secs".
+/// Decodes JSON objects with the members of the ROS message; the stamp's nanoseconds are "nsec", "nanosec" or
+/// "nsecs", its seconds "sec" or "secs".
 class JsonDecoder : public JointStateDecoder {
  public:
   bool decode(std::string_view bytes, JointMessage& state) override {

@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// An array of doubles as a message holds it.
+/// An array of doubles as stored in a message.
 struct PackedNumbers {
   const char* data = nullptr;
   std::size_t count = 0;
@@ -18,11 +18,11 @@ struct PackedNumbers {
   double operator[](std::size_t i) const;
 };
 
-/// What a sensor_msgs/JointState says; valid as long as the bytes of the message and, for JSON, until the
-/// next one is decoded.
+/// The content of a sensor_msgs/JointState; valid as long as the bytes of the message and, for JSON, until
+/// the next one is decoded.
 struct JointMessage {
   std::int64_t stamp_ns = 0;  ///< of its header
-  std::string_view names;     ///< as they are encoded: equal bytes mean equal names; see decode_names()
+  std::string_view names;     ///< encoded: equal bytes mean equal names; see decode_names()
   PackedNumbers position, velocity, effort;
 };
 
@@ -30,15 +30,15 @@ struct JointMessage {
 class JointStateDecoder {
  public:
   virtual ~JointStateDecoder() = default;
-  /// False when the bytes are no whole JointState.
+  /// False when the bytes are not a complete JointState.
   virtual bool decode(std::string_view bytes, JointMessage& state) = 0;
   virtual std::vector<std::string> decode_names(const JointMessage& state) const = 0;
 };
 
-/// Whether a type, as ROS 1, ROS 2 or a schema writes it, is a JointState.
+/// True when a type, as ROS 1, ROS 2 or a schema writes it, is a JointState.
 bool is_joint_state(std::string_view type);
 
-/// For "cdr" (ROS 2, either byte order), "ros1" and "json"; null for any other encoding.
+/// Returns a decoder for "cdr" (ROS 2, either byte order), "ros1" or "ros1msg", and "json"; null for others.
 std::unique_ptr<JointStateDecoder> joint_state_decoder(std::string_view encoding);
 
 }  // namespace faultline

@@ -20,16 +20,16 @@
 namespace faultline {
 namespace {
 
-/// Joint states that are looked at to find the joints, and bytes of messages of any kind.
+/// Joint states that are read to find the joints, and bytes of messages of any kind.
 constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;
-/// Values of a block at most, whatever its columns: 8 MiB.
+/// Largest number of values of a block, for any number of columns: 8 MiB.
 constexpr std::size_t kMostBlockValues = 1 << 20;
-/// rad or m. Two publishers that are closer report one position, as the codes of an encoder at rest may do in
-/// turn.
+/// rad or m. Closer positions of two publishers count as one; the codes of an encoder at rest may alternate
+/// by less.
 constexpr double kApart = 1e-2;
-constexpr double kNear = 0.25;                 ///< of the distance to the last row
-constexpr double kMostShare = 0.5;             ///< of the rows that may be those of two publishers in turn
+constexpr double kNear = 0.25;                 ///< share of the distance to the last row
+constexpr double kMostShare = 0.5;             ///< share of rows that may look like two publishers
 constexpr std::int64_t kFewestJointRows = 20;  ///< rows that the check for two publishers needs
 
 double distance(const std::vector<double>& position, const std::vector<double>& other) {
@@ -39,13 +39,13 @@ double distance(const std::vector<double>& position, const std::vector<double>& 
   return largest;
 }
 
-/// Whether the positions of the rows are those of two publishers in turn: each row is near the one before the
-/// last, not near the last one.
+/// Tests if the positions of the rows are those of two publishers in turn: each row is near the one before
+/// the last, not near the last one.
 class AlternatingRows {
  public:
-  /// The positions of all joints, always in the same order.
+  /// Adds the positions of all joints, always in the same order.
   void add(const std::vector<double>& position);
-  /// Of the rows so far, most.
+  /// True when most of the rows so far alternate.
   bool alternate() const;
 
  private:
@@ -68,7 +68,7 @@ bool AlternatingRows::alternate() const {
          static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
 }
 
-/// How much later messages were received than their headers say.
+/// Delay from the stamps in the headers to the receipt of the messages.
 class ReceiptGap {
  public:
   void add(std::int64_t stamp_ns, std::int64_t receipt_ns) {
@@ -79,7 +79,7 @@ class ReceiptGap {
     sum_s_ += gap_s;
     ++messages_;
   }
-  /// Adds a note when some gap was met.
+  /// Adds a note when some delay is not 0.
   void tell(Issues& issues) const;
 
  private:
@@ -98,7 +98,7 @@ void ReceiptGap::tell(Issues& issues) const {
                           sum_s_ / static_cast<double>(messages_), least_s_, most_s_)});
 }
 
-/// Exact for stamps that count from a start, to 2e-7 s for those since 1970.
+/// Converts to s: exactly for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
   if (nanoseconds < kExact) return static_cast<double>(nanoseconds) / 1e9;
@@ -167,7 +167,7 @@ class JointStateReader : public RawReader {
   void learn_joints() {
     bool learned = learn_first_messages();
     if (!learned && source_->issues().find("channel_unknown")) {
-      source_->rewind();  // what the messages are stood behind them
+      source_->rewind();  // the declarations of the messages came after them
       learned = learn_first_messages();
     }
     if (!learned)
@@ -178,13 +178,13 @@ class JointStateReader : public RawReader {
     streams_.settle();
   }
 
-  /// What was found wrong first, perhaps why there is none.
+  /// Returns the first issue of the source, which may be the reason for missing joint states.
   std::string first_issue() const {
     const Issues& issues = source_->issues();
     return issues.empty() ? "" : " (" + issues.all().front().message + ")";
   }
 
-  /// Whether there was any joint state.
+  /// Learns the streams from the first messages; false without any joint state.
   bool learn_first_messages() {
     std::int64_t learned = 0;
     std::uint64_t bytes = 0;
@@ -208,7 +208,7 @@ class JointStateReader : public RawReader {
     }
   }
 
-  /// False when the block must end, because a row was lost behind others.
+  /// Takes a message; false when the block must end because a row was lost after its rows.
   bool take(const Message& message, RawBlock& block) {
     const Topic& topic = source_->topics()[message.topic];
     bool damaged = message.lost;
@@ -237,14 +237,14 @@ class JointStateReader : public RawReader {
 
   const JointStream& main_stream() const { return streams_.streams()[layout_.main]; }
 
-  /// Rows of a block follow each other; false when it must end.
+  /// Skips a lost row; false when the block must end, as its rows are consecutive.
   bool pass_lost_row(RawBlock& block) const {
     if (block.rows > 0) return false;
     block.first_row = identity_.rows_read;
     return true;
   }
 
-  /// Whether the message of another stream is a row that the log lacks.
+  /// Handles a message of another stream; true when it is a row that the log lacks.
   bool lose_rival_rows(int s) {
     const std::int64_t rows = rivals_.rows_lost_by(s);
     if (rows == 0) return false;
@@ -306,7 +306,7 @@ class JointStateReader : public RawReader {
       issues_.add(joint_missing(identity_.rows_read, joints[missing - placing.is_present.begin()]));
   }
 
-  /// Keeps what another stream says until its next message.
+  /// Keeps the values of another stream until its next message.
   void hold(const JointPlacing& placing) {
     const std::array arrays{&state_.position, &state_.velocity, &state_.effort};
     for (std::size_t a = 0; a < arrays.size(); ++a) {
@@ -318,7 +318,7 @@ class JointStateReader : public RawReader {
     }
   }
 
-  /// Columns of the streams beside the main one.
+  /// Finds the columns of the streams other than the main one.
   void find_held_columns() {
     held_columns_.clear();
     for (int s = 0; s < std::ssize(layout_.of_stream); ++s)

@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// The sensor_msgs/JointState messages of a recording as a table. The joints are found in its first part;
-/// what speaks of others later is told in the issues. Throws Error(input) when there are none.
+/// Opens the sensor_msgs/JointState messages of a recording as a table. The joints are found in its first
+/// part; messages with other joints later are reported as issues. Throws Error(input) when there are none.
 std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source);
 
 }  // namespace faultline

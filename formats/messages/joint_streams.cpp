@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// Lists of names that are told apart in one file; a recording has a few.
+/// Largest number of lists of names that are distinguished in one file; a recording has a few.
 constexpr std::size_t kMostPatterns = 256;
 constexpr std::size_t kMostJoints = 256;
 constexpr std::size_t kMostNameBytes = 1 << 15;  ///< bytes of the names in a message
@@ -33,7 +33,7 @@ void add_to(JointStream& stream, const JointStream& more) {
   stream.received_later = stream.received_later || more.received_later;
 }
 
-/// Messages without names count their joints from 1.
+/// Returns the names of the joints; joints of messages without names are numbered from 1.
 std::vector<std::string> names_in(const JointMessage& state, const JointStateDecoder& decoder) {
   std::vector<std::string> names = decoder.decode_names(state);
   if (!names.empty()) return names;
@@ -87,7 +87,7 @@ bool JointStreams::learn(const Topic& topic, const Message& message) {
   return true;
 }
 
-/// Adds a pattern to the streams; those that it connects become one.
+/// Adds a pattern to the streams; streams that share joints with it are merged.
 void JointStreams::join(const Pattern& pattern) {
   if (pattern.counted.messages == 0) return;
   JointStream joined = pattern.counted;
@@ -120,7 +120,7 @@ void JointStreams::place(Pattern& pattern) const {
   placing.is_present.assign(joints.size(), false);
   for (std::size_t i = 0; i < pattern.names.size(); ++i) {
     const int joint = index_of(joints, pattern.names[i]);
-    if (joint < 0 || placing.is_present[joint]) continue;  // not known, or named twice
+    if (joint < 0 || placing.is_present[joint]) continue;  // unknown, or named twice
     placing.joint_of[i] = joint;
     placing.is_present[joint] = true;
   }

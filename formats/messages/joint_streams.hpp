@@ -12,36 +12,36 @@
 
 namespace faultline {
 
-/// Joints that messages of one topic speak of together. Two publishers of one topic whose joints differ, such
-/// as an arm and its gripper, make two streams.
+/// Joints that share messages of one topic. Two publishers of one topic with different joints, such as an arm
+/// and its gripper, form two streams.
 struct JointStream {
   int topic = 0;
   std::vector<std::string> joints;  ///< in the order of their first message
   std::int64_t messages = 0;
-  bool position = false, velocity = false, effort = false;  ///< which of them some message has
+  bool position = false, velocity = false, effort = false;  ///< some message has this array
   bool stamped = false;                                     ///< some stamp is not 0
-  bool received_later = false;                              ///< some receipt is not the stamp
+  bool received_later = false;                              ///< some receipt time differs from its stamp
 };
 
-/// How the messages with one list of joint names go into their stream.
+/// Assigns the messages with one list of joint names to a stream.
 struct JointPlacing {
-  int stream = -1;               ///< -1 for none that was known when the columns were made
-  std::vector<int> joint_of;     ///< by place in the message: the joint of the stream, -1 for none
+  int stream = -1;               ///< -1 if no stream was known when the columns were made
+  std::vector<int> joint_of;     ///< by index in the message: the joint of the stream, -1 for none
   std::vector<bool> is_present;  ///< by joint of the stream
-  bool complete = false;         ///< all joints are there, and no other
+  bool complete = false;         ///< all joints of the stream are present, and no others
 };
 
-/// Finds the streams of a recording and leads its messages to them.
+/// Finds the streams of a recording and assigns its messages to them.
 class JointStreams {
  public:
-  /// Takes the message into account; false when it is no JointState that can be read.
+  /// Adds the message to the statistics; false when it is no valid JointState.
   bool learn(const Topic& topic, const Message& message);
-  /// To be called once, when enough messages were learned.
+  /// Forms the streams; call it once, after learn() of enough messages.
   void settle();
   const std::vector<JointStream>& streams() const { return streams_; }
 
   /// Reads a message; null when it is no JointState, or is damaged (then `damaged` is set). Both results are
-  /// valid until the next call. Beyond the largest number of lists of names, a new list leads to no stream.
+  /// valid until the next call. After the largest number of lists of names, a new list gets no stream.
   const JointPlacing* read(const Topic& topic, const Message& message, JointMessage& state, bool& damaged);
 
  private:
@@ -60,7 +60,7 @@ class JointStreams {
   void place(Pattern& pattern) const;
 
   std::vector<std::unique_ptr<JointStateDecoder>> decoders_;  ///< by topic
-  std::vector<bool> asked_;                                   ///< by topic, whether there is a decoder
+  std::vector<bool> asked_;                                   ///< by topic: its decoder was looked up
   std::vector<std::unique_ptr<Pattern>> patterns_;
   std::vector<Pattern*> last_;                            ///< by topic
   std::unordered_map<std::string, Pattern*> pattern_of_;  ///< by topic and encoded names

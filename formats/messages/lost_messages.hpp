@@ -9,19 +9,19 @@
 
 namespace faultline {
 
-/// Messages that are missing from damaged chunks, as the index behind each tells. Channels are numbered as
-/// the file does.
+/// Finds the messages that are missing in damaged chunks by the index after each chunk. Channels have the
+/// numbers of the file.
 class LostMessages {
  public:
-  /// The chunk that begins is whole until lose().
+  /// Begins a chunk, which is complete unless lose() is called.
   void begin_chunk();
   void lose() { lossy_ = true; }
   bool is_lossy() const { return lossy_; }
-  /// A message of the chunk was handed out.
+  /// Counts a message of the chunk that was handed out.
   void met(std::uint32_t channel) { ++met_[channel]; }
-  /// The index behind the chunk: of those messages of a topic the ones that were not met are missing.
+  /// Takes the index after the chunk; messages of a topic beyond those counted by met() are missing.
   void told(std::uint32_t channel, std::size_t messages, int topic);
-  /// The next missing one; false when there is none.
+  /// Returns the next missing message; false when there is none.
   bool next(Message& message);
 
  private:

@@ -9,19 +9,19 @@
 #include "formats/messages/message_source.hpp"
 #include "lib/core/issue.hpp"
 
-// What is said of the messages of a recording; rows count from 1.
+// Issues of the messages of a recording; rows count from 1.
 namespace faultline {
 
-/// "its topics are ..".
+/// Returns "its topics are ..".
 std::string topics_sentence(const std::vector<Topic>& topics);
 
-/// A message that was to be a row and cannot be read, alone or `with_its_block`.
+/// A message that should be a row and cannot be read, alone or `with_its_block`.
 Issue lost_row(std::int64_t row, bool with_its_block);
-/// A row lost because its joints were not known when the columns were made.
+/// A row that is lost because its joints were not known when the columns were made.
 Issue late_row(std::int64_t row, const Topic& topic);
-/// `rows` from `first` on, lost because they are of another stream that goes on alone.
+/// `rows` from `first` on, lost because they belong to another stream while the main one sends nothing.
 Issue joints_changed(const JointStream& stream, const Topic& topic, std::int64_t first, std::int64_t rows);
-/// A message of another topic that cannot be read, or that speaks of joints unknown.
+/// A message of another topic that cannot be read, or that has unknown joints.
 Issue damaged_message(const Topic& topic);
 Issue late_message(const Topic& topic);
 

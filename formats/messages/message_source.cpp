@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kMostTopics = 1 << 17;
-constexpr std::size_t kMostTopicBytes = 1 << 24;  ///< of their texts
+constexpr std::size_t kMostTopicBytes = 1 << 24;  ///< of the texts of all topics
 
 }  // namespace
 

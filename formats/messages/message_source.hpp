@@ -20,17 +20,16 @@ struct Topic {
   std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
 };
 
-/// Bytes of each text of a topic that are kept; no name is as long.
+/// Bytes to which each text of a topic is cut; no name is as long.
 inline constexpr std::size_t kLongestTopicText = 1 << 12;
 
-/// The topics of a recording as they are met.
+/// The topics of a recording, in the order in which they are met.
 class TopicList {
  public:
-  /// `path` for messages.
+  /// `path` is used in messages.
   explicit TopicList(std::string path) : path_(std::move(path)) {}
-  /// The index of a topic, which is added unless it is there: what a second publisher or a driver that was
-  /// started again sends belongs to the same one. Throws Error(input) when there are more than any recording
-  /// has.
+  /// Returns the index of a topic and adds it if it is new; messages of a second publisher or of a restarted
+  /// driver belong to the same topic. Throws Error(input) when there are more than any recording has.
   int add(Topic topic);
   const std::vector<Topic>& all() const { return topics_; }
 
@@ -41,22 +40,22 @@ class TopicList {
   std::size_t bytes_ = 0;
 };
 
-/// One message. The bytes are valid until the next one is asked for.
+/// One message. The bytes are valid until the next call of next().
 struct Message {
   int topic = 0;                ///< index in MessageSource::topics()
-  std::int64_t receipt_ns = 0;  ///< when the recorder received it, since 1970 or since some start
+  std::int64_t receipt_ns = 0;  ///< time of receipt by the recorder, since 1970 or another start
   std::string_view bytes;
-  bool lost = false;  ///< its bytes are damaged or missing; only to be counted
+  bool lost = false;  ///< its bytes are damaged or missing; it is only counted
 };
 
-/// A recording of messages in the order in which they were received, up to damage and behind it where the
-/// format allows. Every failure of reading the file throws Error(input).
+/// A recording of messages in the order of receipt, up to damage and, if the format allows, after it. Every
+/// failure to read the file throws Error(input).
 class MessageSource {
  public:
   virtual ~MessageSource() = default;
   virtual const std::string& path() const = 0;
   virtual const char* format() const = 0;
-  /// Those met so far; only ever gets longer.
+  /// Topics met so far; the list only grows.
   virtual const std::vector<Topic>& topics() const = 0;
   /// False after the last one.
   virtual bool next(Message& message) = 0;

@@ -5,21 +5,21 @@
 
 namespace faultline {
 
-/// Topics under which this program writes a log: the joints with position, velocity and torque, what was
-/// commanded, what was measured beside it, and the channels without a canonical meaning, by their names as
-/// joints.
+/// Topics under which this program writes a log: the joints with position, velocity and torque, the commands,
+/// the separately measured torques, and the channels without a canonical meaning, with their names as joint
+/// names.
 inline constexpr const char* kStatesTopic = "/joint_states";
 inline constexpr const char* kCommandsTopic = "/joint_commands";
 inline constexpr const char* kMeasuredTopic = "/joint_torques_measured";
 inline constexpr const char* kExtraTopic = "/faultline/extra";
 
-/// What a diagnosis computed from a log: joints as they were predicted one step ahead, with the torque that
-/// the healthy robot needs for the motion; residuals; how the evidence of a fault grew, a topic a fault.
+/// Results of a diagnosis: positions and velocities predicted one step ahead, with the torque that the
+/// healthy robot needs for the motion; residuals; the evidence of each fault over time, one topic per fault.
 inline constexpr const char* kPredictedTopic = "/faultline/predicted";
 inline constexpr const char* kResidualsTopic = "/faultline/residuals";
 inline constexpr const char* kEvidenceTopic = "/faultline/evidence";
 
-/// No part of the log, when a recording is read.
+/// True for joint states that a diagnosis computed; they are not part of the log.
 constexpr bool is_computed(std::string_view topic) {
   return topic == kPredictedTopic || topic == kResidualsTopic;
 }

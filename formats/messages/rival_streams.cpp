@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// A stream goes on alone when so many of its messages, or so many times as many as usual, follow each other
+/// A stream continues alone when so many of its messages (more if it sends several per row) follow each other
 /// without one of the main stream.
 constexpr std::int64_t kAlone = 10;
 
@@ -30,7 +30,7 @@ std::int64_t RivalStreams::rows_lost_by(int stream) {
   return since_[s] == most_[s] + 1 ? since_[s] : 1;
 }
 
-/// Those that went on alone are counted as rows.
+/// Counts the messages that are in no row, without those already counted as lost rows.
 void RivalStreams::count(std::int64_t taken) {
   for (std::size_t s = 0; s < since_.size(); ++s) {
     if (since_[s] <= most_[s]) between_rows_ += std::max<std::int64_t>(0, since_[s] - taken);
