@@ -13,8 +13,8 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kHeaderBytes = sizeof(NativeChunkHeader);
-/// Damaged blocks are searched for the next header while those before hold no more than so many bytes and the
-/// file up to there; else nested ones would take time with the square of their number.
+/// Damaged blocks are searched for the next header while the bytes hashed in damaged blocks are no more than
+/// this plus the file up to there; else nested ones would take time with the square of their number.
 constexpr std::int64_t kSearchedFreely = 1 << 24;
 
 NativeChunkHeader header_at(std::string_view bytes, std::size_t at) {
@@ -50,7 +50,7 @@ void NativeChunks::lose(const char* code, std::uint64_t rows, const std::string&
   rows_lost_ += lost;
 }
 
-/// The next sound header; when bytes are damaged, the next one that can be found behind them.
+/// Finds the next undamaged header, if necessary after damaged bytes.
 bool NativeChunks::find_header(NativeChunkHeader& header) {
   std::size_t skipped = 0;
   while (bytes_.fill(kHeaderBytes)) {
@@ -109,7 +109,7 @@ bool NativeChunks::take(const NativeChunkHeader& header) {
   return true;
 }
 
-/// Where bytes are missing the next header lies among those that were taken for the numbers.
+/// Skips a damaged chunk. If bytes are missing, the next header is within the assumed numbers.
 void NativeChunks::pass_damaged(const NativeChunkHeader& header, std::size_t size, bool whole) {
   bytes_.fill(size + kHeaderBytes - 1);
   const std::string_view view = bytes_.view();
@@ -130,7 +130,7 @@ void NativeChunks::pass_damaged(const NativeChunkHeader& header, std::size_t siz
   if (!whole && found == std::string_view::npos) finish();
 }
 
-/// Where its text is damaged the next header may lie in it, and is looked for from its first byte on.
+/// Reads the provenance. If its text is damaged, the search for the next header begins at its first byte.
 void NativeChunks::read_provenance(const NativeChunkHeader& header) {
   const std::size_t size = header.rows;
   const bool whole = bytes_.fill(size);
@@ -141,7 +141,7 @@ void NativeChunks::read_provenance(const NativeChunkHeader& header) {
   if (sound || (whole && !may_search())) bytes_.advance(size);
 }
 
-/// Reads what may follow, so that the hash covers the whole file.
+/// Reads the rest of the file, so that the hash covers all of it.
 void NativeChunks::finish() {
   finished_ = true;
   const std::int64_t more = bytes_.drain();

@@ -11,18 +11,18 @@
 
 namespace faultline {
 
-/// Where the first sound header of a chunk, of provenance, or the end mark, lies in `bytes` that speaks of no
-/// row before `least_row`; npos for none.
+/// Returns the position in `bytes` of the first undamaged header of a chunk or of provenance, or of the end
+/// mark, whose first row is not before `least_row`; npos for none.
 std::size_t find_native_header(std::string_view bytes, std::uint64_t least_row);
 
-/// The sound chunks of a native log in their order. What damage hides is left out and told in the issues: the
-/// chunks go on at the next header that can be found.
+/// The undamaged chunks of a native log in their order. Damaged parts are omitted and reported as issues: the
+/// chunks continue at the next header that can be found.
 class NativeChunks {
  public:
   NativeChunks(ByteWindow& bytes, std::size_t channels, Issues& issues)
       : bytes_(bytes), channels_(channels), issues_(issues) {}
 
-  /// Goes on to the next chunk; false after the last one, when the file has been read to its end.
+  /// Moves to the next chunk; false after the last one, when the file has been read to its end.
   bool next();
   std::int64_t first_row() const { return static_cast<std::int64_t>(next_row_) - rows_; }
   std::int64_t rows() const { return rows_; }
@@ -42,7 +42,7 @@ class NativeChunks {
   ByteWindow& bytes_;
   std::size_t channels_;
   Issues& issues_;
-  std::uint64_t next_row_ = 0;     ///< all before it were handed out or lost
+  std::uint64_t next_row_ = 0;     ///< all rows before it were handed out or lost
   std::int64_t rows_ = 0;          ///< in the present chunk
   std::size_t chunk_bytes_ = 0;    ///< of the present chunk, at the front of the view
   std::int64_t bytes_hashed_ = 0;  ///< of damaged chunks and provenance

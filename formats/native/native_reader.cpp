@@ -19,8 +19,8 @@
 namespace faultline {
 namespace {
 
-constexpr int kMostTries = 4;               ///< places where the second copy could begin
-constexpr std::size_t kFarthestShift = 64;  ///< bytes by which damage may have moved it back
+constexpr int kMostTries = 4;               ///< positions tried for the second copy
+constexpr std::size_t kFarthestShift = 64;  ///< largest displacement of the copy by damage, bytes
 
 [[noreturn]] void fail_preface(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::input, path, what);
@@ -32,7 +32,7 @@ NativePreface first_fields(std::string_view bytes) {
   return preface;
 }
 
-/// Bytes of the preface that begins `at` bytes from here, its hash included; 0 when it is damaged.
+/// Returns the bytes of the preface at position `at` of the view, with its hash; 0 when it is damaged.
 std::size_t sound_preface(ByteWindow& bytes, std::size_t at) {
   if (!bytes.fill(at + sizeof(NativePreface))) return 0;
   const NativePreface preface = first_fields(bytes.view().substr(at));
@@ -48,7 +48,7 @@ std::size_t sound_preface(ByteWindow& bytes, std::size_t at) {
   return sound ? size : 0;
 }
 
-/// Where the second copy begins when the first is damaged; 0 when there is no sound one.
+/// Returns the position of the second copy if the first is damaged; 0 when both are.
 std::size_t second_copy(ByteWindow& bytes) {
   bytes.fill(2 * (sizeof(NativePreface) + kLongestList + sizeof(std::uint64_t)));
   std::size_t at = 0;
@@ -93,7 +93,7 @@ void note_damaged_copy(Issues& issues) {
               "one of the two copies of the header is damaged; the other one was read"});
 }
 
-/// Goes past the second copy, damaged or not.
+/// Skips the second copy, damaged or not.
 void pass_copy(ByteWindow& bytes, const std::string& first, Issues& issues) {
   bytes.fill(first.size() + sizeof(NativeChunkHeader));
   if (bytes.view().substr(0, first.size()) == first) return bytes.advance(first.size());
@@ -149,7 +149,7 @@ class NativeReader : public RawReader {
       if (given_ == chunks_->rows() && !next_chunk()) break;
       const std::int64_t row = chunks_->first_row() + given_;
       if (block.rows == 0) block.first_row = row;
-      if (row != block.first_row + block.rows) break;  // rows of a block follow each other
+      if (row != block.first_row + block.rows) break;  // rows of a block are consecutive
       give(block, std::min<std::int64_t>(max_rows - block.rows, chunks_->rows() - given_));
     }
     for (std::size_t c = 0; c < columns_.size(); ++c)

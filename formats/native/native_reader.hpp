@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// Whether one of the two copies of the header begins in it.
+/// True when one of the two copies of the header begins in `head`.
 bool looks_like_native(std::string_view head);
 
-/// Opens a native log. Damaged chunks are left out and reported, a cut file is read to its last whole chunk.
-/// Throws Error(input) when the header, in both copies, is damaged or of a newer version.
+/// Opens a native log. Damaged chunks are omitted and reported, a cut file is read to its last whole chunk.
+/// Throws Error(input) when both copies of the header are damaged, or the version is newer.
 std::unique_ptr<RawReader> open_native(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline

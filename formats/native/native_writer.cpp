@@ -74,7 +74,7 @@ class NativeWriter : public LogWriter {
     put(preface);
   }
 
-  /// Room for so many more bytes in out_.
+  /// Makes room for so many more bytes in out_.
   void reserve(std::size_t bytes) {
     if (used_ >= kWrittenAtOnce) flush();
     if (used_ + bytes > out_.size()) out_.resize(used_ + bytes);
@@ -91,7 +91,7 @@ class NativeWriter : public LogWriter {
     used_ = 0;
   }
 
-  /// Where a number of the chunk that is being filled goes.
+  /// Returns the address of a number of the chunk that is being filled.
   char* place(std::size_t index) {
     return out_.data() + used_ + sizeof(NativeChunkHeader) + index * sizeof(double);
   }
@@ -102,7 +102,7 @@ class NativeWriter : public LogWriter {
   }
 
   void end_chunk() {
-    for (std::size_t c = 1; c < channels_ && rows_ < most_rows_; ++c)  // close ranks of a shorter last chunk
+    for (std::size_t c = 1; c < channels_ && rows_ < most_rows_; ++c)  // shorter last chunk: close the gaps
       std::memmove(place(c * rows_), place(c * most_rows_), rows_ * sizeof(double));
     const std::size_t bytes = channels_ * rows_ * sizeof(double);
     put_header({kChunkMarker, rows_, rows_written_, native_hash({place(0), bytes}), 0});
@@ -120,8 +120,8 @@ class NativeWriter : public LogWriter {
   std::string path_;
   AtomicFile file_;
   std::size_t channels_ = 0;
-  std::vector<char> out_;        ///< what is not written yet, and the chunk that is being filled
-  std::size_t used_ = 0;         ///< of it, where that chunk begins
+  std::vector<char> out_;        ///< unwritten bytes, and the chunk that is being filled
+  std::size_t used_ = 0;         ///< begin of that chunk in out_
   std::uint32_t most_rows_ = 0;  ///< of the chunk
   std::uint32_t rows_ = 0;       ///< in it; 0 when none is being filled
   std::uint64_t rows_written_ = 0;

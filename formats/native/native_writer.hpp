@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// The native binary format (.flog), see docs/formats-native.md: exact doubles, each chunk with its checksum.
+/// Creates the native binary format (.flog), see docs/formats-native.md: exact doubles, a checksum per chunk.
 std::unique_ptr<LogWriter> create_native(const std::string& path);
 
 }  // namespace faultline
