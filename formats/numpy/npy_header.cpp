@@ -31,13 +31,13 @@ constexpr std::size_t kHeaderMostDimensions = 32;
 constexpr std::int64_t kUnicodeBytes = 4;  ///< of a character
 constexpr int kLiteralDeepest = 16;
 
-/// A Python literal of dictionaries, lists, tuples, strings, whole numbers, True, False and None; tuples
-/// become lists.
+/// Parses a Python literal of dictionaries, lists, tuples, strings, whole numbers, True, False and None;
+/// tuples become lists.
 class PythonParser {
  public:
   explicit PythonParser(std::string_view text) : text_(text) {}
 
-  /// Nullopt when it is no such literal, or deeper than any header.
+  /// Returns nullopt for any other literal, or one nested deeper than any header.
   std::optional<NpyJson> run() {
     NpyJson value = read(0);
     return failed_ ? std::nullopt : std::optional(value);
@@ -130,7 +130,7 @@ class PythonParser {
   bool failed_ = false;
 };
 
-/// One type of numpy, such as "<f8"; no number when its elements are none that a log has.
+/// A type of numpy, such as "<f8"; `number` is empty for elements that no log has.
 struct NumpyType {
   std::optional<ElementType> number;
   std::int64_t bytes = 0;
@@ -176,7 +176,7 @@ std::optional<Shape> shape_of(const NpyJson& json) {
   return shape;
 }
 
-/// Bytes of so many items; nullopt beyond what any file has.
+/// Returns the bytes of so many items; nullopt for more than any file has.
 std::optional<std::int64_t> bytes_of(const Shape& shape, std::int64_t item) {
   std::int64_t bytes = std::max<std::int64_t>(item, 1);
   for (const std::int64_t size : shape) {
@@ -191,7 +191,7 @@ class RecordFields {
  public:
   explicit RecordFields(std::string prefix) : prefix_(std::move(prefix)) {}
 
-  /// Bytes of a record; nullopt when it cannot be read.
+  /// Returns the bytes of a record; nullopt when it cannot be read.
   std::optional<std::int64_t> read(const NpyJson& descr, const std::string& path) {
     for (const NpyJson& field : descr) {
       if (!field.is_array() || field.size() < 2) return std::nullopt;
@@ -211,7 +211,7 @@ class RecordFields {
     if (descr.is_array()) {
       const std::size_t before = arrays.size();
       if (!read(descr, name + ".")) return false;
-      if (!shape.empty()) arrays.resize(before);  // records in records
+      if (!shape.empty()) arrays.resize(before);  // arrays of records in records are omitted
       return advance(begin, shape, bytes_ - begin);
     }
     const auto type = descr.is_string() ? type_of(descr.get<std::string>()) : std::nullopt;
@@ -249,7 +249,7 @@ void tell(Issues& issues, const std::string& name, const std::string& what, Seve
   issues.add(make_issue("array_left_out", severity, label + " " + what, name));
 }
 
-/// Puts the records' own dimensions before those of the fields.
+/// Puts the dimensions of the array of records before those of the fields.
 void spread(std::vector<StoredArray>& fields, const Shape& shape, std::int64_t record, bool fortran_order) {
   const std::vector<std::int64_t> strides = packed_strides(shape, record, fortran_order);
   for (StoredArray& field : fields) {

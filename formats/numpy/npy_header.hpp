@@ -10,16 +10,16 @@
 
 namespace faultline {
 
-/// An .npy array, in a content of its own or of a .npz.
+/// An .npy array, in a content of its own or in an .npz.
 struct NpyArray {
-  std::vector<StoredArray> arrays;  ///< one, or one a field of a structured array
+  std::vector<StoredArray> arrays;  ///< one, or one per field of a structured array
   std::int64_t bytes = 0;           ///< of header and elements
 };
 
-/// What begins every .npy file.
+/// The first bytes of every .npy file.
 inline constexpr const char* kNpyMagic = "\x93NUMPY";
 
-/// Reads the header of the array that the stream holds. What is left out, and why, is told in `issues`;
+/// Reads the header of the array in the stream. Omitted parts and the reasons are reported in `issues`;
 /// nullopt when the header cannot be read.
 std::optional<NpyArray> read_npy_header(ContentStream& stream, const std::string& name, Issues& issues);
 

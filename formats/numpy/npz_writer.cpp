@@ -15,7 +15,7 @@ namespace faultline {
 namespace {
 
 constexpr std::uint16_t kVersion = 45;         ///< of zip: with numbers of 64 bits
-constexpr std::uint16_t kDate = (1 << 5) | 1;  ///< the first day that zip knows, in every file
+constexpr std::uint16_t kDate = (1 << 5) | 1;  ///< the first day that zip can store, in every file
 constexpr std::uint32_t kIn64 = 0xffffffff;
 constexpr std::size_t kHeaderStep = 64;  ///< npy headers end at a multiple of it
 
@@ -75,7 +75,7 @@ class NpzWriter : public LogWriter {
     write_bytes(values);
   }
 
-  /// Into the directory.
+  /// Adds the member to the directory.
   void list(const std::string& common, const std::string& name, std::uint64_t size) {
     directory_ += "PK\x01\x02";
     put(directory_, kVersion);

@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// An .npz file for numpy.load(), see docs/formats-numpy.md. The whole log is kept in memory until commit().
+/// Creates an .npz file for numpy.load(), see docs/formats-numpy.md. The log is in memory until commit().
 std::unique_ptr<LogWriter> create_npz(const std::string& path);
 
 }  // namespace faultline

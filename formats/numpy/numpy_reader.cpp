@@ -59,7 +59,7 @@ void add_member(const RandomFile& file, std::size_t content, StoredList& list) {
   }
 }
 
-/// The notes are there, but may be damaged: then they are no JSON.
+/// Returns the notes; a blank if they are empty, so that they count as damaged (no JSON).
 std::string read_text(const RandomFile& file, const StoredContent& member) {
   std::string text(std::min<std::size_t>(kLongestNotes, static_cast<std::size_t>(most_bytes(member))), '\0');
   ContentStream stream(file, member);
@@ -67,7 +67,7 @@ std::string read_text(const RandomFile& file, const StoredContent& member) {
   return text.empty() ? " " : text;
 }
 
-/// A ZIP archive without arrays of NumPy: what it is, and what to do.
+/// Returns what a ZIP archive without arrays of NumPy is, and what to do.
 std::string other_archive(const std::vector<StoredContent>& members) {
   const auto has = [&](std::string_view begin) {
     return std::any_of(members.begin(), members.end(),

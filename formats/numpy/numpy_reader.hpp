@@ -12,8 +12,8 @@ namespace faultline {
 bool looks_like_npy(std::string_view head);
 bool looks_like_npz(std::string_view head);
 
-/// Open an array file of numpy, see docs/formats-numpy.md. Throw Error(input) when it holds no array of
-/// numbers that can be read.
+/// Open an array file of numpy, see docs/formats-numpy.md. Throw Error(input) when it has no array of numbers
+/// that can be read.
 std::unique_ptr<RawReader> open_npy(std::unique_ptr<ByteSource> bytes);
 std::unique_ptr<RawReader> open_npz(std::unique_ptr<ByteSource> bytes);
 

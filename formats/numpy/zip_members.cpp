@@ -22,7 +22,7 @@ constexpr std::size_t kLocalBytes = 30, kCentralBytes = 46, kEndBytes = 22, kEnd
 constexpr std::size_t kLongestComment = 1 << 16;
 constexpr std::size_t kMostDirectory = 1 << 24;
 constexpr std::size_t kMostMembers = 1 << 14;
-constexpr std::uint32_t kMembersIn64 = 0xffffffff;  ///< the number stands in the extra field
+constexpr std::uint32_t kMembersIn64 = 0xffffffff;  ///< the number is in the extra field
 constexpr std::uint16_t kExtra64 = 1;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kEncrypted = 1, kSizesBehind = 8;  ///< flags
@@ -35,7 +35,7 @@ Number number_at(const std::string& bytes, std::size_t at) {
   return number;
 }
 
-/// What both headers of a member say.
+/// The content of both headers of a member.
 struct ZipMember {
   std::string name;
   std::uint16_t flags = 0, method = 0;
@@ -43,7 +43,7 @@ struct ZipMember {
   std::uint64_t packed = 0, unpacked = 0, local = 0;
 };
 
-/// Fields from `flags` on lie alike in both headers.
+/// Reads the fields from `flags` on, which have the same layout in both headers.
 void read_fields(const std::string& header, std::size_t at, ZipMember& member) {
   member.flags = number_at<std::uint16_t>(header, at);
   member.method = number_at<std::uint16_t>(header, at + 2);
@@ -52,7 +52,7 @@ void read_fields(const std::string& header, std::size_t at, ZipMember& member) {
   member.unpacked = number_at<std::uint32_t>(header, at + 16);
 }
 
-/// Numbers too large for the header.
+/// Reads numbers that are too large for the header.
 void read_extra(const std::string& extra, ZipMember& member) {
   for (std::size_t at = 0; at + 4 <= extra.size();) {
     const auto id = number_at<std::uint16_t>(extra, at), size = number_at<std::uint16_t>(extra, at + 2);
@@ -90,7 +90,7 @@ std::optional<Directory> find_directory(const RandomFile& file) {
   return std::nullopt;
 }
 
-/// Nullopt when the directory is damaged.
+/// Returns nullopt when the directory is damaged.
 std::optional<std::vector<ZipMember>> read_directory(const RandomFile& file) {
   const auto directory = find_directory(file);
   const auto size = static_cast<std::uint64_t>(file.size());
@@ -118,7 +118,7 @@ std::optional<std::vector<ZipMember>> read_directory(const RandomFile& file) {
   return members;
 }
 
-/// Bytes of the local header at `at`, 0 when there is none.
+/// Reads the local header at `at`; returns its bytes, 0 when there is none.
 std::size_t local_header(const RandomFile& file, std::uint64_t at, ZipMember& member) {
   if (at > static_cast<std::uint64_t>(file.size())) return 0;
   std::string header = file.text(static_cast<std::int64_t>(at), kLocalBytes);
@@ -181,7 +181,7 @@ class MemberList {
     contents_.push_back(content);
   }
 
-  /// By the local headers. A member that was being written has no size yet: it takes what is left.
+  /// Finds members by local headers. A member that was being written has no size yet: it takes the rest.
   void scan() {
     std::uint64_t at = 0;
     while (contents_.size() < kMostMembers) {

@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// The members of a .zip file, by its directory, or from its front on when that is damaged or missing, which
-/// is told. Members that cannot be read are left out and told.
+/// Returns the members of a .zip file according to its directory. If that is damaged or missing, searches
+/// from the front, with an issue. Members that cannot be read are omitted and reported.
 std::vector<StoredContent> zip_members(const RandomFile& file, Issues& issues);
 
 }  // namespace faultline
