@@ -91,7 +91,7 @@ class ContinuedReader : public RawReader {
     return places;
   }
 
-  /// What turns the numbers of its columns into the first file's units.
+  /// Returns the factors from the units of the file to those of the first file.
   std::vector<double> factors_in(const RawReader& file, const std::vector<int>& places) const {
     std::vector<double> factors(places.size(), 1.0);
     for (std::size_t c = 0; c < places.size(); ++c) {

@@ -26,10 +26,10 @@ namespace faultline {
 namespace {
 
 constexpr int kPartnerRowsAtOnce = 4096;
-/// Rows further apart than so many usual steps are not interpolated between.
+/// Largest distance of rows, as a multiple of the usual step, across which values are interpolated.
 constexpr double kWidestGap = 5.0;
 
-/// Where a file has its time.
+/// The time columns of a file.
 struct RawTime {
   int column = -1;
   int nanoseconds = -1;  ///< second column of a time in seconds and nanoseconds; -1 for none
@@ -43,7 +43,7 @@ double RawTime::at(const RawBlock& block, int row) const {
   return nanoseconds < 0 ? seconds : seconds + 1e-9 * block.columns[nanoseconds][row];
 }
 
-/// The time column that the file states, else the one that a column's name suggests; nullopt for none.
+/// Returns the time column that the file declares, else one with a suitable name; nullopt for none.
 std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
   std::vector<std::string> names;
   for (int i = 0; i < std::ssize(columns); ++i) {
@@ -56,11 +56,11 @@ std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
   return std::nullopt;
 }
 
-/// A file that is joined to another: gives the values that belong to the rows of that one, asked for in
+/// A file that is joined to another: supplies values for the rows of that file, which must be requested in
 /// order.
 class Partner {
  public:
-  /// By time when `time` says where the file has it, else by row.
+  /// Joins by time if `time` is given, else by row.
   Partner(std::unique_ptr<RawReader> reader, std::optional<RawTime> time);
 
   const RawReader& reader() const { return *reader_; }
@@ -68,10 +68,10 @@ class Partner {
   /// Writes the values of the file's columns into values[column][row], for a row of the other file with this
   /// number and time.
   void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values);
-  /// After the last give(): rows that were never asked for.
+  /// Counts the rows that were never requested; call it after the last give().
   void read_rest();
   void rewind();
-  /// What the file itself has to tell, and how well its rows fitted.
+  /// Returns the issues of the file and of the match of its rows.
   Issues issues() const;
 
  private:
@@ -92,9 +92,9 @@ class Partner {
   RawBlock block_;
   int at_ = -1;  ///< row of the block
   bool ended_ = false;
-  Sample before_, behind_;  ///< of the time that was asked for last
+  Sample before_, behind_;  ///< around the last requested time
   bool has_before_ = false, has_behind_ = false;
-  double step_s_ = 0.0;  ///< between the two rows before
+  double step_s_ = 0.0;  ///< from the row before before_ to before_
   std::int64_t without_ = 0, between_ = 0, asked_ = 0, passed_ = 0;
 };
 
@@ -145,7 +145,7 @@ void Partner::read_rest() {
   while (next_row()) ++passed_;
 }
 
-/// The next row whose time is behind that of the last one; others cannot be found by time.
+/// Moves to the next row with a later time than the last one; other rows cannot be found by time.
 bool Partner::advance() {
   if (has_behind_) {
     if (has_before_) step_s_ = behind_.time_s - before_.time_s;
@@ -199,7 +199,7 @@ Issues Partner::issues() const {
   return issues;
 }
 
-/// One hash for several files, once all are known.
+/// Returns one hash for several files; empty until all are known.
 std::string hash_of_hashes(const std::vector<std::string>& hashes) {
   Sha256 all;
   for (const std::string& hash : hashes) {
@@ -300,7 +300,7 @@ class JoinedReader : public RawReader {
       joined.partner.give(block.first_row + row, time_ ? time_->at(block, row) : 0.0, row, values);
   }
 
-  /// Rows that a partner lost are values that are missing here.
+  /// Converts dropped rows of a partner, which are only missing values here.
   static Issue without_drops(Issue issue) {
     issue.rows_dropped = 0;
     return issue;
@@ -320,7 +320,7 @@ class JoinedReader : public RawReader {
 
   std::unique_ptr<RawReader> first_;
   std::vector<RawColumn> columns_;
-  std::optional<RawTime> time_;  ///< of the first file, where some file is joined by it
+  std::optional<RawTime> time_;  ///< of the first file, if some file is joined by time
   std::vector<Joined> joined_;
   std::vector<bool> wanted_;
   LogIdentity identity_;
