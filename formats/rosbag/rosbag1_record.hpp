@@ -18,16 +18,16 @@ enum class Rosbag1Op : unsigned char {
 
 inline constexpr std::string_view kRosbag1Magic = "#ROSBAG V2.0\n";
 
-/// The fields of a header of name=value pairs, each behind its length. Fields that are not there are empty.
+/// The fields of a header of name=value pairs, each after its length. Missing fields are empty.
 class Rosbag1Fields {
  public:
   explicit Rosbag1Fields(std::string_view header) : header_(header) {}
   std::string_view text(std::string_view name) const;
-  /// Little-endian; 0 when it is not there or of another size.
+  /// Returns a little-endian number; 0 when it is missing or of another size.
   std::uint32_t word(std::string_view name) const;
-  /// Of a time in seconds and nanoseconds, in ns.
+  /// Converts a time in seconds and nanoseconds to ns.
   std::int64_t time(std::string_view name) const;
-  /// Whether it has an operation code; which one.
+  /// True when it has an operation code; the code.
   bool has_op() const { return text("op").size() == 1; }
   Rosbag1Op op() const { return static_cast<Rosbag1Op>(text("op")[0]); }
 
@@ -35,19 +35,20 @@ class Rosbag1Fields {
   std::string_view header_;
 };
 
-/// A record at the front of `bytes`: a header and its data, each behind its length.
+/// A record at the front of `bytes`: a header and its data, each after its length.
 struct Rosbag1Record {
   Rosbag1Fields fields{""};
   std::string_view data;
-  std::size_t size = 0;  ///< of the whole record; 0 when it is not whole
+  std::size_t size = 0;  ///< of the whole record; 0 when it is incomplete
 };
 Rosbag1Record rosbag1_record(std::string_view bytes);
 
-/// Bytes that the record at the front of `bytes` takes, as far as its lengths are in view; 0 while the length
-/// of its data is not.
+/// Returns the bytes of the record at the front of `bytes`, which need not be all in view; 0 when the length
+/// of its data is not in view.
 std::uint64_t rosbag1_record_size(std::string_view bytes);
 
-/// Where a record of at most `left` bytes begins in whose header the operation stands at `at`; npos for none.
+/// Returns the position of a record of at most `left` bytes whose header has the operation at `at`; npos for
+/// none.
 std::size_t rosbag1_record_before(std::string_view bytes, std::size_t at, std::uint64_t left);
 
 }  // namespace faultline

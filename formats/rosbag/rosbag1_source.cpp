@@ -20,7 +20,7 @@
 namespace faultline {
 namespace {
 
-/// Of a record's header; its fields are few and short.
+/// Largest header of a record in bytes; its fields are few and short.
 constexpr std::uint32_t kSourceLongestHeader = 1 << 20;
 constexpr std::size_t kSourceSearchedAtOnce = 1 << 16;
 constexpr std::size_t kLeastRecord = 8;  ///< two lengths
@@ -83,7 +83,7 @@ class Rosbag1Source : public MessageSource {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes_->file_size() - window_.position()));
   }
 
-  /// Bytes of the record at the front of the view; 0 for one that cannot be.
+  /// Returns the bytes of the record at the front of the view; 0 for an invalid one.
   std::uint64_t likely_size() {
     if (!window_.fill(sizeof(std::uint32_t))) return 0;
     const auto header = ByteCursor(window_.view()).take<std::uint32_t>();
@@ -92,7 +92,7 @@ class Rosbag1Source : public MessageSource {
     return rosbag1_record_size(window_.view());
   }
 
-  /// Takes the next record; `given_` when it is a message. False at the end.
+  /// Takes the next record; `given_` is true when it is a message. False at the end.
   bool next_record(Message& message) {
     window_.skip(record_size_);
     record_size_ = 0;
@@ -108,7 +108,7 @@ class Rosbag1Source : public MessageSource {
     if (size == 0 || size > kLargestBlock) return find_record();
     const bool whole = size <= left() && window_.fill(size);
     if (!whole && !is_chunk()) {
-      // Either its length is wrong, then others follow, or the file is cut in it.
+      // Either its length is wrong and other records follow, or the file is cut in it.
       return find_record();
     }
     record_size_ = std::min<std::uint64_t>(size, window_.view().size());
@@ -116,8 +116,7 @@ class Rosbag1Source : public MessageSource {
     return true;
   }
 
-  /// A bag begins with a mark, and so does another one that was appended, whose connections have numbers of
-  /// their own.
+  /// Skips the mark at which a bag begins. One appended to another has connection numbers of its own.
   void pass_mark() {
     if (!window_.fill(kRosbag1Magic.size()) || !window_.view().starts_with(kRosbag1Magic)) return;
     if (recordings_ > 0)
@@ -138,7 +137,7 @@ class Rosbag1Source : public MessageSource {
     return Rosbag1Fields(header).op() == Rosbag1Op::chunk;
   }
 
-  /// Goes on behind damaged bytes: at the next thing that looks like a record.
+  /// Moves past damaged bytes to the next plausible record.
   bool find_record() {
     const std::int64_t begin = window_.position();
     bool found = false;
@@ -155,7 +154,7 @@ class Rosbag1Source : public MessageSource {
         break;
       }
       constexpr std::size_t kBefore = 2 * sizeof(std::uint32_t);
-      // Headers that this program looks for begin with their operation or have it soon.
+      // In the headers that this program needs, the operation is at or near the front.
       if (at == std::string_view::npos) {
         window_.advance(view.size() > kSourceSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
         continue;
@@ -253,7 +252,7 @@ class Rosbag1Source : public MessageSource {
            read_message(record.fields, record.data, chunk_doubtful_, message);
   }
 
-  /// The index behind a damaged chunk tells how many messages it had.
+  /// Counts the messages of a damaged chunk from the index after it.
   void count_lost(const Rosbag1Fields& fields) {
     const auto topic = topic_of().find(fields.word("conn"));
     if (topic == topic_of().end()) return;
@@ -275,9 +274,9 @@ class Rosbag1Source : public MessageSource {
   std::size_t recordings_ = 0;                           ///< that have begun
   std::vector<std::map<std::uint32_t, int>> topics_of_;  ///< by recording, of each connection
   Issues issues_;
-  std::uint64_t record_size_ = 0;  ///< of the present record; passed at the next one
-  BlockBytes unpacked_;            ///< the open chunk, where it was compressed
-  std::string_view inside_;        ///< what is left of the open chunk
+  std::uint64_t record_size_ = 0;  ///< of the present record; skipped at the next one
+  BlockBytes unpacked_;            ///< the open chunk, if it was compressed
+  std::string_view inside_;        ///< rest of the open chunk
   bool chunk_doubtful_ = false;    ///< its bytes may be wrong
   LostMessages lost_;
   bool given_ = false, at_end_ = false;

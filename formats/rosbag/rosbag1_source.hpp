@@ -11,7 +11,7 @@ namespace faultline {
 
 bool looks_like_rosbag1(std::string_view head);
 
-/// The joint states of a ROS 1 bag, version 2.0, read from front to back.
+/// Opens the joint states of a ROS 1 bag, version 2.0, read from front to back.
 std::unique_ptr<RawReader> open_rosbag1(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline

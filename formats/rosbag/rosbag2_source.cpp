@@ -27,8 +27,8 @@ namespace {
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 constexpr int kLongestMessage = 1 << 26;
 constexpr int kMostCacheKib = 16 << 10;
-/// Steps of SQLite's machine between two counts of the work, and the usual time for one; a message takes some
-/// ten.
+/// Steps of SQLite's virtual machine between two counts of the work, and the usual time for one; a message
+/// takes about ten.
 constexpr int kCountedSteps = 1000;
 constexpr std::int64_t kStep_ns = 20;
 constexpr std::int64_t kMessageByte_ns = 1;
@@ -48,7 +48,7 @@ std::string text_of(sqlite3_stmt* statement, int column) {
   return text ? std::string(text, sqlite3_column_bytes(statement, column)) : std::string();
 }
 
-/// Only tables are read, and nothing is computed but the largest number of a message.
+/// Allows only to read tables, and no function but max().
 int allow(void*, int action, const char*, const char* detail, const char*, const char*) {
   switch (action) {
     case SQLITE_SELECT:
@@ -61,14 +61,14 @@ int allow(void*, int action, const char*, const char* detail, const char*, const
   }
 }
 
-/// Bytes of a file, 0 when it is not there.
+/// Returns the bytes of a file, 0 when it does not exist.
 std::int64_t bytes_of(const std::string& path) {
   std::error_code none;
   const auto bytes = std::filesystem::file_size(path, none);
   return none ? 0 : static_cast<std::int64_t>(bytes);
 }
 
-/// The file as it stands, without locks; what a recorder left in a log beside it counts.
+/// Opens the file without locks; a write-ahead log of the recorder beside it is included.
 std::string uri_of(const std::string& path) {
   std::string uri = "file:";
   for (const char c : path)
@@ -79,7 +79,7 @@ std::string uri_of(const std::string& path) {
 }
 
 /// The tables of a rosbag2 recording in SQLite: topics, and messages in the order of their numbers. Pages
-/// that are damaged or missing are passed over. The file is not changed and nothing in it is trusted to run.
+/// that are damaged or missing are skipped. The file is not changed and no code in it is run.
 class MessageTable {
  public:
   /// Throws Error(input) when the file is no such recording.
@@ -89,12 +89,12 @@ class MessageTable {
   MessageTable& operator=(const MessageTable&) = delete;
 
   const std::vector<Topic>& topics() const { return topics_.all(); }
-  /// The next message; its bytes are valid until the next call. False after the last one.
+  /// Takes the next message; its bytes are valid until the next call. False after the last one.
   bool next(Message& message, Issues& issues);
   void rewind();
   /// Counts work on the messages, see WorkBudget.
   void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_bytes_); }
-  /// Of the numbers of all messages, 0 to 1.
+  /// Share of the numbers of all messages, 0 to 1.
   double share_read() const;
 
  private:
@@ -115,7 +115,7 @@ class MessageTable {
   TopicList topics_;
   std::map<std::int64_t, int> topic_of_id_;
   std::int64_t number_ = 0;       ///< of the last message handed out
-  std::int64_t last_number_ = 0;  ///< of the file's last message, as far as it can be told
+  std::int64_t last_number_ = 0;  ///< of the file's last message, if it can be read
   bool at_row_ = false;           ///< a row was read by seek() and not handed out
   bool at_end_ = false;
   std::int64_t file_bytes_ = 0;
@@ -153,11 +153,11 @@ void MessageTable::open(const std::string& path) {
        {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
     sqlite3_db_config(db_, off, 0, nullptr);
   sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
-  // Nothing is written; it lets SQLite read a file that is shorter than its head says.
+  // Nothing is written; the setting lets SQLite read a file that is shorter than its head states.
   sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
 }
 
-/// What SQLite is asked for ends when it takes far more steps than a file of this size has use for.
+/// Stops SQLite when it takes far more steps than a file of this size needs.
 void MessageTable::bound_work() {
   sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
                nullptr, nullptr, nullptr);
@@ -181,7 +181,8 @@ void MessageTable::refuse_work() const {
       "rosbag2 has plain tables of topics and messages. Export it as CSV");
 }
 
-/// A view, a virtual table or a column that is computed could make any amount of work of a small file.
+/// Rejects views, virtual tables and computed columns, as they could cause any amount of work from a small
+/// file.
 void MessageTable::refuse_computed(const char* table) {
   const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
   if (!kind) return;
@@ -237,7 +238,7 @@ void MessageTable::rewind() {
   sqlite3_reset(messages_);
 }
 
-/// Goes to the first message from `number` on; whether there is one that can be read.
+/// Moves to the first message from `number` on; false when none can be read.
 bool MessageTable::seek(std::int64_t number) {
   sqlite3_finalize(messages_);
   messages_ = nullptr;
@@ -246,7 +247,7 @@ bool MessageTable::seek(std::int64_t number) {
   return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
 }
 
-/// Steps over messages that cannot be read: ever further, then back to the first one that can be.
+/// Skips messages that cannot be read, with growing steps, then bisects to the first one that can be read.
 bool MessageTable::pass_damage(Issues& issues) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
   const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
@@ -255,7 +256,7 @@ bool MessageTable::pass_damage(Issues& issues) {
   const bool found = at_row_;
   if (over_budget_) refuse_work();
   if (found) {
-    std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at the one, not at the other
+    std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at dark, not at light
     while (light - dark > 1) {
       const std::int64_t middle = dark + (light - dark) / 2;
       (seek(middle) ? light : dark) = middle;
@@ -314,7 +315,7 @@ std::int64_t big_endian(std::string_view bytes) {
   return number;
 }
 
-/// Bytes that a database takes by its head; 0 where the head does not say.
+/// Returns the bytes of a database according to its head; 0 if the head is not valid.
 std::int64_t sqlite_bytes(std::string_view head) {
   constexpr std::size_t kHeadBytes = 100;
   if (head.size() < kHeadBytes || head.substr(24, 4) != head.substr(92, 4))
@@ -350,7 +351,7 @@ class Rosbag2Source : public MessageSource {
   }
 
  private:
-  /// SQLite reads as many pages as the head says; behind them another recording may follow.
+  /// Reports a recording after the pages of the first one, of which SQLite reads as many as the head states.
   void tell_appended() {
     const std::int64_t end = sqlite_bytes(bytes_->head());
     if (end == 0 || end >= bytes_->file_size() || issues_.find("recordings_joined")) return;

@@ -11,7 +11,7 @@ namespace faultline {
 
 bool looks_like_rosbag2(std::string_view head);
 
-/// The joint states of a rosbag2 recording in SQLite, by their numbers.
+/// Opens the joint states of a rosbag2 recording in SQLite by number; Error(input) for a compressed file.
 std::unique_ptr<RawReader> open_rosbag2(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline
