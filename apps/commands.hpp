@@ -11,14 +11,14 @@ class App;
 
 namespace faultline {
 
-/// What the command line asked for. `run` is set by the subcommand that was named and returns the exit
-/// status; it runs after parsing, so that a usage error is found before any work.
+/// The request of the command line. `run` is set by the named subcommand and returns the exit status; it runs
+/// after parsing, so that a usage error is found before any work.
 struct Program {
   ColorChoice color = ColorChoice::automatic;
   std::function<int()> run;
 };
 
-// One function a subcommand, each in its own file: adds the subcommand, its options, help and example.
+// One function per subcommand, each in its own file: adds the subcommand, its options, help and example.
 void add_inspect(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
 void add_cases(CLI::App& app, Program& program);

@@ -19,27 +19,27 @@ namespace faultline {
 
 CLI::Option* add_model_option(CLI::App& command, ModelPaths& paths,
                               const std::string& what = "Model made by faultline learn");
-/// `what` begins the help; that MODEL.cases.db is the default ends it.
+/// The help is `what` and that MODEL.cases.db is the default.
 CLI::Option* add_cases_option(CLI::App& command, ModelPaths& paths, const std::string& what = "Case base");
 
-/// A file to be written, or - for standard output.
+/// Adds an output file, or - for standard output.
 CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::string& path,
                              const std::string& what, const std::string& where = "; - for standard output");
 
 inline constexpr int kMostThreads = 1024;
 
-/// --threads of work whose result does not depend on it.
+/// Adds --threads for work whose result does not depend on it.
 CLI::Option* add_threads_option(CLI::App& command, int& threads);
 
-/// --classify, --criterion and --g; `help` stands in place of what they say of themselves.
+/// Adds --classify, --criterion and --g; `help` replaces their own help.
 void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std::string& help = "");
 
-/// An option that takes one of `names` and calls `take` with its place among them.
+/// Adds an option that takes one of `names` and calls `take` with its index.
 CLI::Option* add_choice_option(CLI::App& command, const std::string& flag,
                                const std::vector<std::string>& names,
                                const std::function<void(std::size_t)>& take, const std::string& help);
 
-/// An option that takes one of `all` by its name.
+/// Adds an option that takes one of `all` by its name.
 template <typename Enum, std::size_t kCount>
 CLI::Option* add_choice_option(CLI::App& command, const std::string& flag, Enum& value,
                                const std::array<Enum, kCount>& all, const std::string& help) {

@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// A progress bar on standard error while the object lives, only when that is a terminal; elsewhere nothing.
-/// Give `callback()` to the long work. The bar appears after `delay_s`, so that short work shows none.
+/// A progress bar on standard error while the object lives, if that is a terminal; else nothing. Give
+/// `callback()` to the long work. The bar appears after `delay_s`, so that short work shows none.
 class ProgressBar {
  public:
   explicit ProgressBar(ColorChoice color, double delay_s = 0.3);

@@ -9,34 +9,34 @@
 #include "apps/work/model_paths.hpp"
 #include "lib/cases/case_base.hpp"
 
-/// The actions of faultline cases without what they print.
+/// The actions of faultline cases without their output.
 namespace faultline {
 
-/// What the actions of faultline cases are asked for.
+/// Arguments of the actions of faultline cases.
 struct CasesArguments : ModelPaths {
   std::int64_t id = 0;
   std::string fault, outcome, origin, done, by, date, robot, diagnosis, file = "-";
-  std::string diagnosis_text;  ///< a diagnosis as JSON in place of the file of that name
+  std::string diagnosis_text;  ///< a diagnosis as JSON instead of the file `diagnosis`
   int joint = 0, fault_id = 1;
   bool replace = false, merge = false, confirmed = false;
 
-  /// Of the case base. Throws Error(usage) unless either it or its model was named.
+  /// Path of the case base. Throws Error(usage) unless either it or its model was given.
   std::string path() const;
-  /// Throws Error(usage) for a joint without a fault, and for a fault that the robot of the base cannot have.
+  /// Throws Error(usage) for a joint without a fault, and for a fault that the base's robot cannot have.
   std::optional<FaultLabel> label(const CaseBase& base) const;
 };
 
-/// What an action did, for programs and for people.
+/// The result of an action, for programs and for people.
 struct CasesAnswer {
-  nlohmann::ordered_json json;  ///< null where there is nothing to tell
+  nlohmann::ordered_json json;  ///< null for an action without a result
   std::string text;
-  std::string note{};  ///< what the user would not expect; empty: nothing
+  std::string note{};  ///< an unexpected effect to report to the user; may be empty
 };
 
-/// A case as an answer; `before` begins its line.
+/// Returns a case as an answer; its line begins with `before`.
 CasesAnswer answer_with(const CaseBase& base, const Case& c, const std::string& before = "");
 
-// One function an action.
+// One function per action.
 CasesAnswer list_cases(const CasesArguments& arguments);
 CasesAnswer show_case(const CasesArguments& arguments);
 CasesAnswer add_case(const CasesArguments& arguments);

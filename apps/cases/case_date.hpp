@@ -5,8 +5,8 @@
 
 namespace faultline {
 
-/// The date, or where it is empty that of today: of SOURCE_DATE_EPOCH (UTC) where that is set, else by the
-/// clock of this machine. Throws Error(usage) for what is no date of the form YYYY-MM-DD.
+/// Returns the date or, if it is empty, today's: from SOURCE_DATE_EPOCH (UTC) if that is set, else from the
+/// clock of this machine. Throws Error(usage) for a date not of the form YYYY-MM-DD or an invalid epoch.
 std::string date_or_today(const std::string& date);
 
 }  // namespace faultline

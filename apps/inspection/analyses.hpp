@@ -12,14 +12,14 @@ enum class AnalysisFit { impossible, limited, possible };
 
 const char* to_string(AnalysisFit fit);
 
-/// Whether a log is good for something, why not, and what would make it so.
+/// Whether an analysis of a log is possible, why not, and how to make it possible.
 struct PossibleAnalysis {
   std::string name;  ///< "identify", "learn", "torque_residuals", "tracking", "motion"
-  std::string what;  ///< to a reader
+  std::string what;  ///< description for the user
   AnalysisFit fit = AnalysisFit::impossible;
-  std::vector<std::string> channels;  ///< that it takes
-  std::string why;                    ///< empty when possible without reserve
-  std::string help;                   ///< what would make more possible; empty for nothing
+  std::vector<std::string> channels;  ///< channels that the analysis uses
+  std::string why;                    ///< empty when possible without reservation
+  std::string help;                   ///< what would make more possible; may be empty
 };
 
 std::vector<PossibleAnalysis> possible_analyses(const Inspection& inspection);

@@ -20,18 +20,18 @@
 
 namespace faultline {
 
-/// A channel as it was found, and the column it comes from (empty: none).
+/// A channel of the log, and the column that it comes from (empty: none).
 struct InspectedChannel {
   ChannelSummary summary;
   std::string column;
   std::string unit;
 };
 
-/// What a log holds, what is wrong with it, and what a diagnosis would miss.
+/// The content of a log, its defects, and the channels that a diagnosis would miss.
 struct Inspection {
   LogIdentity log;
   bool joint_log =
-      false;  ///< false: no time or no position was found; `why_not` says which and how to name it
+      false;  ///< false: no time or no position was found; `why_not` gives the reason and how to name it
   std::string why_not;
   int joints = 0;
   std::int64_t rows_used = 0;
@@ -39,34 +39,34 @@ struct Inspection {
   CheckupResult checkup;
   LogOverview overview;  ///< for pictures
   std::vector<InspectedChannel> channels;
-  std::vector<std::string> lacking;  ///< what a diagnosis would have to do without
+  std::vector<std::string> lacking;  ///< channels missing for a diagnosis
   std::vector<PossibleAnalysis> analyses;
-  Issues issues;  ///< of reading, cleaning, quality and the closer look together
+  Issues issues;  ///< of reading, cleaning, quality and checkup together
 
   bool severe() const;
-  /// Rows used of rows read, and of the rows that the span of time has at this sample period; 0 to 1, NaN
-  /// while unknown.
+  /// Rows used as a share of the rows read, and of the rows that the time span has at this sample period; 0
+  /// to 1, NaN while unknown.
   double share_used() const;
   double completeness() const;
 };
 
-/// "sound", "doubtful" (a warning), "damaged" (something severe) or "no_joint_log".
+/// Returns "sound", "doubtful" (a warning), "damaged" (a severe issue) or "no_joint_log".
 const char* verdict_of(const Inspection& inspection);
-/// The verdict on the recording in a sentence, which leaves the robot to `faultline diagnose`.
+/// Returns the verdict on the recording as a sentence; `faultline diagnose` judges the robot.
 std::string verdict_sentence_of(const Inspection& inspection);
 
-/// Throws Error(input) when nothing can be read from the file.
+/// Inspects a log. Throws Error(input) when nothing can be read from the file.
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,
                        const LogSelection& parts = {});
 
-/// The same of columns that are open already; what they mean says the robot, `run` counts where the clock
-/// restarts.
+/// Does the same for columns that are open already. The robot gives their meaning; `run` counts the restarts
+/// of the clock.
 Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optional<Robot>& robot,
                            const Progress& progress, int run = kEveryRun);
 
 std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);
-/// Of several logs, schema "faultline/inspection/1".
+/// Returns several logs as JSON, schema "faultline/inspection/1".
 std::string inspections_json(const std::vector<Inspection>& inspections);
 
 }  // namespace faultline

@@ -8,11 +8,11 @@
 
 namespace faultline {
 
-/// One self-contained page without scripts: the verdicts, what was found, and pictures of all channels.
+/// Returns one self-contained page without scripts: the verdicts, the issues, and pictures of all channels.
 std::string inspection_page(const std::vector<Inspection>& inspections);
 
-/// Pictures of the channels, gaps and stretches that stood still shaded; empty without rows. `prefix` makes
-/// the names inside them this log's own.
+/// Returns pictures of the channels with gaps and stuck stretches shaded; empty without rows. `prefix` makes
+/// the names inside them unique to this log.
 std::string inspection_figures(const Inspection& inspection, const std::string& prefix);
 
 }  // namespace faultline

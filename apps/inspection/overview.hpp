@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// One channel of an overview: least and largest value of each stretch of rows; NaN for none.
+/// One channel of an overview: least and largest value of each stretch of rows; NaN if it has none.
 struct OverviewChannel {
   std::string name;
   std::string unit;  ///< of an extra channel
@@ -19,12 +19,12 @@ struct OverviewChannel {
 
 /// A log of any length in at most 1024 stretches of equally many rows: enough for a picture.
 struct LogOverview {
-  std::vector<double> from_s, to_s;  ///< first and last time of each stretch
+  std::vector<double> from_s, to_s;  ///< first and last time of each stretch, s
   std::vector<OverviewChannel> channels;
   std::size_t channels_left_out = 0;
 };
 
-/// Makes an overview while a log goes by; the result does not depend on the segments.
+/// Makes an overview from the segments of a log; the result does not depend on how it is divided.
 class OverviewPass {
  public:
   void add(const Log& segment);

@@ -11,11 +11,11 @@
 
 namespace faultline {
 
-/// The time between two rows of a log without a clock, from how far the positions of its joints change from
-/// row to row for their velocities.
+/// Estimates the time between two rows of a log without a clock from the changes of position per row,
+/// compared with the velocities.
 class RowClock {
  public:
-  /// Of a table that is no joint log with `columns` for want of a time; of any other, nothing is estimated.
+  /// Uses a table that `columns` map to a joint log except for the time; any other table gives no estimate.
   RowClock(const std::vector<RawColumn>& table, ColumnMap columns, const std::string& path);
   void add(const RawBlock& block);
 
@@ -23,7 +23,7 @@ class RowClock {
     double period_s = 0.0;
     double std_s = 0.0;
   };
-  /// Nullopt unless the joints that move agree.
+  /// Returns nullopt unless the moving joints agree.
   std::optional<Estimate> estimate() const;
 
  private:

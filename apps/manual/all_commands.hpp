@@ -8,17 +8,17 @@
 
 namespace faultline {
 
-/// The command and all below it, each before those below it.
+/// Returns the command and all below it, each before those below it.
 std::vector<const CommandDescription*> all_commands(const CommandDescription& command);
 
-/// Those below the program that stay in effect for the words behind them: `help` does not, whose words name
-/// another command.
+/// Returns the commands below the program that determine the meaning of the words after them; not `help`,
+/// whose words name another command.
 std::vector<const CommandDescription*> commands_with_words(const CommandDescription& program);
 
-/// What the argument of a command may be, where there are few.
+/// Returns the possible arguments of a command, if they are few words.
 std::vector<std::string> argument_choices(const CommandDescription& command);
 
-/// The options of a command with what every command knows: those of `program`.
+/// Returns the options of a command and those of `program` that take a value, which every command accepts.
 std::vector<ArgumentDescription> options_known_to(const CommandDescription& command,
                                                   const CommandDescription& program);
 

@@ -10,22 +10,22 @@ class App;
 
 namespace faultline {
 
-/// An option or a positional argument of a command, as its help tells it.
+/// An option or a positional argument of a command, as shown in its help.
 struct ArgumentDescription {
   std::vector<std::string> flags{};    ///< "-o", "--output"; empty for a positional argument
-  std::string value{};                 ///< what it takes, such as "LOG" or "N"; empty for a switch
-  std::vector<std::string> choices{};  ///< the only values, where they are few words
-  std::string preset{};                ///< its value when it is not given; may be empty
+  std::string value{};                 ///< its value, such as "LOG" or "N"; empty for a switch
+  std::vector<std::string> choices{};  ///< the only values, if they are few words
+  std::string preset{};                ///< default value; may be empty
   std::string help{};
   bool required = false;
   bool repeated = false;  ///< takes any number of values
 };
 
-/// A command and those below it: what help, man pages and completions are made from.
+/// A command and those below it; the source of help, man pages and completions.
 struct CommandDescription {
   std::string name{};    ///< as it is typed: "faultline golden check"
-  std::string about{};   ///< what it does, in a line
-  std::string footer{};  ///< notes, exit status, example; a paragraph a line
+  std::string about{};   ///< its purpose, in a line
+  std::string footer{};  ///< notes, exit status, example; a paragraph per line
   std::vector<ArgumentDescription> positionals{};
   std::vector<ArgumentDescription> options{};
   std::vector<CommandDescription> commands{};
@@ -35,8 +35,8 @@ struct CommandDescription {
   std::string own_name() const;
 };
 
-/// `prefix` are the words before the command's own name, each followed by a blank. Hidden options and
-/// commands (those of an empty group) are left out.
+/// Describes a command; `prefix` has the words before its own name, each followed by a blank. Hidden options
+/// and commands (those of an empty group) are omitted.
 CommandDescription describe_command(const CLI::App& command, const std::string& prefix = "");
 
 }  // namespace faultline

@@ -7,13 +7,13 @@
 
 namespace faultline {
 
-/// "faultline convert [OPTIONS] LOG OUT".
+/// Returns "faultline convert [OPTIONS] LOG OUT".
 std::string usage_of(const CommandDescription& command);
 
-/// "-o,--output DIR", "--threads N=0", "--color {auto,always,never}".
+/// Returns "-o,--output DIR", "--threads N=0", "--color {auto,always,never}".
 std::string title_of(const ArgumentDescription& argument);
 
-/// What --help prints, for terminals of 100 columns.
+/// Returns the text of --help, for terminals of 100 columns.
 std::string help_text(const CommandDescription& command);
 
 }  // namespace faultline

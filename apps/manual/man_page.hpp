@@ -13,8 +13,8 @@ struct ManPage {
   std::string text;  ///< roff with the man macros
 };
 
-/// A page for the command and each one below it, in section 1. The pages bear the program's version and no
-/// date: the same program gives the same bytes.
+/// Returns a page for the command and each one below it, in section 1. The pages have the program's version
+/// and no date, so that the same program gives the same bytes.
 std::vector<ManPage> man_pages(const CommandDescription& command);
 
 }  // namespace faultline

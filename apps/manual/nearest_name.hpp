@@ -6,8 +6,8 @@
 
 namespace faultline {
 
-/// The name that `typed` was most likely meant to be: the one that the fewest letters changed, added, left
-/// out or exchanged with their neighbour lead to, or that it begins. Empty when none is near.
+/// Returns the name that `typed` probably means: the one with the fewest letters changed, added, left out or
+/// swapped with their neighbour, or that begins with `typed`. Empty when no name is near.
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names);
 
 }  // namespace faultline

@@ -8,12 +8,11 @@
 
 namespace faultline {
 
-/// What to say of the first word of a command line that is no command where one is wanted, or of the first
-/// option that its command does not have, with the nearest that there is. Empty when all are known.
+/// Returns the message for the first unknown command of a command line that needs one, or the first option
+/// that its command lacks, with the nearest known one. Empty when all are known.
 std::string about_unknown_word(const CommandDescription& program, const std::vector<std::string>& words);
 
-/// What to say where a command was given more words than it takes; empty for a command that says nothing of
-/// its own.
+/// Returns the message for a command with more words than it takes; empty if it has no message of its own.
 std::string about_further_word(const CommandDescription& command);
 
 }  // namespace faultline

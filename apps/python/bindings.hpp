@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-// One function a concept, each in its own file: puts its types and functions into the module.
+// One function per concept, each in its own file: adds its types and functions to the module.
 void bind_errors(pybind11::module_& module);
 void bind_log(pybind11::module_& module);
 void bind_model(pybind11::module_& module);

@@ -11,17 +11,17 @@
 
 namespace faultline {
 
-/// A column of numbers that lies in somebody else's memory.
+/// A column of numbers in memory that the caller owns.
 struct ColumnView {
   RawColumn column;
   std::span<const double> values;
   bool is_text = false;  ///< a column without numbers; `values` is empty and each cell is missing
 };
 
-/// A log of columns in memory, read where they are: only a block at a time is copied.
+/// A log of columns in memory, read without a copy of the whole: only one block at a time is copied.
 class ColumnReader : public RawReader {
  public:
-  /// The values outlive the reader and stay as they are. Throws Error(input) for columns of unequal length.
+  /// The values must outlive the reader and not change. Throws Error(input) for columns of unequal length.
   ColumnReader(std::vector<ColumnView> columns, std::string name);
 
   const std::vector<RawColumn>& columns() const override { return names_; }
@@ -43,7 +43,7 @@ class ColumnReader : public RawReader {
   std::int64_t rows_ = 0;
 };
 
-/// SHA-256 over names, units and values of the columns, in their order: the identity of a log without a file.
+/// Hashes names, units and values of the columns in order (SHA-256): the identity of a log without a file.
 std::string sha256_of(const std::vector<ColumnView>& columns);
 
 }  // namespace faultline

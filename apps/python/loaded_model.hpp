@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// A model with its case base, read once for any number of logs; nothing changes it.
+/// A model with its case base, read once for any number of logs and never changed.
 struct LoadedModel {
-  ModelPaths paths;  ///< where it was read; empty for one that was learned and not written
+  ModelPaths paths;  ///< files that it was read from; empty for one that was learned and not written
   Model model;
   CaseBase cases;
 };

@@ -16,7 +16,7 @@
 
 namespace faultline {
 
-/// A log as Python names it: a file with its parts, or columns in memory.
+/// A log as given by Python: a file with its parts, or columns in memory.
 class LogHandle {
  public:
   LogHandle(std::string path, LogSelection parts) : name_(std::move(path)), parts_(std::move(parts)) {}
@@ -27,24 +27,24 @@ class LogHandle {
   const std::string& name() const { return name_; }
   bool is_file() const { return arrays_.empty(); }
   const LogSelection& parts() const { return parts_; }
-  /// All files that it is made of; none for columns.
+  /// Returns all files of the log; none for columns.
   std::vector<std::string> files() const;
 
-  /// The columns as they are. Throws as open_parts().
+  /// Opens the columns without mapping. Throws as open_parts() does.
   std::unique_ptr<RawReader> open_columns(const RecordingChoice& choice = {}) const;
-  /// As a log of this robot, see open_robot_log().
+  /// Opens a log of this robot, see open_robot_log().
   std::unique_ptr<LogSource> open(const Robot& robot) const;
-  /// The same, ending when the work is to end, and without what would read ahead.
+  /// Does the same, but ends with the work and does not read ahead; reports the progress if `tells` is set.
   std::unique_ptr<LogSource> open(const Robot& robot, WorkWatch& watch, bool tells) const;
 
  private:
   std::string name_;
   LogSelection parts_;
   std::vector<ColumnView> columns_;
-  std::vector<pybind11::object> arrays_;  ///< whose memory the columns are
+  std::vector<pybind11::object> arrays_;  ///< owners of the memory of the columns
 };
 
-/// A robot file or an order of axes; nothing for an empty name.
+/// Returns the robot of a robot file or of an order of axes; nullopt for an empty name.
 std::optional<Robot> robot_named(const std::string& robot);
 
 }  // namespace faultline

@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// An array that owns the values, which are not copied.
+/// Returns an array that owns the values, which are not copied.
 template <typename Value>
 pybind11::array_t<Value> owned_array(std::vector<Value>&& values) {
   auto kept = std::make_unique<std::vector<Value>>(std::move(values));

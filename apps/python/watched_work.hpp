@@ -17,28 +17,28 @@
 
 namespace faultline {
 
-/// Thrown through work that is to end because Python wants it to; no std::exception, so that nothing on the
-/// way takes it for a failure of the work.
+/// Thrown through work that Python ends; no std::exception, so that no handler mistakes it for a failure of
+/// the work.
 struct Interruption {};
 
-/// Between work in a thread of its own and Python, which waits for it and is told how far it is.
+/// Connects work in a thread of its own with Python, which waits for it and receives its progress.
 class WorkWatch {
  public:
-  /// To be called by the work now and then. Throws Interruption when it is to end.
+  /// Reports the progress; the work calls it regularly. Throws Interruption when the work must end.
   void tell(const std::string& what, double share);
   void check() const {
     if (stopped_) throw Interruption{};
   }
-  /// As callback for work that has one.
+  /// Returns tell() as callback for work that takes one.
   Progress progress() {
     return [this](const std::string& what, double share) { tell(what, share); };
   }
 
   void stop() { stopped_ = true; }
   void finish();
-  /// Waits for a while; whether the work is done.
+  /// Waits for a short time; true when the work is done.
   bool wait();
-  /// What was told last, once.
+  /// Returns the last progress, once.
   std::optional<std::pair<std::string, double>> take();
 
  private:
@@ -49,8 +49,8 @@ class WorkWatch {
   bool done_ = false;
 };
 
-/// Runs the work in a thread without Python's lock. The calling thread takes signals (Ctrl-C) and hands what
-/// the work tells to `progress`, a callable (what, share) or None; what these raise ends the work and is
+/// Runs the work in a thread without Python's lock. The calling thread handles signals (Ctrl-C) and passes
+/// the progress to `progress`, a callable (what, share) or None; an exception of either ends the work and is
 /// raised again.
 void run_watched(const pybind11::object& progress, const std::function<void(WorkWatch&)>& work);
 
@@ -61,7 +61,7 @@ auto watched(const pybind11::object& progress, Work work) {
   return std::move(*result);
 }
 
-/// A log that ends the work that reads it when it is to end; tells how far it was read when asked to.
+/// Returns a log that ends the work that reads it if requested; reports the share read if `tells` is set.
 std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells);
 
 }  // namespace faultline

@@ -5,15 +5,15 @@
 
 namespace faultline {
 
-/// Which column is which channel, by their names, else by which one is the derivative of which. No units yet.
-/// Throws Error(input) when no position can be told.
+/// Finds the channel of each column by their names, else by which column is the derivative of which; no units
+/// yet. Throws Error(input) when no position is found.
 std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt);
 
-/// Whether neither name nor unit of a column says that it is something else than the quantity, such as a
-/// temperature, a counter or a velocity that is no position.
+/// False when name or unit of a column shows another quantity, such as a temperature, a counter, or a
+/// velocity if `quantity` is a position.
 bool may_be(const RawColumn& column, Quantity quantity);
 
-/// The guessed channel's raw values; the row numbers for a time that is none.
+/// Returns the raw values of the channel; for a time without a column the row numbers.
 std::vector<double> values_of(const RawExcerpt& excerpt, const GuessedChannel& guess);
 
 }  // namespace faultline

@@ -8,10 +8,10 @@
 
 namespace faultline {
 
-/// The first rows of a file as it has them; enough to guess what its columns mean.
+/// The first rows of a file, unchanged; enough to derive the meaning of its columns.
 struct RawExcerpt {
   std::string path;
-  bool canonical = false;  ///< the columns are channels in SI, so that nothing is to be guessed of them
+  bool canonical = false;                   ///< the columns are channels in SI and need no guess
   std::vector<RawColumn> columns;           ///< the first 256
   std::vector<std::vector<double>> values;  ///< [column][row]
 

@@ -10,10 +10,10 @@
 
 namespace faultline {
 
-/// What a column seems to be, and why.
+/// The probable meaning of a column, and the reason.
 struct GuessedChannel {
   Channel channel;
-  int column = -1;  ///< kRowNumber: the row's number
+  int column = -1;  ///< kRowNumber: the number of the row
   ColumnSpec spec{};
   std::string reason{};
   int nanoseconds = -1;  ///< second column of a time in seconds and nanoseconds, found by its name
@@ -24,19 +24,19 @@ struct GuessedAxis {
   std::string reason{};
 };
 
-/// A robot and the meaning of its log, as names, units and data suggest.
+/// A robot and the meaning of its log, derived from names, units and data.
 struct RobotGuess {
   std::vector<GuessedAxis> axes;
   std::vector<GuessedChannel> channels;
   std::string torque = "commanded";
   std::string torque_reason;
-  std::vector<std::string> untold;  ///< what could not be told
+  std::vector<std::string> untold;  ///< facts that could not be derived
 };
 
-/// Throws Error(input) when no position can be told.
+/// Throws Error(input) when no position is found.
 RobotGuess guess_robot(const RawExcerpt& excerpt);
 
-/// The guess as a robot file that says why.
+/// Returns the guess as a robot file with its reasons as comments.
 std::string robot_guess_text(const RobotGuess& guess, const RawExcerpt& excerpt);
 
 }  // namespace faultline

@@ -7,17 +7,17 @@
 
 namespace faultline {
 
-/// What the numbers of one joint's columns tell of their units.
+/// Statistics of one joint's columns from which their units are derived.
 struct JointNumbers {
   double span = 0.0;     ///< of the position
-  double largest = 0.0;  ///< position's magnitude
-  double path = 0.0;     ///< that the position went, noise left out
-  double fastest = 0.0;  ///< velocity's magnitude; 0 without
-  /// Change of position over the velocity's integral, times as logged; NaN without velocity or motion.
+  double largest = 0.0;  ///< magnitude of the position
+  double path = 0.0;     ///< path length of the position, without changes below 5 % of the span
+  double fastest = 0.0;  ///< magnitude of the velocity; 0 without
+  /// Change of position divided by the integral of velocity, times as logged; NaN without velocity or motion.
   double ratio = std::numeric_limits<double>::quiet_NaN();
-  /// Correlation of velocity and torque, whose mean is left out; NaN without one of them.
+  /// Correlation of velocity and torque after its mean is removed; NaN without one of them.
   double power = std::numeric_limits<double>::quiet_NaN();
-  bool carries = false;  ///< the torque is far from zero on average, as where it carries a weight
+  bool carries = false;  ///< the mean torque is far from zero, as for a joint that carries a weight
 };
 
 JointNumbers joint_numbers(const std::vector<double>& time, const std::vector<double>& q,
@@ -28,21 +28,21 @@ struct GuessedUnit {
   std::string reason{};
 };
 
-/// Of stamps without a unit; `units` of positions and velocities are not needed, for ratios of all usual ones
-/// are tried.
+/// Finds the unit of times without one. The units of positions and velocities are not needed, as the usual
+/// ratios are tried.
 GuessedUnit guess_time_unit(const std::vector<double>& time, const std::vector<JointNumbers>& joints);
 
 struct GuessedUnits {
   GuessedUnit position, velocity;
   double position_factor = 1.0, velocity_factor = 1.0;  ///< to SI
-  bool flipped = false;                                 ///< one of them has the other sign
+  bool flipped = false;                                 ///< one of them has the opposite sign
 };
 
-/// Angles that the other joints of a log are in, by their numbers.
+/// Unit of the angles of the log's other joints, according to their values.
 enum class OtherAngles { unknown, degrees, radians };
 
-/// Of one joint whose header says nothing; `time_factor` brings its times to s. An empty `known` unit of the
-/// position means that it is to be guessed.
+/// Finds the units of one joint; `time_factor` converts its times to s. An empty known unit means that it
+/// must be derived from the values.
 GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
                                const std::string& known_position, const std::string& known_velocity,
                                OtherAngles others);

@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// Throws Error(input) when the case base there cannot be read or changed, or when people have put cases into
-/// it that a robot of so many joints cannot have: learning over it would lose them.
+/// Throws Error(input) when the existing case base cannot be read, or has cases added by people for joints
+/// that this robot lacks: learning would lose them. Throws Error(output) when it is read-only.
 void check_can_carry_over(const std::string& case_base, int joints);
 
-/// What became of the cases that were there, a sentence or two; empty where there were none.
+/// Reports the fate of the existing cases in a sentence or two; empty if there were none.
 std::string carried_text(const std::optional<CarriedCases>& carried);
 nlohmann::ordered_json carried_json(const CarriedCases& carried);
 

@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// Writes the log that was diagnosed as MCAP with what the diagnosis computed from it (docs/formats-mcap.md),
-/// by a further pass over it. Throws Error(output).
+/// Writes the diagnosed log as MCAP with the results of the diagnosis (docs/formats-mcap.md), by a further
+/// pass over the log. Throws Error(output).
 void write_recording(const std::string& path, LogSource& log, const Model& model, const Diagnosis& diagnosis);
 
 }  // namespace faultline

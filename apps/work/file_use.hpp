@@ -9,40 +9,40 @@
 
 namespace faultline {
 
-/// The files that a command is about to read and write, so that none of its results takes the place of an
-/// input, of a file that belongs to an input, or of another result; nor, known by their names, of a case
-/// base, the journal of a batch or golden logs, even if the command does not read them. Empty paths are
-/// passed over.
+/// The files that a command will read and write. Ensures that no result replaces an input, a file that
+/// belongs to an input, or another result; nor, by their names, a case base, the journal of a batch or golden
+/// logs, even if the command does not read them. Empty paths are ignored.
 class FileUse {
  public:
-  /// `what` names it to the user: "the log". A path that is not there is no input, as the axes RRP.
+  /// `what` is its name for the user: "the log". A path that does not exist is no input, such as the axes
+  /// RRP.
   FileUse& reads(const std::string& what, const std::string& path);
   FileUse& reads(const std::string& what, const std::vector<std::string>& paths);
-  /// The model and its case base, with the journals that SQLite keeps beside it, there or not.
+  /// The model and its case base, with the journals of SQLite beside it, existing or not.
   FileUse& reads(const ModelPaths& paths);
-  /// All that lies below the folder.
+  /// All files below the folder.
   FileUse& reads_below(const std::string& what, const std::string& folder);
 
-  /// `option` names it to the user: "--json". A path - is standard output.
+  /// `option` is its name for the user: "--json". A path - is standard output.
   FileUse& writes(const std::string& option, const std::string& path);
-  /// A file that faultline keeps for later, such as golden.toml, by the command that makes it.
+  /// A file that faultline keeps for later, such as golden.toml, written by the command that creates it.
   FileUse& writes_kept(const std::string& option, const std::string& path);
   /// A case base with its journals.
   FileUse& writes_case_base(const std::string& option, const std::string& path);
-  /// Files below the folder, those with this extension only, or all.
+  /// Files below the folder, all or those with this extension.
   FileUse& writes_below(const std::string& option, const std::string& folder,
                         const std::string& extension = "");
 
-  /// To be called before anything is computed. Throws Error(usage) when a result would take another file's
-  /// place; then removes what programs that were killed left half written in the folders of the results.
+  /// Call it before any computation. Throws Error(usage) when a result would replace another file; then
+  /// removes partly written files of killed programs from the folders of the results.
   void claim() const;
 
  private:
   struct Named {
     std::string what;
     std::string path;
-    std::string identity{};   ///< see file_identity(); empty for what many may share
-    std::string extension{};  ///< of a folder: of the files that are meant
+    std::string identity{};   ///< see file_identity(); empty for a target that several may share
+    std::string extension{};  ///< for a folder: extension of its files
     bool is_kept = false;     ///< see writes_kept()
   };
 

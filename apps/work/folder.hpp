@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Makes the folder for results, with those above it, when it is not there. Throws Error(output).
+/// Creates the folder for results, with its parents, if it does not exist. Throws Error(output).
 void make_folder(const std::string& folder);
 
 }  // namespace faultline

@@ -11,34 +11,34 @@
 #include "lib/golden/record.hpp"
 #include "lib/golden/replay.hpp"
 
-/// The actions of faultline golden without what they print.
+/// The actions of faultline golden without their output.
 namespace faultline {
 
-/// What the actions of faultline golden have in common; without --model the folder's own model is meant.
+/// Arguments that the actions of faultline golden share; without --model, the folder's own model is used.
 struct GoldenArguments : ModelPaths {
   std::string folder;
   std::string json, junit;
   int threads = 0;
 };
 
-/// Opens a log as the model's robot file says.
+/// Opens a log with the model's robot file.
 std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model);
 
-/// That of --model, else the folder's.
+/// Returns the model of --model, else the folder's.
 ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set);
 /// Replays the folder's logs.
 GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
                      const Progress& progress);
 class FileUse;
-/// Adds what an action reads: the folder's files as `set` names them, and --model with its case base.
+/// Adds the inputs of an action: the folder's files as `set` names them, and --model with its case base.
 void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set);
 
 struct RecordArguments : GoldenArguments {
   std::vector<std::string> logs;
   RecordOptions options;
 };
-/// Takes tables of labels out of the logs, as a shell that names runs/*.csv names its labels.csv, too, and
-/// returns them. Throws Error(usage) when no log is left.
+/// Removes tables of labels from the logs, as a shell expands runs/*.csv to its labels.csv too, and returns
+/// them. Throws Error(usage) when no log remains.
 std::vector<std::string> skip_label_tables(std::vector<std::string>& logs);
 Recorded record_folder(const RecordArguments& arguments, const Progress& progress);
 
@@ -46,7 +46,7 @@ struct CheckedFolder {
   GoldenRun run;
   GoldenCheck check;
 };
-/// Replays all logs of the folder and compares, and writes --json and --junit where asked for.
+/// Replays all logs of the folder and compares; writes --json and --junit if requested.
 CheckedFolder check_folder(const GoldenArguments& arguments, const Progress& progress);
 
 struct AcceptArguments : GoldenArguments {
@@ -57,21 +57,21 @@ struct AcceptArguments : GoldenArguments {
   bool has_new_model() const { return !model.empty(); }
 };
 
-/// What differs, and what of it is to be accepted.
+/// The differences, and those that will be accepted.
 struct AcceptPlan {
   GoldenSet set;
   ModelAndCases subject;
   GoldenRun run;
-  GoldenCheck check, part;             ///< all, and the items that were named
-  std::vector<std::string> otherwise;  ///< of --same-verdict: what stays, as something else is found in it
-  std::vector<std::string> names;      ///< that change
+  GoldenCheck check, part;             ///< all items, and the named ones
+  std::vector<std::string> otherwise;  ///< of --same-verdict: unchanged items, as their verdict differs
+  std::vector<std::string> names;      ///< of items that change
 
   bool is_refused(const AcceptArguments& arguments) const {
     return !arguments.accepts() || (arguments.has_new_model() && !otherwise.empty());
   }
 };
 AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progress);
-/// Makes the plan's names what is expected; for a plan that is not refused.
+/// Makes the results of the plan's names the expected ones; for a plan that is not refused.
 void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments);
 
 }  // namespace faultline

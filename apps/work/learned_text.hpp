@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// What was learned, for a person: parameters, how good the model is, and where both files are.
+/// Returns the learned model for a person: parameters, quality of the model, and the paths of both files.
 std::string learned_text(const Learned& learned, const std::string& model_path,
                          const std::string& case_base_path);
 
-/// Schema "faultline/learning/1".
+/// Returns JSON, schema "faultline/learning/1".
 std::string learned_json(const Learned& learned, const std::optional<CarriedCases>& carried = {});
 
 }  // namespace faultline

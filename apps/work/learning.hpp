@@ -13,26 +13,26 @@
 
 namespace faultline {
 
-/// Logs to learn from, open, by what they are known to show.
+/// Open logs to learn from, by their known faults.
 struct OpenLogs {
   std::vector<std::unique_ptr<LogSource>> owners;
   std::vector<LogSource*> healthy;
   std::vector<LabelledLog> labelled;
 
-  /// False when there are labels and none names this log; it counts as healthy. Throws Error(usage) for a
-  /// label that the robot cannot have.
+  /// Returns false when there are labels but none for this log, which then counts as healthy. Throws
+  /// Error(usage) for a label that is impossible for the robot.
   bool add(const std::string& name, std::unique_ptr<LogSource> log, const std::vector<LogLabel>& labels,
            const Robot& robot);
   /// Throws Error(usage) when no log is healthy.
   void require_healthy() const;
 };
 
-/// Fails before the work begins rather than after it.
+/// Throws before the work begins if the files could not be written after it.
 void check_writable(const ModelPaths& paths, const Robot& robot);
 
-/// Writes model and case base; what people put into a case base that was there is carried over into `cases`.
-/// It comes first: it alone holds what nothing can make again. A kill between the two leaves two identities,
-/// which load_model_files() notices and learning again mends.
+/// Writes model and case base; cases that people added to an existing case base are carried over into
+/// `cases`. The case base comes first, as only it holds data that cannot be made again. A kill between the
+/// two leaves two identities, which load_model_files() detects and learning again repairs.
 std::optional<CarriedCases> write_model(const Model& model, CaseBase& cases, const ModelPaths& paths);
 
 }  // namespace faultline

@@ -11,12 +11,12 @@
 
 namespace faultline {
 
-/// Opens a log of this robot for learning or diagnosis: its columns mean what the robot file says, those
-/// without a meaning are passed over, and coupled drives are turned into joints. Throws as open_log().
+/// Opens a log of this robot for learning or diagnosis: columns have the meaning of the robot file, others
+/// are skipped, and coupled drives are converted to joints. Throws as open_log() does.
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,
                                           const LogSelection& parts = {});
 
-/// The same of a log that is open as columns; `run` of it, where its clock restarts.
+/// Does the same for a log that is open as columns; `run` selects a run between restarts of its clock.
 std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const Robot& robot,
                                         int run = kEveryRun);
 

@@ -16,8 +16,7 @@ struct SimulateRequest {
   std::optional<std::uint64_t> seed;
 };
 
-/// Writes the logs of a spec file and their labels.csv; returns what was made, schema
-/// "faultline/simulation/1".
+/// Writes the logs of a spec file and their labels.csv; returns a summary, schema "faultline/simulation/1".
 nlohmann::ordered_json simulate_into(const SimulateRequest& request, const Progress& progress);
 
 }  // namespace faultline
