@@ -57,10 +57,10 @@ void change(std::string& there, const std::string& told, const char* what,
   changes.push_back(what);
 }
 
-/// An event that is a case already, with what is told of it now.
+/// An existing case of the same event, with the new statements about it.
 struct Retold {
   Case revised;
-  std::vector<std::string> changes;  ///< empty: all was known
+  std::vector<std::string> changes;  ///< empty: nothing new
 };
 
 Retold retold(const Case& there, const Case& c, const CasesArguments& arguments) {
@@ -84,8 +84,8 @@ Retold retold(const Case& there, const Case& c, const CasesArguments& arguments)
 
 struct Added {
   std::int64_t id = 0;
-  std::string message;     ///< what a user would not expect; empty: a new case
-  bool is_changed = true;  ///< the base is
+  std::string message;     ///< an unexpected effect to report; empty: a new case
+  bool is_changed = true;  ///< the base is changed
 };
 
 Added add_to(CaseBase& base, const CasesArguments& arguments) {

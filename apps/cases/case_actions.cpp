@@ -27,7 +27,7 @@ std::string row(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("  {:<9}{}\n", name, printable(text));
 }
 
-/// Where it was seen and who says what it was, as far as that is known.
+/// Returns the origin of a case and the person who described it, as far as known.
 std::string source_rows(const CaseBase& base, const Case& c) {
   const std::string& robot = c.robot.empty() ? base.robot().name : c.robot;
   std::string text = row("origin", origin_words(c, base.robot().name)) + row("robot", robot) +
@@ -38,7 +38,7 @@ std::string source_rows(const CaseBase& base, const Case& c) {
                                        c.log_sha256, value_text(c.onset_s)));
 }
 
-/// A case in one line of a list, with where it comes from.
+/// Returns a case as one line of a list, with its origin.
 std::string case_line(const CaseBase& base, const Case& c) {
   const std::string done = c.what_was_done.empty() ? "" : "; done: " + c.what_was_done;
   return printable(fmt::format("{:>6}  {:<12} {:<40} {}{}", c.id, to_string(c.outcome), plain_words(c.label),
@@ -46,7 +46,7 @@ std::string case_line(const CaseBase& base, const Case& c) {
          "\n";
 }
 
-/// A case with its opinions, evidence and features; `base` holds the names, scales and weights of the
+/// Returns a case with its opinions, evidence and features; `base` has the names, scales and weights of the
 /// features.
 std::string case_text(const CaseBase& base, const Case& c) {
   const auto opinion = [](const char* network, const Opinion& o) {
@@ -89,7 +89,7 @@ CasesAnswer changed_by(const CasesArguments& arguments,
   return answer_with(changed, changed.at(id));
 }
 
-/// Who says it; a date is that of today only where something new is said.
+/// Returns person and date; the date is today's only if the statement is new.
 Signature signature_for(const CasesArguments& arguments, const Case& c, CaseOutcome outcome,
                         const FaultLabel& label) {
   const bool is_new = c.outcome != outcome || c.label != label || !arguments.by.empty() ||

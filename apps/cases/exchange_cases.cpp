@@ -19,7 +19,7 @@
 namespace faultline {
 namespace {
 
-/// Cases that a person said what they were, seen on the robot at work.
+/// Returns the base with only those cases of the robot at work that a person identified.
 CaseBase confirmed_of(const CaseBase& base) {
   std::vector<Case> cases = base.cases();
   std::erase_if(cases, [](const Case& c) { return origin_of(c) != CaseOrigin::field; });
@@ -31,12 +31,12 @@ CaseBase confirmed_of(const CaseBase& base) {
   return confirmed;
 }
 
-/// The base of an earlier program does not tell its robot; its model does, where that was named.
+/// Sets the robot of a base from an earlier program, which lacks it, from the model if one was named.
 void know_robot(CaseBase& base, const std::string& model) {
   if (base.robot().axes.empty() && !model.empty()) base.describe_robot(case_robot_of(load_model(model)));
 }
 
-/// Writes nothing where nothing is new.
+/// Merges the cases; writes nothing if none is new.
 MergedCases merge_into(const CasesArguments& arguments, const CaseBase& other) {
   const auto merged_with = [&](CaseBase& base) {
     know_robot(base, arguments.model);
@@ -49,7 +49,8 @@ MergedCases merge_into(const CasesArguments& arguments, const CaseBase& other) {
   return merged;
 }
 
-/// Throws Error(usage) when the cases are of a robot of another kind than the model's.
+/// Binds the cases to the model. Throws Error(usage) when they are of a robot of another kind than the
+/// model's.
 void bind_to_model(CaseBase& imported, const std::string& path) {
   const Model model = load_model(path);
   const CaseRobot robot = case_robot_of(model);
@@ -83,7 +84,7 @@ CasesAnswer export_cases(const CasesArguments& arguments) {
   return answer;
 }
 
-/// What --replace drops, told before it is gone.
+/// Returns a sentence about the cases that --replace will drop.
 std::string replaced_text(const std::string& path) {
   try {
     const CaseBase old = read_case_base(path);
