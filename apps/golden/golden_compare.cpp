@@ -17,12 +17,12 @@ struct GoldenCompareArguments : GoldenArguments {
   std::vector<std::string> sides;
 };
 
-/// What faultline golden check --json wrote holds its schema near the start; a model has another one.
+/// True for the output of faultline golden check --json, which has its schema near the start, unlike a model.
 bool is_result(const std::string& text) {
   return text.substr(0, 200).find("\"faultline/golden-check/") != std::string::npos;
 }
 
-/// With the folder's own model.
+/// Replays with the folder's own model.
 GoldenRun own_side(const GoldenCompareArguments& arguments, const GoldenSet& set, ColorChoice color) {
   ProgressBar bar(color);
   return golden_run(arguments, set, load_golden_model(arguments.folder, set), bar.callback());
