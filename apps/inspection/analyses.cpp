@@ -10,14 +10,14 @@
 namespace faultline {
 namespace {
 
-constexpr double kSlowPeriod_s = 0.1;  // beyond it accelerations of a robot cannot be told
+constexpr double kSlowPeriod_s = 0.1;  // above it accelerations of a robot are not identifiable
 constexpr double kCoarsePeriod_s = 0.02;
 constexpr double kLeastMotion = 1e-3;  // rad or m
 constexpr double kShortLog_s = 5.0;
 constexpr std::int64_t kFewRows = 500;
 constexpr std::int64_t kFewestRows = 20;
 
-/// What decides, gathered once.
+/// The facts that decide, gathered once.
 struct Facts {
   const Inspection& inspection;
   std::vector<std::string> torques, motions, references;
@@ -52,7 +52,7 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
   return a;
 }
 
-/// What stands in the way of anything that needs torques; empty for nothing.
+/// Judges the conditions of all analyses that need torques: sets fit, reason and help.
 void judge_torques(const Facts& facts, PossibleAnalysis& analysis) {
   analysis.channels = both(facts.motions, facts.torques);
   if (!facts.all_torques) {

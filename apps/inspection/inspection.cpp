@@ -18,7 +18,7 @@
 namespace faultline {
 namespace {
 
-/// An inspection looks at the recording; a bad run may be recorded well.
+/// Added to the verdict, which is on the recording: a faulty run may be recorded well.
 constexpr const char* kNotOfTheRobot = "; `faultline diagnose` judges whether the robot has a fault";
 
 const char* unit_of(Quantity quantity, AxisKind axis) {
@@ -39,7 +39,7 @@ const char* unit_of(Quantity quantity, AxisKind axis) {
   return "";
 }
 
-/// Without a robot that has the joint, the units of both kinds of axis.
+/// Returns the unit of a channel; the units of both kinds of axis if no robot with that joint is given.
 std::string unit_of(Channel channel, const std::optional<Robot>& robot) {
   const Quantity quantity = channel.quantity;
   if (quantity == Quantity::time || (robot && channel.joint <= robot->joints()))
@@ -123,7 +123,7 @@ Inspection inspect_joint_log(MappedSource& mapped, const std::vector<RawColumn>&
   return inspection;
 }
 
-/// A block of raw columns as a log whose columns are all extra and whose time is the row number.
+/// Converts a block of raw columns to a log with extra channels only and the row number as time.
 void as_extra(RawBlock& block, const std::vector<RawColumn>& columns, Log& log) {
   log.first_row = block.first_row;
   log.time.resize(block.rows);
@@ -136,7 +136,7 @@ void as_extra(RawBlock& block, const std::vector<RawColumn>& columns, Log& log) 
   }
 }
 
-/// What is known about a table without a clock, in words to be added to what is wrong.
+/// Returns the estimated sample period of a table without a clock as an addition to a message; may be empty.
 std::string words_of(const RowClock& clock) {
   const auto estimate = clock.estimate();
   if (!estimate) return "";

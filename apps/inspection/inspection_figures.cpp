@@ -53,7 +53,7 @@ const char* word_of(FigureKind kind) {
   return "";
 }
 
-/// The channels that one picture shows.
+/// The channels in one picture.
 struct ChannelGroup {
   std::string caption, unit;
   std::vector<const OverviewChannel*> channels;
@@ -87,7 +87,7 @@ std::vector<ChannelGroup> groups_of(const Inspection& inspection) {
   return all;
 }
 
-/// Least and largest value of each stretch, broken at gaps.
+/// Returns least and largest value of each stretch, interrupted at gaps.
 PlotSeries series_of(const OverviewChannel& channel, const Inspection& inspection, double zero_s) {
   const LogOverview& overview = inspection.overview;
   PlotSeries series;
@@ -118,7 +118,7 @@ std::vector<PlotBand> bands_of(const Inspection& inspection, double zero_s) {
   return bands;
 }
 
-/// Where one of the channels stood still though its joint moved.
+/// Returns the stretches in which one of the channels was constant although its joint moved.
 std::vector<PlotBand> stuck_bands(const Inspection& inspection, const ChannelGroup& group, double zero_s) {
   std::vector<PlotBand> bands;
   for (const OverviewChannel* channel : group.channels) {

@@ -38,7 +38,7 @@ Json same_value_json(const SameValue& same) {
           {"joint_moved", number_or_null(same.moved)}};
 }
 
-/// A channel's members with those of the closer look, which only canonical ones had.
+/// Returns the members of a channel with those of the checkup, which only canonical channels have.
 Json channel_json(const InspectedChannel& channel, const CheckupResult& checkup) {
   Json json = channel_json(channel);
   const auto canonical = channel.summary.canonical ? canonical_channel(channel.summary.name) : std::nullopt;

@@ -24,13 +24,13 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// The reports' colours of verdicts.
+/// Returns the colour of the verdict, as in reports.
 const char* colour_of(const Inspection& inspection) {
   const std::string verdict = verdict_of(inspection);
   return verdict == "sound" ? "healthy" : verdict == "doubtful" ? "inconclusive" : "faulty";
 }
 
-/// Headings of a page of one log; those of one of several are a level lower.
+/// Headings of a page of one log; on a page of several logs they are a level lower.
 class Headings {
  public:
   explicit Headings(std::size_t logs) : level_(logs > 1 ? 2 : 1) {}
@@ -60,7 +60,7 @@ std::string top(const Inspection& inspection, const Headings& headings) {
                      colour_of(inspection), escaped_markup(brief(verdict)));
 }
 
-/// An item of a list: severity or fit, what, then the sentence.
+/// Returns an item of a list: severity or fit, subject, then the sentence.
 std::string item(const std::string& word, const std::string& what, const std::string& sentence) {
   return fmt::format("<li><b>{}</b> {}{}{}</li>\n", escaped_markup(word), escaped_markup(what),
                      sentence.empty() ? "" : ": ", escaped_markup(sentence));

@@ -12,10 +12,10 @@
 namespace faultline {
 namespace {
 
-/// Extra channels shown before the rest is only counted.
+/// Largest number of extra channels shown; the others are only counted.
 constexpr std::size_t kShownExtra = 12;
 constexpr std::size_t kInspectionShownGaps = 20;
-/// Of the values at a limit, from which on it is told.
+/// Share of the values at a limit from which on the text mentions it.
 constexpr double kToldShare = 0.01;
 
 std::string head_line(const Inspection& inspection, bool color) {

@@ -9,8 +9,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kFollows = 0.98;    // correlation of position and velocity
-constexpr double kOnePeriod = 0.05;  // relative; joints that are further apart are in different units
+constexpr double kFollows = 0.98;    // least correlation of the changes of position with the velocity
+constexpr double kOnePeriod = 0.05;  // relative; joints that differ by more are in different units
 
 }  // namespace
 
@@ -48,7 +48,7 @@ std::optional<RowClock::Estimate> RowClock::estimate() const {
   std::vector<VelocityAgreement> moving;
   std::vector<double> periods;
   for (const VelocityCheck& check : joints_) {
-    const VelocityAgreement joint = check.result();  // a row is its unit of time
+    const VelocityAgreement joint = check.result();  // in units of rows
     if (joint.verdict == VelocityVerdict::not_judged) continue;
     if (joint.correlation < kFollows || joint.factor <= 0.0) return {};
     moving.push_back(joint);
