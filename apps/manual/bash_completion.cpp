@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// Adds every command that has come to the path, so that options belong to the innermost.
+/// Adds each command of the line to the path, so that options belong to the innermost.
 std::string bash_path_cases(const CommandDescription& program) {
   std::string text;
   for (const CommandDescription* command : commands_with_words(program))
@@ -15,7 +15,7 @@ std::string bash_path_cases(const CommandDescription& program) {
   return text;
 }
 
-/// What may follow: commands, or options once a hyphen was typed.
+/// Returns the possible next words: commands, or options after a hyphen.
 std::string bash_word_cases(const CommandDescription& program) {
   std::string text;
   for (const CommandDescription* command : all_commands(program)) {
@@ -30,7 +30,7 @@ std::string bash_word_cases(const CommandDescription& program) {
   return text;
 }
 
-/// The values of options: words where there are few, else nothing, which leaves them to files.
+/// Returns the values of options if they are few words, else nothing, so that the shell completes files.
 std::string bash_value_cases(const CommandDescription& program) {
   std::string text;
   for (const CommandDescription* command : all_commands(program))

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// "{evidence,samples}" in "TEXT:{evidence,samples}" as words.
+/// Returns "{evidence,samples}" in "TEXT:{evidence,samples}" as words.
 std::vector<std::string> choices_in(const std::string& type) {
   const auto begin = type.find('{'), end = type.rfind('}');
   std::vector<std::string> choices;
@@ -18,7 +18,7 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
-/// What an option takes, without the checks that the library appends behind a colon.
+/// Returns the value of an option without the checks that the library appends after a colon.
 std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::string name = type.substr(0, type.find(':'));
@@ -40,7 +40,7 @@ ArgumentDescription describe(const CLI::Option& option) {
   return argument;
 }
 
-/// Options of a command that only stands before others, such as `cases`, are options of those.
+/// Adds the options of a parent command that does nothing by itself, such as `cases`.
 void add_options_before(const CLI::App& command, CommandDescription& described) {
   const CLI::App* before = command.get_parent();
   if (!before || !before->get_parent() || before->get_require_subcommand_min() == 0) return;

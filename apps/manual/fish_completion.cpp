@@ -16,7 +16,7 @@ std::string fish_quoted(const std::string& text) {
   return out + "'";
 }
 
-/// Prints the commands typed so far, the words that `case` lists.
+/// Returns a shell function that prints the program and the commands typed so far, without other words.
 std::string path_function(const CommandDescription& program) {
   std::string names;
   for (const CommandDescription* command : commands_with_words(program))

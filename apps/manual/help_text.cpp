@@ -13,7 +13,7 @@ namespace {
 constexpr int kHelpWidth = 100;
 constexpr int kHelpIndent = 30;
 
-/// The title and beside it, or below a long one, the words.
+/// Returns the title and beside it, or below a long one, the words.
 std::string entry(const std::string& title, const std::string& words) {
   const std::string indent(kHelpIndent, ' ');
   std::string text = "  " + title;

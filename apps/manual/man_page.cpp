@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-/// Text that roff prints as it stands: no escapes, no request at the start of a line, plain hyphens.
+/// Escapes backslashes, requests at the start of a line, and hyphens, so that roff prints the text unchanged.
 std::string roff(const std::string& text) {
   std::string out;
   bool line_start = true;
@@ -49,7 +49,7 @@ std::string commands_section(const CommandDescription& command) {
   return text.empty() ? "" : ".SH COMMANDS\n" + text;
 }
 
-/// The paragraphs of the footer; an example in a section of its own.
+/// Returns the paragraphs of the footer; an example in a section of its own.
 std::string notes_section(const CommandDescription& command) {
   static const std::string kExample = "Example: ";
   std::istringstream lines(command.footer);

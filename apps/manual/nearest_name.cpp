@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// Optimal string alignment distance.
+/// Returns the optimal string alignment distance.
 std::size_t edits_between(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)
@@ -25,7 +25,7 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names) {
-  constexpr std::size_t kLettersAnEdit = 3;  // so that short words are near to few
+  constexpr std::size_t kLettersAnEdit = 3;  // so that short words are near to few names
   std::string nearest;
   std::size_t fewest = typed.size() / kLettersAnEdit + 1;
   for (const std::string& name : names) {

@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// Within single quotes.
+/// Returns the text in single quotes.
 std::string zsh_quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -21,7 +21,7 @@ std::string zsh_path_cases(const CommandDescription& program) {
   return text;
 }
 
-/// A colon ends the word that _describe offers.
+/// Returns a word with its help for _describe, separated by a colon.
 std::string offered(const std::string& word, const std::string& help) {
   return " " + zsh_quoted(word + ":" + help.substr(0, help.find('\n')));
 }
