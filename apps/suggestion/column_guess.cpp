@@ -23,19 +23,19 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tried
+constexpr std::size_t kMostPaired = 64;  // columns of which pairs are tested
 constexpr double kDerivative = 0.95;     // correlation of a velocity with its position's change
-constexpr double kVaries = 1e-6;         // of the mean square, at least; less is rounding
+constexpr double kVaries = 1e-6;         // least variance by mean square; less is rounding
 constexpr double kInOrder = 0.999;       // share of steps of a time that are forward
-constexpr double kSmallSteps = 0.1;      // of steps to the deviation, squared
+constexpr double kSmallSteps = 0.1;      // of mean square step to variance
 constexpr std::size_t kGuessFewestRows = 20;
 constexpr std::size_t kFewestPairedRows = 200;
 constexpr std::ptrdiff_t kReach = 3;  // rows, of a change of position, to both sides
 
-/// What a name without a joint quantity says all the same.
+/// What a name without a joint quantity shows nevertheless.
 enum class OtherQuantity {
-  none,   ///< nothing that is known
-  drive,  ///< a motor's current or voltage, which may stand for a torque
+  none,   ///< no known word
+  drive,  ///< a motor's current or voltage, which may represent a torque
   other,  ///< neither a joint's motion nor its torque: a temperature, an acceleration, a counter, a state
 };
 
@@ -90,8 +90,8 @@ std::vector<GuessedChannel> by_names(const RawExcerpt& excerpt) {
   return {};
 }
 
-/// The column whose values rise from row to row and that no name calls a counter; the steadier one of
-/// several.
+/// Returns the column whose values increase from row to row and whose name is not that of a counter; the one
+/// with the most even steps of several, or kRowNumber.
 int rising_column(const RawExcerpt& excerpt) {
   int best = kRowNumber;
   double steadiest = 1.0;
@@ -112,7 +112,8 @@ int rising_column(const RawExcerpt& excerpt) {
   return best;
 }
 
-/// Correlation of what `a` changes by with the mean of `b` meanwhile; negative where one sign is wrong.
+/// Returns the correlation of the changes of `a` with the mean of `b` over the same rows; negative if one
+/// sign is wrong.
 double as_derivative(const std::vector<double>& a, const std::vector<double>& b) {
   double count = 0.0, as = 0.0, bs = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::ptrdiff_t i = kReach; i + kReach < std::ssize(a); i += 2) {
@@ -122,24 +123,25 @@ double as_derivative(const std::vector<double>& a, const std::vector<double>& b)
     if (std::isnan(change) || std::isnan(mean)) continue;
     count += 1.0, as += change, bs += mean, aa += change * change, bb += mean * mean, ab += change * mean;
   }
-  // Their own means say nothing: a counter's change and a temperature are both about constant.
+  // The means are removed, as they are no evidence: a counter's change and a temperature are both about
+  // constant.
   const double va = aa - as * as / count, vb = bb - bs * bs / count;
   return va > kVaries * aa && vb > kVaries * bb ? (ab - as * bs / count) / std::sqrt(va * vb) : 0.0;
 }
 
-/// Positions and the velocities that are their derivatives, in the order of the positions' columns.
+/// Returns positions and the velocities that are their derivatives, in the order of the positions' columns.
 std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) {
   std::map<int, std::pair<int, double>> velocity_of;
   std::set<int> velocities;
   const int columns = static_cast<int>(std::min(excerpt.values.size(), kMostPaired));
-  std::vector<std::tuple<bool, double, int, int>> pairs;  // whether a sign is wrong, -|correlation|, columns
+  std::vector<std::tuple<bool, double, int, int>> pairs;  // one sign is wrong, -|correlation|, columns
   for (int a = 0; a < columns; ++a)
     for (int b = 0; b < columns; ++b)
       if (a != b && a != time && b != time && excerpt.values[a].size() >= kFewestPairedRows &&
           may_be(excerpt.columns[a], Quantity::q) && may_be(excerpt.columns[b], Quantity::dq))
         if (const double r = as_derivative(excerpt.values[a], excerpt.values[b]); std::abs(r) > kDerivative)
           pairs.push_back({r < 0.0, -std::abs(r), a, b});
-  // A sine is the derivative of its derivative, too, but for the sign.
+  // A sine is also the derivative of its derivative, except for the sign.
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [flipped, r, a, b] : pairs) {
     if (velocity_of.count(a) || velocities.count(a) || velocity_of.count(b) || velocities.count(b)) continue;
@@ -159,7 +161,7 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   return found;
 }
 
-/// Whether values follow each other as those of a motion do: steps are small beside the deviation.
+/// True when values are continuous as those of a motion: steps are small compared with the deviation.
 bool flows(const std::vector<double>& values) {
   double sum = 0.0, squares = 0.0, steps = 0.0, count = 0.0;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -170,7 +172,7 @@ bool flows(const std::vector<double>& values) {
   return steps > 0.0 && steps < kSmallSteps * (squares - sum * sum / count);
 }
 
-/// The largest group of columns whose names differ by a number.
+/// Returns the largest group of columns whose names differ by a number.
 std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
   std::map<std::string, std::map<int, int>> families;
   for (int c = 0; c < std::ssize(excerpt.columns); ++c) {

@@ -25,14 +25,14 @@ constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kSearchedRows = 20000, kSearchedColumns = 32;
 constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
 constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;       // correlations with acceleration and velocity
-constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // rad would be many turns; hardly a slide's m
+constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // many turns in rad; too far for a slide in m
 
-constexpr double kRestSpan = 1e-3;  // rad or m: of a joint that holds its place
-constexpr double kShortSpan = 0.6;  // rad or m: of what may slide
+constexpr double kRestSpan = 1e-3;  // rad or m: of a joint that does not move
+constexpr double kShortSpan = 0.6;  // rad or m: of a joint that may slide
 constexpr double kShorterSpan = 0.4;
-constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses all it has
+constexpr double kToAndFro = 4.0;  // path to span, of a joint that uses its whole range
 
-/// Whether a joint turns or slides; `header` is its position's unit in the file, empty for none.
+/// Decides whether a joint turns or slides; `header` is its position's unit in the file, empty for none.
 GuessedAxis guess_axis(const JointNumbers& joint, const GuessedUnits& units, const std::string& header) {
   const double span = joint.span * units.position_factor;
   const auto known = known_unit(units.position.unit);
@@ -138,7 +138,7 @@ class Guesser {
     }
   }
 
-  /// Degrees where some joint's numbers are sure to be, or no other moves far in radians.
+  /// Returns degrees if the values of some joint certainly are, or no other joint moves far in radians.
   OtherAngles other_angles() const {
     bool degrees = false, surely = false, radians = false;
     for (std::size_t j = 0; j < units_.size(); ++j) {
@@ -168,7 +168,7 @@ class Guesser {
     }
   }
 
-  /// In SI, as the guesses so far have it.
+  /// Returns the values multiplied by the factor.
   std::vector<double> scaled(Quantity quantity, int joint, double factor) {
     std::vector<double> values = raw(quantity, joint);
     for (double& value : values) value *= factor;
@@ -243,7 +243,7 @@ class Guesser {
               [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
   }
 
-  /// Of names that say nothing: as many columns beside positions and velocities as there are joints.
+  /// If names give no meaning: takes the remaining columns as torques when they are as many as the joints.
   void take_columns_left() {
     const std::vector<int> left = columns_left();
     if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
@@ -251,7 +251,7 @@ class Guesser {
     add_torques(left, "? as many columns as joints are left over, taken as the torques in their order");
   }
 
-  /// For each joint the column left over that goes best with its acceleration.
+  /// Finds for each joint the unused column that has the highest correlation with its acceleration.
   void find_torques() {
     std::vector<int> left = columns_left(), found;
     left.resize(std::min(left.size(), kSearchedColumns));

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-/// One comment of any length, in one line.
+/// Returns a comment of any length, shortened, in one line.
 std::string comment(const std::string& text) { return "# " + brief(text) + "\n"; }
 
 std::string channel_text(const GuessedChannel& one, const RawExcerpt& excerpt) {

@@ -17,10 +17,10 @@ constexpr double kNear = 0.15;             // relative, for a ratio to be the on
 constexpr double kAlike = 0.8;             // correlation of changes and velocities that can be compared
 constexpr double kMostRadians = 13.0;      // two turns
 constexpr double kFastestRadians = 20.0;   // rad/s
-constexpr double kRanAway = 4.0;           // times as far and fast
+constexpr double kRanAway = 4.0;           // factor of the range and speed of a runaway joint
 constexpr double kMostMetres = 3.0;
 constexpr double kLeastDegrees = 2.0;                     // span of a joint that moves
-constexpr double kCarries = 2.0;                          // mean torque to its deviation
+constexpr double kCarries = 2.0;                          // mean torque by its deviation
 constexpr double kSlowestRate = 1.0, kFastestRate = 5e4;  // Hz
 constexpr double kLongestPeriod_s = 0.9;
 
@@ -44,7 +44,7 @@ bool is_length(const std::string& unit) {
 }
 
 bool is_plausible(const UnitPair& pair, const JointNumbers& joint, OtherAngles others) {
-  // A joint that ran away among others in radians is in radians, too.
+  // A runaway joint among others in radians is in radians too.
   const double most = others == OtherAngles::radians ? kRanAway : 1.0;
   const bool others_in_degrees = others == OtherAngles::degrees;
   const double span = joint.span * factor_of(pair.position),
@@ -62,7 +62,7 @@ bool is_plausible(const UnitPair& pair, const JointNumbers& joint, OtherAngles o
 
 namespace {
 
-/// Correlation of velocity and torque without its mean: friction makes it positive where both have one sign.
+/// Correlation of velocity and torque without its mean: friction makes it positive if both have one sign.
 double power_of(const std::vector<double>& dq, const std::vector<double>& tau, double mean) {
   double vv = 0.0, tt = 0.0, vt = 0.0;
   for (std::size_t i = 0; i < std::min(dq.size(), tau.size()); ++i) {
