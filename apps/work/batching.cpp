@@ -16,7 +16,7 @@
 namespace faultline {
 namespace {
 
-/// Of a folder of results that a batch writes.
+/// Adds the files that a batch writes to the folder of its results.
 void writes_batch(FileUse& files, const std::string& folder) {
   for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
     files.writes("-o", folder + "/" + name);

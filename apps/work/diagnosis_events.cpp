@@ -17,7 +17,7 @@ using ReportJson = nlohmann::json;
 constexpr const char* kSchema = "faultline/diagnosis/1";
 constexpr std::size_t kMostBytes = 256 << 20;
 
-/// "collision of joint 1 (fault 1, confidence 0.97)".
+/// Returns "collision of joint 1 (fault 1, confidence 0.97)".
 std::string fault_text(const ReportJson& fault) {
   std::string text = fault.at("kind").get<std::string>();
   if (const auto joint = fault.find("joint"); joint != fault.end() && joint->is_number())
@@ -39,8 +39,8 @@ void add_events(const ReportJson& fault, std::vector<LogEvent>& events) {
   add("end_s", "ends: ", false);
 }
 
-/// What a log without faults was found to be, at its start: an empty list of events would pass for health
-/// where there is no verdict.
+/// Adds the verdict of a log without faults at its start: an empty list of events would be taken for health
+/// even without a verdict.
 void add_verdict(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
   const auto verdict = diagnosis.find("verdict"), log = diagnosis.find("log");
   if (verdict == diagnosis.end() || log == diagnosis.end()) return;

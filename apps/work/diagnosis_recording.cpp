@@ -21,7 +21,7 @@ ComputedSignals signals_of(const char* topic, int joints, bool with_velocity) {
   return {topic, empty, with_velocity ? empty : JointSignals{}, empty};
 }
 
-/// Residuals in units of their healthy rms, that of the torque in N m or N.
+/// Predictions and residuals, the latter in units of their healthy rms, those of torque in N m or N.
 ComputedRows computed_rows(const Model& model, const Log& segment, const Residuals& residuals,
                            const RequiredTorque& torque) {
   ComputedRows computed;
@@ -47,7 +47,8 @@ ComputedRows computed_rows(const Model& model, const Log& segment, const Residua
   return computed;
 }
 
-/// The likeliest labels of a fault, "torque_loss_2", so that their names are paths of a plot.
+/// Returns the evidence of the most likely labels of a fault; names such as "torque_loss_2" are paths of a
+/// plot.
 NamedCurves evidence_of(const FaultFinding& fault) {
   NamedCurves curves;
   curves.topic = std::string(kEvidenceTopic) + "/fault_" + std::to_string(fault.id);

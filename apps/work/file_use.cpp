@@ -27,8 +27,9 @@ bool is_golden_folder(const fs::path& folder) {
   return fs::exists(folder / "golden.toml", ignored);
 }
 
-/// What faultline keeps there, of whatever model, batch or golden folder; empty for other files. A journal
-/// that is none would spoil the case base beside it, so those names are taken even where there is no file.
+/// Returns what faultline stores under this name, for any model, batch or golden folder; empty for other
+/// files. A wrong file in place of a journal would damage the case base, so these names are reserved even
+/// without a file.
 std::string kept_under(const std::string& path) {
   static const std::regex case_base(R"(.+\.cases\.db(-journal|-wal|-shm)?)"),
       golden(R"(golden\.toml|model-[0-9a-f]{8}\.json|cases-[0-9a-f]{8}\.db(-journal|-wal|-shm)?)");
@@ -147,7 +148,7 @@ void FileUse::check_folder(const Named& folder) const {
              "lies among the files that " + folder.what + " writes; give another name");
 }
 
-/// A shell may have directed it into one of the files.
+/// Checks that the shell did not redirect standard output into one of the files.
 void FileUse::check_standard_output() const {
   struct stat facts {};
   if (::fstat(STDOUT_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode)) return;

@@ -19,11 +19,11 @@
 namespace faultline {
 namespace {
 
-/// A log that lies in the folder's logs/ already stays as it is.
+/// Claims the files to record. A log that is already in the folder's logs/ is not replaced.
 void claim_files(const RecordArguments& arguments) {
   FileUse files;
   files.reads(arguments).writes_kept("-o", golden_file(arguments.folder));
-  std::set<std::string> copies;  // two logs of one name are refused later
+  std::set<std::string> copies;  // two logs of one name are rejected later
   for (const std::string& log : arguments.logs) {
     const std::string copy =
         (std::filesystem::path(arguments.folder) / "logs" / std::filesystem::path(log).filename()).string();
@@ -34,7 +34,7 @@ void claim_files(const RecordArguments& arguments) {
   files.claim();
 }
 
-/// The folder's own name, without what leads to it on this machine.
+/// Returns the folder's own name, without its path on this machine.
 std::string suite_name(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::weakly_canonical(folder);
   return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();

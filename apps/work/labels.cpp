@@ -31,7 +31,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Where the columns are.
+/// Indices of the columns.
 struct LabelColumns {
   std::size_t file, fault, joint, onset;
 };

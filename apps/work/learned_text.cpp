@@ -59,7 +59,7 @@ std::string validation_text(const Validation& validation) {
   return text;
 }
 
-/// The smallest fault of each kind and joint that would be found.
+/// Returns a table of the smallest detectable fault of each kind and joint.
 std::string reach_table(const Model& model) {
   if (model.validation.reach.empty()) return "";
   std::string text =
@@ -73,7 +73,7 @@ std::string reach_table(const Model& model) {
   return text;
 }
 
-/// What a fault must explain to be told, and the kinds that need more than most.
+/// Returns the evidence that a fault must exceed to be reported, and the kinds that need more than most.
 std::string limits_text(const EvidenceLimits& limits, const std::vector<FaultLabel>& labels) {
   double least = std::numeric_limits<double>::infinity();
   for (const FaultLabel& label : labels) least = std::min(least, limits.of(label.kind));
@@ -106,7 +106,7 @@ const char* unit_of(const SignalRelation& relation, AxisKind axis) {
   return relation.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
-/// What of the signals second residuals know, and from where on they speak.
+/// Returns the accuracy of each signal relation and the deviation from which on it detects a fault.
 std::string relations_text(const Model& model) {
   std::string text;
   for (const SignalRelation& relation : model.relations) {
@@ -143,7 +143,7 @@ std::string mechanics_text(const Learned& learned) {
          reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 
-/// What the logs and the model are to be doubted for.
+/// Returns the warnings about the logs and the model.
 std::string warnings_text(const Learned& learned) {
   std::string text;
   for (const Issue& issue : learned.identification.issues.all())

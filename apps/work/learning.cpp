@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-/// The label of a log, if there is one that this robot can have. Throws Error(usage).
+/// Returns the label of a log; nullopt for none. Throws Error(usage) for a label impossible for this robot.
 std::optional<LogLabel> checked_label(const std::vector<LogLabel>& labels, const Robot& robot,
                                       const std::string& log) {
   const LogLabel* const found = label_of(labels, log);
@@ -53,7 +53,7 @@ void check_writable(const ModelPaths& paths, const Robot& robot) {
 
 std::optional<CarriedCases> write_model(const Model& model, CaseBase& cases, const ModelPaths& paths) {
   const std::string text = model_to_json(model);
-  model_from_json(text, paths.model);  // what is written can be read
+  model_from_json(text, paths.model);  // ensures that the text can be read
   AtomicFile file(paths.model);
   file.write(text);
   std::optional<CarriedCases> carried;

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-/// The item that the user means: by its name, or without the extension when that is clear.
+/// Returns the item with the given name, or with that name without extension if it is unique.
 std::string item_named(const std::string& given, const GoldenCheck& check) {
   std::vector<std::string> stems, names;
   for (const CheckedItem& item : check.items) {
@@ -44,7 +44,7 @@ std::vector<std::string> named_items(const AcceptArguments& arguments, const Gol
   return names;
 }
 
-/// Of the named ones those that change; all do with a new model, and where reasons were not recorded yet.
+/// Returns the named items that change; all with a new model, or if reasons were not recorded yet.
 std::vector<std::string> changing(const GoldenCheck& part, bool all) {
   std::vector<std::string> names;
   for (const CheckedItem& item : part.items)
@@ -52,7 +52,7 @@ std::vector<std::string> changing(const GoldenCheck& part, bool all) {
   return names;
 }
 
-/// Of --same-verdict: what stays as it was expected.
+/// Returns, for --same-verdict, the items whose expected results stay because their verdict differs.
 std::vector<std::string> found_otherwise(const AcceptArguments& arguments, const GoldenCheck& check) {
   std::vector<std::string> names;
   for (const CheckedItem& item : check.items)

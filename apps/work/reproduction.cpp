@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-/// Pictures first, the pages that name them last.
+/// Writes pictures first, the pages that refer to them last.
 void write_reproduction(const std::filesystem::path& folder, const Reproduction& reproduction,
                         const std::string& json) {
   for (const Figure& figure : reproduction.figures)
