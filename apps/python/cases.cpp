@@ -54,7 +54,7 @@ CasesArguments arguments_from(const py::dict& given) {
   return arguments;
 }
 
-/// As JSON, as text, and what the user would not expect.
+/// Returns the result as JSON, as text, and an unexpected effect.
 std::tuple<std::string, std::string, std::string> act(const std::string& name, const py::dict& given) {
   const CasesArguments arguments = arguments_from(given);
   const py::gil_scoped_release others_run;

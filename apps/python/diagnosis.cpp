@@ -23,14 +23,14 @@ namespace {
 
 namespace py = pybind11;
 
-/// A diagnosis with what its second looks at the log need.
+/// A diagnosis with the data for further passes over the log.
 struct MadeDiagnosis {
   SharedModel model;
   std::shared_ptr<const LogHandle> log;
   DiagnoseOptions options;
   Diagnosis diagnosis;
 
-  /// Reads the log again. Throws Error(input) when it is not the one that was diagnosed any more.
+  /// Reads the log again. Throws Error(input) when it has changed since the diagnosis.
   template <typename Look>
   auto look_again(const py::object& progress, Look look) const {
     return watched(progress, [&](WorkWatch& watch) {
@@ -43,7 +43,7 @@ struct MadeDiagnosis {
   }
 };
 
-/// The one of `all` that is called so. Throws Error(usage).
+/// Returns the value of `all` with this name. Throws Error(usage).
 template <typename All>
 auto named(const char* option, const std::string& name, const All& all) {
   std::string names;
@@ -124,9 +124,9 @@ py::dict window_arrays(const CurveWindow& window) {
   return out;
 }
 
-/// {"whole": window, "faults": [window, ...], "healthy_residual": [...], "by_reference": bool,
+/// Returns {"whole": window, "faults": [window, ...], "healthy_residual": [...], "by_reference": bool,
 /// "alarm_ratio": x}; a window is {"fault_id", "start_s", "end_s", "t", "t_residual", "q1", "q1_predicted",
-/// ..., "residual1", ...} with an array a signal. Signals that the log does not have are left out.
+/// ..., "residual1", ...} with an array per signal. Signals that the log lacks are omitted.
 py::dict curve_arrays(const RunCurves& curves) {
   py::dict out;
   out["whole"] = curves.empty() ? py::dict() : window_arrays(curves.whole);

@@ -7,7 +7,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// In faultline.errors.
+/// Returns the name of the class in faultline.errors.
 const char* class_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::usage:

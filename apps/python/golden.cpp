@@ -44,7 +44,7 @@ std::string record(const std::vector<std::string>& logs, const std::string& mode
   });
 }
 
-/// As JSON and as text.
+/// The result as JSON and as text.
 using Checked = std::pair<std::string, std::string>;
 
 Checked check(const std::string& folder, const std::string& model, const std::string& cases,
@@ -61,7 +61,7 @@ Checked check(const std::string& folder, const std::string& model, const std::st
   });
 }
 
-/// What was accepted and what was not.
+/// Returns the accepted names and those not accepted.
 std::pair<std::vector<std::string>, std::vector<std::string>> accept(
     const std::string& folder, const std::vector<std::string>& names, bool all, bool same_verdict,
     const std::string& model, const std::string& cases, int threads, const py::object& progress) {

@@ -87,7 +87,7 @@ std::shared_ptr<LearnedModel> learn_logs(const Logs& logs, const std::string& ro
   return watched(progress, [&](WorkWatch& watch) { return learned_from(logs, call, watch); });
 }
 
-/// Read back from its text, as from the file.
+/// Returns the model as read from its file: converted to text and back.
 std::shared_ptr<LoadedModel> model_of(const LearnedModel& made) {
   const py::gil_scoped_release others_run;
   return std::make_shared<LoadedModel>(

@@ -93,7 +93,7 @@ WholeLog whole(const LogHandle& handle, const std::optional<Robot>& robot, bool 
   return out;
 }
 
-/// Channels in SI by name, then how they were read, as JSON.
+/// Returns the channels in SI by name, then the report of reading them, as JSON.
 py::tuple read_channels(const LogHandle& handle, const std::string& robot, bool extra,
                         const py::object& progress) {
   WholeLog read =

@@ -2,7 +2,7 @@
 #include "apps/python/bindings.hpp"
 #include "lib/core/version.hpp"
 
-/// What the package faultline stands on: thin doors to the same functions as those of the program.
+/// The compiled part of the package faultline: wrappers of the functions that the program uses.
 PYBIND11_MODULE(_faultline, module) {
   module.doc() = "Compiled part of faultline; use the package faultline.";
   module.attr("version") = faultline::program_version();

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// A column of each joint, with the unit where it turns and where it slides.
+/// Returns a port with a column per joint, with the unit for revolute or prismatic joints.
 NetworkPort of_joints(const Model& model, const std::string& name, const char* turning, const char* sliding,
                       std::string what) {
   NetworkPort port{.name = name, .what = std::move(what)};
@@ -114,7 +114,7 @@ NetworkLayout sample_layout(const Model& model, const std::string& name, std::st
   return layout;
 }
 
-/// Residuals that hold what the sample classifiers look at.
+/// Returns residuals with the data that the sample classifiers use.
 Residuals residuals_from(const Model& model, const std::vector<MatrixXd>& inputs) {
   Residuals out;
   out.row.resize(static_cast<std::size_t>(inputs.front().cols()));

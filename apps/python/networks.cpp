@@ -27,7 +27,7 @@ namespace {
 namespace py = pybind11;
 using Eigen::MatrixXd;
 using Json = nlohmann::ordered_json;
-/// A row a sample, as NumPy has it.
+/// A row per sample, as in NumPy.
 using Rows = py::array_t<double, py::array::c_style>;
 
 Json port_json(const NetworkPort& port) {
@@ -47,7 +47,7 @@ std::string layouts_json(const LoadedModel& loaded) {
   return all.dump();
 }
 
-/// Throws Error(usage).
+/// Returns the layout of the named network. Throws Error(usage).
 NetworkLayout layout_named(const Model& model, const std::string& network) {
   std::string names;
   for (NetworkLayout& layout : network_layouts(model)) {
@@ -58,7 +58,7 @@ NetworkLayout layout_named(const Model& model, const std::string& network) {
               "\"" + network + "\" is none of this model's, which are: " + (names.empty() ? "none" : names));
 }
 
-/// Columns x samples. Throws Error(usage) for another shape than that of the port.
+/// Returns columns x samples. Throws Error(usage) for another shape than that of the port.
 MatrixXd matrix_of(const NetworkPort& port, const Rows& rows) {
   const auto columns = static_cast<py::ssize_t>(port.columns.size());
   if (rows.ndim() != 2 || rows.shape(1) != columns)
@@ -151,7 +151,7 @@ py::list inputs_in(const std::shared_ptr<LoadedModel>& loaded, const std::string
   return arrays;
 }
 
-/// Files by name into the folder, which is made; all are written before the first takes its place.
+/// Writes files by name into the folder, which is created; all are complete before the first is renamed.
 std::vector<std::string> write_networks(const LoadedModel& loaded, const std::string& folder,
                                         const std::vector<std::pair<std::string, py::bytes>>& files) {
   std::vector<std::pair<std::string, std::string>> contents;

@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 constexpr auto kPause = std::chrono::milliseconds(50);
 
-/// Takes signals and tells; throws what Python raises.
+/// Handles signals and reports the progress; throws the exceptions of Python.
 void serve(const py::object& progress, WorkWatch& watch) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   const auto told = watch.take();
