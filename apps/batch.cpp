@@ -25,7 +25,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-/// Tells the bar the rate of diagnosing, and the time left at that rate.
+/// Returns a callback that shows in the bar the rate of diagnoses and the remaining time at that rate.
 std::function<void(const BatchProgress&)> progress_to(ProgressBar& bar) {
   const Progress show = bar.callback();
   if (!show) return {};
@@ -45,7 +45,7 @@ int report(const BatchSummary& summary, const std::string& folder, const std::st
   return summary.status;
 }
 
-/// Models as they were given on the command line, with the case base of the only one.
+/// Takes the models of the command line; `cases` is the case base of a single model.
 void take_models(const std::vector<std::string>& given, const std::string& cases, BatchRequest& request) {
   for (const std::string& argument : given) request.models.push_back(batch_model_of(argument));
   if (cases.empty()) return;

@@ -29,7 +29,7 @@ struct ConvertArguments {
   LogSelection parts;
 };
 
-/// ".csv (- for standard output) or .flog".
+/// Returns ".csv (- for standard output) or .flog".
 std::string written_extensions() {
   std::vector<std::string> extensions;
   for (const LogFormat& format : written_formats()) extensions.push_back(format.extensions.front());
@@ -66,7 +66,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
       .claim();
   OpenLogOptions options;
   options.parts = arguments.parts;
-  options.parts.hashed = false;  // provenance asks for it itself
+  options.parts.hashed = false;  // provenance computes it if needed
   if (!arguments.robot.empty()) {
     const LogMeaning meaning = load_robot_file(arguments.robot).log;
     options.columns = meaning.columns;

@@ -26,33 +26,33 @@ namespace {
 
 constexpr const char* kRecordingOption = "--mcap";
 
-/// A report that may be asked for.
+/// A report that the user may request.
 struct RequestedReport {
   const ReportFormat* format;
-  std::string path{};  ///< - for standard output; empty: not asked for
+  std::string path{};  ///< - for standard output; empty: not requested
 };
 
-/// Every format of reports, none asked for.
+/// Returns every format of reports, none requested.
 std::vector<RequestedReport> all_reports() {
   std::vector<RequestedReport> reports;
   for (const ReportFormat& format : report_formats()) reports.push_back({&format});
   return reports;
 }
 
-/// Adds an option for each, such as --json F. `reports` must stay where it is until the command was parsed.
+/// Adds an option for each, such as --json F. `reports` must not move until the command was parsed.
 void add_report_options(CLI::App& command, std::vector<RequestedReport>& reports) {
   for (RequestedReport& report : reports)
     add_file_option(command, std::string("--") + report.format->name, report.path,
                     std::string("Write ") + report.format->what);
 }
 
-/// Whether a report goes to standard output.
+/// True when a report goes to standard output.
 bool standard_output_is_taken(const std::vector<RequestedReport>& reports) {
   return std::any_of(reports.begin(), reports.end(),
                      [](const RequestedReport& report) { return report.path == "-"; });
 }
 
-/// Writes what was asked for; what needs a second pass over the log comes last.
+/// Writes the requested reports; those that need a second pass over the log come last.
 void write_reports(const std::vector<RequestedReport>& reports, const ReportSource& source) {
   for (const bool second_pass : {false, true})
     for (const RequestedReport& report : reports)
@@ -94,7 +94,7 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   try {
     if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
   } catch (const Error&) {
-    tell_diagnosis();  // a log that cannot be a recording, because it begins before 0, was diagnosed
+    tell_diagnosis();  // the diagnosis is valid even if the log cannot be a recording, as it begins before 0
     throw;
   }
   tell_diagnosis();

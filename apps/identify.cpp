@@ -45,14 +45,14 @@ struct IdentifyArguments {
 constexpr std::array kMethods{IdentifyMethod::automatic, IdentifyMethod::weak_form,
                               IdentifyMethod::output_error};
 
-/// The identified robot as a spec file in `spec`'s folder is to name it.
+/// Returns the path of the identified robot relative to the folder of the spec file `spec`.
 std::string robot_beside(const std::string& robot, const std::string& spec) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(spec).lexically_normal().parent_path();
   return fs::absolute(robot).lexically_normal().lexically_relative(folder).generic_string();
 }
 
-/// Writes the suggested motion; returns what there is to say of it.
+/// Writes the suggested motion; returns a sentence about it.
 std::string suggest(const Identification& id, const IdentifyArguments& arguments) {
   const SuggestedMotion motion = suggest_motion(id, {.threads = arguments.options.threads});
   write_file(arguments.suggest, suggestion_text(motion, robot_beside(arguments.output, arguments.suggest)));

@@ -27,7 +27,7 @@ struct InspectArguments {
   std::string suggest;
 };
 
-/// What the logs hold; a log that cannot be read is told on standard error and does not stop the others.
+/// Inspects the logs; an unreadable one is reported on standard error and does not stop the others.
 std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoice color, int& status) {
   std::optional<Robot> robot;
   if (!arguments.robot.empty()) robot = load_robot_file(arguments.robot);
@@ -45,7 +45,7 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
   return inspections;
 }
 
-/// Throws what a robot file that does not load would: then the guess is none.
+/// Writes the suggested robot file. Throws as loading it would; then nothing is written.
 void suggest_robot(const InspectArguments& arguments) {
   if (arguments.logs.size() != 1)
     throw Error(ErrorCode::usage, "--suggest", "takes one log; give the one that shows most motion");

@@ -18,8 +18,8 @@
 namespace faultline {
 namespace {
 
-/// Keeps freed memory instead of giving it back to the system: matrices of some MB that come and go would
-/// otherwise be cleared page by page each time, an eighth of the time of a diagnosis.
+/// Keeps freed memory instead of returning it to the system: matrices of some MB that are allocated again and
+/// again would otherwise be cleared page by page, which takes an eighth of the time of a diagnosis.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
@@ -64,7 +64,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_completion(app, program);
 }
 
-/// The innermost command that was named, with the words before it.
+/// Returns the innermost command that was named, with the words before it.
 CommandDescription selected_command(const CLI::App& app) {
   const CLI::App* command = &app;
   std::string prefix;
@@ -75,13 +75,13 @@ CommandDescription selected_command(const CLI::App& app) {
   return describe_command(*command, prefix);
 }
 
-/// The library prints the largest number there is with all its digits.
+/// Replaces a range whose upper limit the library prints as the largest double with all its digits.
 std::string without_limits_of_double(const std::string& sentence) {
   static const std::regex limits("not in range [0-9.]+ to 1[0-9]{300,}[0-9.]*");
   return std::regex_replace(sentence, limits, "is too small");
 }
 
-/// What the library says of a command line, but of a word that is unknown, what was probably meant.
+/// Returns the library's message about a command line; for an unknown word, a message with the nearest name.
 std::string about_parse_error(const CLI::App& app, const CLI::ParseError& error,
                               const std::vector<std::string>& words) {
   const CommandDescription command = selected_command(app);

@@ -34,7 +34,7 @@ void print(std::string_view text, bool color) {
   const std::string safe = outgoing(text, color);
   const bool written = std::fwrite(safe.data(), 1, safe.size(), stdout) == safe.size();
   if (written && std::fflush(stdout) == 0) return;
-  if (errno == EPIPE) {  // the reader has seen enough, as head has: end as other programs do
+  if (errno == EPIPE) {  // the reader closed the pipe, as head does: end as other programs do
     std::signal(SIGPIPE, SIG_DFL);
     std::raise(SIGPIPE);
   }
