@@ -29,7 +29,7 @@ class ByteSource {
   /// Copies up to `size` of the next bytes to `to`; 0 at the end.
   std::size_t read(char* to, std::size_t size);
   void rewind();
-  /// Of the file, once its end was reached; empty before.
+  /// SHA-256 of the file, once its end was reached; empty before.
   const std::string& sha256() const { return file_.sha256(); }
   /// Reads the rest of the file, for its hash.
   void read_to_end();

@@ -31,12 +31,12 @@ class FileBytes {
   void rewind();
   /// Closes a regular file until the next read().
   void pause();
-  /// Of all bytes, once the end was reached; empty before and if hashing is off.
+  /// SHA-256 of all bytes, once the end was reached; empty before and if hashing is off.
   const std::string& sha256() const { return sha256_; }
   double share_read() const;
   /// Bytes read since the beginning.
   std::int64_t position() const { return position_; }
-  /// Of the file in bytes, 0 for a pipe.
+  /// Size of the file in bytes, 0 for a pipe.
   std::int64_t size() const { return regular_ ? stamp_.size : 0; }
 
  private:

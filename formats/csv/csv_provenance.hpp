@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Begin of the comment line of a text table that contains its provenance.
+/// Beginning of the comment line of a text table that contains its provenance.
 inline constexpr std::string_view kProvenanceComment = "# faultline provenance: ";
 
 }  // namespace faultline

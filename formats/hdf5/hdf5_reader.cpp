@@ -55,8 +55,8 @@ constexpr rlim_t kLongest_s = 10;         ///< of a trial in a copy of this proc
   ::_exit(0);
 }
 
-/// True when `work` ends, also by an Error, in a copy of this process. The HDF5 library crashes on some
-/// damaged files; work that crashes there is not done here.
+/// True when `work` ends, also by an Error, in a copy of this process, or no copy can be made. The HDF5
+/// library crashes on some damaged files; work that crashes there is not done here.
 bool survives(const std::function<void()>& work) {
   const Hdf5Turn turn;  // so that no other thread is in the library when the copy is made
   const pid_t copy = ::fork();

@@ -9,7 +9,7 @@
 namespace faultline {
 
 /// Opens the sensor_msgs/JointState messages of a recording as a table. The joints are found in its first
-/// part; messages with other joints later are reported as issues. Throws Error(input) when there are none.
+/// part; messages with other joints later are reported as issues. Throws Error(input) without such messages.
 std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source);
 
 }  // namespace faultline

@@ -64,7 +64,7 @@ class MessageSource {
   virtual const Issues& issues() const = 0;
   /// Counts work on the message, see WorkBudget.
   virtual void spend(std::int64_t work_ns) = 0;
-  /// Of the file once its end was reached, empty before.
+  /// SHA-256 of the file once its end was reached, empty before.
   virtual const std::string& sha256() const = 0;
   virtual double share_read() const = 0;
 };

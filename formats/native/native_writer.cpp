@@ -121,7 +121,7 @@ class NativeWriter : public LogWriter {
   AtomicFile file_;
   std::size_t channels_ = 0;
   std::vector<char> out_;        ///< unwritten bytes, and the chunk that is being filled
-  std::size_t used_ = 0;         ///< begin of that chunk in out_
+  std::size_t used_ = 0;         ///< start of that chunk in out_
   std::uint32_t most_rows_ = 0;  ///< of the chunk
   std::uint32_t rows_ = 0;       ///< in it; 0 when none is being filled
   std::uint64_t rows_written_ = 0;

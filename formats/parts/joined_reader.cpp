@@ -68,7 +68,7 @@ class Partner {
   /// Writes the values of the file's columns into values[column][row], for a row of the other file with this
   /// number and time.
   void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values);
-  /// Counts the rows that were never requested; call it after the last give().
+  /// After the last give() of a join by row, counts the rows that were never requested.
   void read_rest();
   void rewind();
   /// Returns the issues of the file and of the match of its rows.

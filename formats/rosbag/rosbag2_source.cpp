@@ -68,7 +68,7 @@ std::int64_t bytes_of(const std::string& path) {
   return none ? 0 : static_cast<std::int64_t>(bytes);
 }
 
-/// Opens the file without locks; a write-ahead log of the recorder beside it is included.
+/// Returns the URI to open the file: with a recorder's write-ahead log if there is one, else without locks.
 std::string uri_of(const std::string& path) {
   std::string uri = "file:";
   for (const char c : path)
