@@ -5,7 +5,7 @@
 
 #include "lib/robot/chain.hpp"
 
-/// Units of what a joint of that kind has.
+/// Units of the quantities of a joint, by its kind.
 namespace faultline {
 
 constexpr const char* position_unit(AxisKind kind) { return kind == AxisKind::revolute ? "rad" : "m"; }
@@ -15,7 +15,7 @@ constexpr const char* viscous_unit(AxisKind kind) {
   return kind == AxisKind::revolute ? "N m s/rad" : "N s/m";
 }
 
-/// Of each joint, whether it slides.
+/// Returns for each joint whether it is prismatic.
 inline std::vector<bool> sliding_joints(const Chain& chain) {
   std::vector<bool> slides;
   for (const auto& joint : chain.geometry) slides.push_back(joint.kind == AxisKind::prismatic);

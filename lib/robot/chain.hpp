@@ -14,8 +14,8 @@ using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMa
 
 enum class AxisKind { revolute, prismatic };
 
-/// Where a joint sits. All link frames are parallel to the base frame at q = 0; link i's frame has its origin
-/// on joint i's axis. Joint i's origin in the frame of link i-1 is offset + length(i-1) * direction.
+/// Placement of a joint. All link frames are parallel to the base frame at q = 0; link i's frame has its
+/// origin on joint i's axis. Joint i's origin in the frame of link i-1 is offset + length(i-1) * direction.
 struct JointGeometry {
   AxisKind kind = AxisKind::revolute;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< unit vector, in the frame of link i-1 at q = 0
@@ -33,8 +33,8 @@ struct LinkInertia {
 
 /// F(dq) = viscous dq + coulomb tanh(dq / width) + offset + bend tanh(dq / bend_width) + skew |dq|. A
 /// negative bend is friction that falls with speed (Stribeck; Makkar et al. 2005), a positive one friction
-/// that rises ever less; the skew is viscous friction that differs by direction. Beside it a gear
-/// loses load |r| tanh(dq / width), r the torque M ddq + h + G that it carries (see extra_torque.hpp).
+/// whose slope falls with speed; the skew is viscous friction that differs by direction. In addition a gear
+/// loses load |r| tanh(dq / width), where r = M ddq + h + G is the torque that it carries (extra_torque.hpp).
 struct Friction {
   double viscous = 0.0;     ///< N m s/rad or N s/m
   double coulomb = 0.0;     ///< N m or N
@@ -46,21 +46,22 @@ struct Friction {
   double load = 0.0;        ///< share of the torque carried, below 1
 };
 
-/// Largest rise of friction with dq, near rest, of a drive that carries at most `torque`.
+/// Returns the largest slope of the friction over dq, reached near rest, in N m s/rad or N s/m, if the drive
+/// carries at most `torque` (N m or N).
 double steepest(const Friction& friction, double torque = 0.0);
 
-/// Torque that repeats with a joint's position, of its gear, motor or spindle: cosine cos(rate q) + sine
-/// sin(rate q).
+/// Torque cosine cos(rate q) + sine sin(rate q) that repeats with the position of a joint, caused by its
+/// gear, motor or spindle.
 struct Ripple {
   int joint = 0;                    ///< from 0
   double rate = 0.0;                ///< 1/rad or 1/m
   double cosine = 0.0, sine = 0.0;  ///< N m or N
 };
 
-/// A drive that turns with several joints, at the speed s = along . dq: its rotor and friction take
-/// along (rotor_inertia ds/dt + viscous s + coulomb tanh(s / width)).
+/// A drive that moves several joints, at the speed s = along . dq. Its rotor and friction take the joint
+/// torques along (rotor_inertia ds/dt + viscous s + coulomb tanh(s / width)).
 struct SharedDrive {
-  Eigen::VectorXd along;  ///< by joint
+  Eigen::VectorXd along;  ///< for each joint
   double viscous = 0.0, coulomb = 0.0, width = 0.01;
   double rotor_inertia = 0.0;  ///< kg m^2 or kg
 
@@ -69,7 +70,7 @@ struct SharedDrive {
   }
 };
 
-/// Serial chain of revolute and prismatic axes with its parameters: all that dynamics needs.
+/// Serial chain of revolute and prismatic axes with all parameters of its dynamics.
 struct Chain {
   std::vector<JointGeometry> geometry;
   std::vector<double>
@@ -84,15 +85,15 @@ struct Chain {
   int joints() const { return static_cast<int>(geometry.size()); }
 };
 
-/// Uniform thin rod from the link's origin along `direction` (unit), as in the paper.
+/// Uniform thin rod from the link's origin along `direction` (unit vector), as in the paper.
 LinkInertia uniform_rod(double mass, double length, const Eigen::Vector3d& direction);
-/// Point mass on the link's origin, as the third link of the paper's SCARA.
+/// Point mass at the link's origin, as the third link of the paper's SCARA.
 LinkInertia point_mass(double mass);
 /// Body with centre of mass `centre` (m, link frame) and inertia about that centre (kg m^2).
 LinkInertia general_body(double mass, const Eigen::Vector3d& centre,
                          const Eigen::Matrix3d& inertia_at_centre);
 
-/// A body given in a frame of its own, seen from the frame in which that one stands so.
+/// Transforms `body` from its own frame to the frame in which that frame has this rotation and position (m).
 LinkInertia seen_from(const LinkInertia& body, const Eigen::Matrix3d& rotation,
                       const Eigen::Vector3d& position);
 

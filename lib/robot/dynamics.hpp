@@ -17,7 +17,7 @@ struct LinkPose {
   Eigen::Vector3d position;  ///< origin of link i, in link i-1
 };
 
-/// That of link `i` of the chain at the position `q` of its joint.
+/// Pose of link `i` of the chain in the frame of link i-1 at the position `q` of its joint.
 LinkPose link_pose(const Chain& chain, int i, double q);
 
 /// Rigid-body torque M(q) ddq + h(q, dq) + G(q), rotors included, without friction.
@@ -26,7 +26,7 @@ JointVector rigid_body_torque(const Chain& chain, const JointVector& q, const Jo
 
 JointVector friction_torque(const Chain& chain, const JointVector& dq);
 
-/// tau = M ddq + h + G + F, F with ripples and all friction.
+/// tau = M ddq + h + G + F, where F has all friction and the ripples.
 JointVector inverse_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
                              const JointVector& ddq);
 
@@ -47,7 +47,7 @@ JointVector momentum(const Chain& chain, const JointVector& q, const JointVector
 
 double kinetic_energy(const Chain& chain, const JointVector& q, const JointVector& dq);
 
-/// Potential energy in the gravity field, zero when every centre of mass is at the base's origin.
+/// Potential energy in the gravity field; zero if every centre of mass is at the base's origin.
 double potential_energy(const Chain& chain, const JointVector& q);
 
 /// Position of the end of the last link in the base frame, m.

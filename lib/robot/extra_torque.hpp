@@ -3,26 +3,26 @@
 
 #include "lib/robot/chain.hpp"
 
-/// Torques that neither rigid bodies nor the friction of one joint alone give.
+/// Torques beside rigid-body torque and the friction of single joints: ripples, shared drives, load friction.
 namespace faultline {
 
-/// Adds ripples and the friction of drives that joints share.
+/// Adds the torque of ripples and the friction of shared drives.
 void add_extra_torque(const Chain& chain, const JointVector& q, const JointVector& dq, JointVector& torque);
 
-/// Adds the torque that rotors of drives which joints share take at the accelerations `ddq`.
+/// Adds the torque that the rotors of shared drives take at the accelerations `ddq`.
 void add_shared_rotors(const Chain& chain, const JointVector& ddq, JointVector& torque);
 
-/// Adds their inertia to M.
+/// Adds the inertia of the rotors of shared drives to M.
 void add_shared_rotors(const Chain& chain, JointMatrix& inertia);
 
-/// Friction that grows with the load: what a gear loses that carries `carried` = M ddq + h + G.
+/// Returns the load friction: the torque lost in a gear that carries `carried` = M ddq + h + G.
 double load_friction(const Friction& f, double dq, double carried);
 
-/// What a gear carries on of `torque` that loses the share `lost` of what it carries; a share below zero is
-/// of motion backwards.
+/// Returns the torque that a gear passes on of the drive's `torque` if it loses the share `lost` of the
+/// torque passed on; `lost` is negative in backward motion.
 double carried_torque(double lost, double torque);
 
-/// The same at the velocity `dq`; `torque` is the drive's less all other friction.
+/// The same at the velocity `dq`; `torque` is the drive's torque less all other friction.
 double carried_torque(const Friction& f, double dq, double torque);
 
 }  // namespace faultline

@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kFastest = 1e5;  // 1/rad or 1/m, of a ripple
+constexpr double kFastest = 1e5;  // highest rate of a ripple, 1/rad or 1/m
 
 }  // namespace
 

@@ -6,12 +6,12 @@
 #include "lib/robot/chain.hpp"
 #include "lib/robot/toml/toml_table.hpp"
 
-/// [[ripple]] and [[shared_drive]] of a robot file.
+/// The tables [[ripple]] and [[shared_drive]] of a robot file.
 namespace faultline {
 
 void read_extra_torque(const TomlTable& table, Chain& chain);
 
-/// The same as text, under `prefix` ("" or "identified."); "" when the chain has none.
+/// Returns the tables as text, under `prefix` ("" or "identified."); "" if the chain has neither.
 std::string extra_torque_text(const Chain& chain, const std::string& prefix);
 
 }  // namespace faultline

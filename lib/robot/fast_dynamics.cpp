@@ -37,7 +37,7 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
     auto [s, c] = elementary::sin_cos(angle);
     cosine[i] = c;
     sine[i] = s;
-    for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
+    for (int k = i - 1;; --k) {  // c, s: cosine and sine of theta_i - theta_k
       const Pair& pair = bodies_.pairs[k][i];
       a[k][i] = pair.alpha * c + pair.beta * s;
       const double slope = pair.beta * c - pair.alpha * s;
@@ -49,7 +49,7 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
       c = c_next;
     }
   }
-  // From absolute link angles to joints: entry (i, j) collects all bodies at or beyond both.
+  // Converts absolute link angles to joint angles: entry (i, j) sums all bodies at or beyond both joints.
   PerJoint<double> column{};  // sum over l >= j of A_kl, for each k
   double collected = 0.0;
   for (int j = revolute_ - 1; j >= 0; --j) {
@@ -86,7 +86,7 @@ void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& d
   if (!planar_) return spatial_.momentum_and_force(q, dq, momentum, force);
   momentum.resize(joints_);
   force.resize(joints_);
-  PerJoint<double> rate, of_body, push, cosine, sine;  // by revolute body, in absolute angles
+  PerJoint<double> rate, of_body, push, cosine, sine;  // of each revolute body, in absolute angles
   double w = 0.0, theta = 0.0;
   for (int i = 0; i < revolute_; ++i) {
     const int joint = revolute_joint_[i];
@@ -103,7 +103,7 @@ void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& d
     auto [s, c] = elementary::sin_cos(sign_[joint] * q[joint]);
     cosine[i] = c;
     sine[i] = s;
-    for (int k = i - 1;; --k) {  // c, s: of theta_i - theta_k
+    for (int k = i - 1;; --k) {  // c, s: cosine and sine of theta_i - theta_k
       const Pair& pair = bodies_.pairs[k][i];
       const double a = pair.alpha * c + pair.beta * s;
       const double slope = (pair.beta * c - pair.alpha * s) * rate[i] * rate[k];
@@ -117,7 +117,7 @@ void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& d
       c = c_next;
     }
   }
-  double p = 0.0, f = 0.0;  // of all bodies at or beyond a joint
+  double p = 0.0, f = 0.0;  // momentum and force of all bodies at or beyond a joint
   for (int j = revolute_ - 1; j >= 0; --j) {
     const int joint = revolute_joint_[j];
     momentum[joint] = sign_[joint] * (p += of_body[j]);

@@ -8,21 +8,21 @@
 
 namespace faultline {
 
-/// The functions of dynamics.hpp for one chain with fixed parameters, some ten times faster when all its axes
-/// are parallel (every SCARA, a planar arm, a single axis) and the same numbers to 1e-12; for any other
-/// chain SpatialDynamics computes them. Parallel axes split the problem: prismatic joints see only masses,
-/// revolute joints a planar arm, whose kinetic energy in absolute link rates w is 1/2 sum A_ij w_i w_j with
-/// A_ij = alpha_ij cos(theta_j - theta_i) + beta_ij sin(theta_j - theta_i). No heap allocation after
-/// construction; safe to share between threads.
+/// The functions of dynamics.hpp for one chain with fixed parameters, some ten times faster if all its axes
+/// are parallel (every SCARA, a planar arm, a single axis) and equal to 1e-12; SpatialDynamics computes them
+/// for any other chain. Parallel axes split the problem: prismatic joints depend on masses only, and the
+/// revolute joints form a planar arm, whose kinetic energy in absolute link rates w is 1/2 sum A_ij w_i w_j
+/// with A_ij = alpha_ij cos(theta_j - theta_i) + beta_ij sin(theta_j - theta_i). Does not allocate on the
+/// heap after construction; safe to share between threads.
 class FastDynamics {
  public:
   explicit FastDynamics(const Chain& chain);
 
   int joints() const { return joints_; }
-  /// True when the fast path is in use.
+  /// Whether all axes are parallel, so that the fast path is in use.
   bool planar() const { return planar_; }
   const Chain& chain() const { return chain_; }
-  /// Whether the torque of the bodies can depend on a joint's position or its velocity.
+  /// Whether the rigid-body torque can depend on the position or the velocity of a joint.
   bool depends_on_position(int joint) const {
     return !planar_ || (depends_on_velocity(joint) && (gravity_in_plane_ || joint != revolute_joint_[0]));
   }
@@ -35,15 +35,15 @@ class FastDynamics {
                         JointVector& bias) const;
   /// M ddq + h + G.
   JointVector body_torque(const JointVector& q, const JointVector& dq, const JointVector& ddq) const;
-  /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G, without what
-  /// joints share.
+  /// Momentum M dq and the part dT/dq - G of its rate that is neither motor torque nor friction, both without
+  /// shared drives.
   void momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
                           JointVector& force) const;
   /// F(dq).
   void friction(const JointVector& dq, JointVector& torque) const;
-  /// All that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
+  /// Torque that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
   void drag(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& torque) const;
-  /// ddq = M^-1 (tau - drag - h - G). Joints whose bit is set in `locked` (bit 0 the first) do not
+  /// ddq = M^-1 (tau - drag - h - G). Joints whose bit is set in `locked` (bit 0 is the first joint) do not
   /// accelerate.
   void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& ddq,
                     unsigned locked = 0) const;
@@ -54,13 +54,13 @@ class FastDynamics {
   struct Pair {
     double alpha, beta;
   };
-  /// What of the fast path depends on the masses, linear in masses, first moments and inertias; only the
+  /// The mass-dependent terms of the fast path, linear in masses, first moments and inertias; only the
   /// entries of the chain's joints are set.
   struct Bodies {
     PerJoint<double> diagonal;       ///< A_ii of each revolute body
     PerJoint<PerJoint<Pair>> pairs;  ///< A_ij, i < j
     PerJoint<Pair> gravity;  ///< gravity torque on revolute body i: alpha cos theta_i + beta sin theta_i
-    PerJoint<double> carried_mass;  ///< of the joint's link and all beyond
+    PerJoint<double> carried_mass;  ///< of the joint's link and all links beyond it
     PerJoint<double> weight;        ///< gravity force on a prismatic joint
     PerJoint<double> rotor_inertia;
   };
@@ -73,19 +73,19 @@ class FastDynamics {
   int joints_ = 0;
   bool planar_ = false;
   bool has_friction_ = false;
-  bool has_extra_ = false;  ///< ripples, load friction or friction that joints share
+  bool has_extra_ = false;  ///< ripples, load friction or shared drives
   bool gravity_in_plane_ = false;
   int revolute_ = 0;
   int prismatic_ = 0;
   PerJoint<int> revolute_joint_{};
   PerJoint<int> prismatic_joint_{};
-  SpatialDynamics spatial_;  ///< where not planar_
-  PerJoint<double> sign_{};  ///< of each joint's axis along the common normal
+  SpatialDynamics spatial_;  ///< used if not planar_
+  PerJoint<double> sign_{};  ///< 1 if the joint's axis points along the common normal, -1 if against it
   Bodies bodies_{};
 };
 
-/// Solves a x = b for a symmetric positive definite n x n matrix (column-major, destroyed) by LDL^T; x over
-/// b. A row whose bit is set in `fixed` is left out, and its x is 0.
+/// Solves a x = b for a symmetric positive definite n x n matrix (column-major, overwritten) by LDL^T; x
+/// overwrites b. Excludes the rows whose bit is set in `fixed`; their x is 0.
 void solve_small(int n, double* a, double* b, unsigned fixed = 0);
 
 }  // namespace faultline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What FastDynamics works out once for a chain; its equations at a state are in fast_dynamics.cpp.
+// Computes the constants of FastDynamics for a chain; fast_dynamics.cpp evaluates its equations at a state.
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -17,12 +17,12 @@ bool has_parallel_axes(const Chain& chain) {
   return true;
 }
 
-/// The bodies that turn as one with a revolute joint, seen along the normal, about that joint.
+/// The bodies that turn rigidly with a revolute joint, projected along the normal, about that joint.
 struct PlanarBody {
   double mass = 0.0;
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();
   double inertia = 0.0;
-  Eigen::Vector2d reach = Eigen::Vector2d::Zero();  ///< to the next revolute joint
+  Eigen::Vector2d reach = Eigen::Vector2d::Zero();  ///< vector to the next revolute joint
 };
 
 }  // namespace
@@ -46,7 +46,7 @@ void FastDynamics::set_up_planar(const Eigen::Vector3d& normal) {
   const Eigen::Vector3d u = normal.unitOrthogonal();
   plane << u.transpose(), normal.cross(u).transpose();
   PerJoint<PlanarBody> bodies{};
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  // of the link's frame on its body
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  // origin of the link's frame on its planar body
   for (int i = 0; i < joints_; ++i) {
     const JointGeometry& joint = chain_.geometry[i];
     sign_[i] = joint.axis.dot(normal) > 0.0 ? 1.0 : -1.0;

@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 constexpr double kMostLeastSize =
-    10.0;  // times what is usual: beyond it a kind of fault would be switched off
+    10.0;  // times the usual value: a larger share would switch the fault kind off
 
 FaultKind kind_at(std::size_t i) { return static_cast<FaultKind>(i); }
 

@@ -9,9 +9,9 @@
 
 namespace faultline {
 
-/// How small a change of each kind may be and still be reported as a fault ([least_size] of the robot file):
-/// share of what is usual for the joint or the robot (usual_of()), 0 for any size. The defaults are those of
-/// the catalogue (FaultDescription::least_size).
+/// Smallest change of each kind that is reported as a fault ([least_size] of the robot file), as a share of
+/// the usual value of the joint or the robot (usual_of()); 0 reports any size. The defaults are those of the
+/// catalogue (FaultDescription::least_size).
 struct LeastSizes {
   std::array<double, kFaultKinds> share;
 
@@ -20,9 +20,9 @@ struct LeastSizes {
   bool operator==(const LeastSizes&) const = default;
 };
 
-/// [least_size]; what it leaves out keeps its default. Fails as TomlTable does.
+/// Reads [least_size]; absent keys keep their defaults. Fails as TomlTable does.
 LeastSizes least_sizes_from_table(const TomlTable& table);
-/// [least_size]; "" where all is as by default.
+/// Returns the section [least_size]; "" if all sizes have their defaults.
 std::string least_sizes_text(const LeastSizes& sizes);
 
 }  // namespace faultline

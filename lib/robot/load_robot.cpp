@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-/// No TOML begins so.
+/// Whether the text begins with "<", as no TOML does.
 bool is_xml(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '<';

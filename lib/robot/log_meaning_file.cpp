@@ -15,7 +15,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kSingular = 1e-9;  ///< smallest to largest singular value
+constexpr double kSingular =
+    1e-9;  ///< least ratio of smallest to largest singular value of a regular coupling
 
 ColumnSpec column_spec(const TomlTable& table) {
   ColumnSpec spec;
@@ -59,7 +60,7 @@ Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
   return matrix;
 }
 
-/// Which messages of a recording are the log, where it differs from `choice`.
+/// Returns `choice` with the values that [log] sets for the messages of a recording.
 RecordingChoice read_recording(const TomlTable& log, int joints, RecordingChoice choice) {
   choice.topic = log.text("topic", choice.topic);
   if (log.has("time")) choice.time = log.choice_of("time", {MessageTime::header, MessageTime::receipt});
@@ -72,8 +73,8 @@ RecordingChoice read_recording(const TomlTable& log, int joints, RecordingChoice
   return choice;
 }
 
-/// The columns of all joints at once: "#" in the name stands for the joint's number, of which the first is
-/// `first`.
+/// Reads the columns of all joints from one key: "#" in the name stands for the joint's number, which starts
+/// at `first`.
 void read_family(const TomlTable& columns, const std::string& family, int joints, ColumnMap& map) {
   ColumnSpec pattern;
   std::int64_t first = 1;
@@ -112,7 +113,7 @@ void read_columns(const TomlTable& columns, int joints, ColumnMap& map) {
   }
 }
 
-/// What the table says takes the place of what `meaning` says.
+/// Overwrites in `meaning` the values that the table sets.
 void read_meaning(const TomlTable& log, int joints, LogMeaning& meaning) {
   if (log.has("torque"))
     meaning.torque =

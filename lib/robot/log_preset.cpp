@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".toml";
 
-/// The folder of the user's own; empty when there is none.
+/// The folder of the user's own presets; empty if there is none.
 fs::path own_folder() {
   const char* own = std::getenv("FAULTLINE_PRESETS");
   return own ? own : "";
 }
 
-/// Names of all presets, sorted.
+/// Returns the names of all presets, sorted and joined by commas.
 std::string presets_there_are() {
   std::vector<std::string> names;
   for (const KnownPreset& preset : known_presets()) names.push_back(preset.name);

@@ -8,19 +8,19 @@
 
 namespace faultline {
 
-/// A file of formats/presets, as it was when the program was built.
+/// A file of formats/presets, with its content at build time.
 struct KnownPreset {
   std::string name;  ///< such as "ur-rtde"
   std::string text;  ///< TOML
 };
 
-/// Sorted by name. A part of the program, so that they are found wherever it was installed or copied to.
+/// Presets sorted by name. They are compiled in, so they need no installed files.
 const std::vector<KnownPreset>& known_presets();
 
-/// The file of a preset that `table` names under `key`: what the columns of a common recorder mean. A name
-/// such as "ur-rtde" is looked for in the folder that the environment variable FAULTLINE_PRESETS names, then
-/// among those that are built in; a text that ends in .toml is a path. Throws Error(usage) naming those there
-/// are.
+/// Returns the preset that `table` names under `key`: the meaning of the columns of a common recorder. Looks
+/// for a name such as "ur-rtde" in the folder that the environment variable FAULTLINE_PRESETS names, then
+/// among the built-in presets; takes a text that ends in .toml as a path. Throws Error(usage) that lists the
+/// available presets.
 TomlTable load_log_preset(const TomlTable& table, const std::string& key);
 
 }  // namespace faultline

@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// The one of `known` nearest to `word` by edit distance, or "" when none is near enough to be a misspelling.
+/// The word of `known` nearest to `word` by edit distance, or "" if none is near enough for a misspelling.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace faultline

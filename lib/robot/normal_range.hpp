@@ -8,25 +8,25 @@
 
 namespace faultline {
 
-/// How far a healthy robot may be from the one that was identified, on another day and within a day ([normal]
-/// of the robot file). The defaults suit an ordinary machine; learning widens what its healthy logs show to
-/// be wider. Ranges are two standard deviations to either side.
+/// How far a healthy robot may deviate from the identified one, on another day and within a day ([normal] of
+/// the robot file). The defaults suit an ordinary machine; learning widens a range if the healthy logs show a
+/// wider one. Ranges are two standard deviations to either side.
 struct NormalRange {
   double friction = 0.3;          ///< share of each joint's friction: temperature, grease, load
   double torque_constant = 0.02;  ///< share of the drive's torque: temperature of the magnets
   double torque_offset = 0.01;    ///< share of the largest torque
-  /// Share of the largest torque that the equations of motion miss at the least, for some hundredths of a
-  /// second each time: ripple, springs, friction of another shape, stamps a sample late.
+  /// Least error of the equations of motion, as a share of the largest torque, correlated over some
+  /// hundredths of a second: ripple, springs, friction of another shape, time stamps late by a sample.
   double model_error = 0.005;
-  std::array<double, 2> noise = {0.5, 2.0};  ///< times the measurement noise of the healthy logs
-  double work_piece_kg = 0.0;  ///< mass that is picked up and put down; 0 to learn whether one is
+  std::array<double, 2> noise = {0.5, 2.0};  ///< factors on the measurement noise of the healthy logs
+  double work_piece_kg = 0.0;  ///< mass that is picked up and put down; 0: estimated from the logs
 
   bool operator==(const NormalRange&) const = default;
 };
 
-/// [normal]; what it leaves out keeps its default. Fails as TomlTable does.
+/// Reads [normal]; absent keys keep their defaults. Fails as TomlTable does.
 NormalRange normal_range_from_table(const TomlTable& normal);
-/// [normal]; "" where all is as by default.
+/// Returns the section [normal]; "" if all ranges have their defaults.
 std::string normal_range_text(const NormalRange& normal);
 
 }  // namespace faultline

@@ -44,7 +44,7 @@ bool set_parameter(Robot& robot, const std::string& name, double value) {
     link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
   } else if (robot.shapes[i] == LinkShape::point && what == "m") {
     link = point_mass(value);
-  } else if (what == "m") {  // a general body of the same shape: everything scales with the mass
+  } else if (what == "m") {  // a general body keeps its shape: everything scales with the mass
     const double ratio = link.mass > 0.0 ? value / link.mass : 0.0;
     link = {value, ratio * link.first_moment, ratio * link.inertia};
   }

@@ -10,11 +10,12 @@
 namespace faultline {
 namespace {
 
-constexpr int kStates = 6;            // that torques are compared in
-constexpr double kOnePayload = 1e-9;  // 1 - cosine between torques of two payloads that are one
-constexpr double kUnfelt_Nm = 1e-9;   // of 1 kg
+constexpr int kStates = 6;            // random states in which the torques of payloads are compared
+constexpr double kOnePayload = 1e-9;  // 1 - cosine between torques below which two payloads count as one
+constexpr double kUnfelt_Nm =
+    1e-9;  // torque of 1 kg, in all states, below which a payload is not identifiable
 
-/// Torques that 1 kg at the end of a link takes in some states, one after another.
+/// Returns the torques that 1 kg at the end of a link takes in kStates states, one state after the other.
 Eigen::VectorXd torques_of_payload(const Chain& chain, int link) {
   const int n = chain.joints();
   Chain alone = chain;

@@ -8,16 +8,16 @@
 
 namespace faultline {
 
-/// The end of link `link` (from 0) in its own frame, m: where the next joint sits; of the last link the tip,
-/// which is its origin where it slides.
+/// End of link `link` (from 0) in its own frame, m: the origin of the next joint; for the last link the tip,
+/// which is the link's origin if its joint is prismatic.
 Eigen::Vector3d link_end(const Chain& chain, int link);
 
-/// The chain with a point mass of `kg` more (negative: less) at the end of link `link` (from 0).
+/// Returns the chain with `kg` added (negative: removed) as a point mass at the end of link `link` (from 0).
 Chain with_payload(const Chain& chain, int link, double kg);
 
-/// Links (from 0) at whose end a mass takes a torque of some joint that no mass at the end of a later link
-/// takes: those whose payload a log can show. The end of a link that lies on all axes before it, and two ends
-/// that are one point, show no difference.
+/// Returns the links (from 0) whose payload a log can distinguish: a mass at the link's end takes torque in
+/// some joint, and not in proportion to the torque of a mass at the end of a later link. A link whose end
+/// lies on all axes before it, or coincides with the end of a later link, is left out.
 std::vector<int> payload_links(const Chain& chain);
 
 }  // namespace faultline

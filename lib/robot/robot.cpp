@@ -11,7 +11,7 @@ namespace faultline {
 
 namespace {
 
-/// A last R right on a P, behind an arm of two R or more, turns a tool and reaches nowhere: RRPR.
+/// Whether the last R directly after a P, behind an arm of two or more R, is a tool's wrist, as in RRPR.
 bool ends_in_wrist(const std::string& axes) {
   return axes.ends_with("PR") && std::count(axes.begin(), axes.end(), 'R') > 2;
 }
@@ -37,7 +37,7 @@ Robot preset_robot(const std::string& axes) {
   for (std::size_t i = 0; i < count; ++i) {
     JointGeometry joint;
     joint.kind = axes[i] == 'R' ? AxisKind::revolute : AxisKind::prismatic;
-    // A prismatic axis carries the next joint on its own line; the tool's wrist (a last R after P) too.
+    // A prismatic axis carries the next joint on its own line, also the tool's wrist (a last R after P).
     if (i == 0 || axes[i - 1] == 'P') joint.direction.setZero();
     robot.chain.geometry.push_back(joint);
     robot.shapes.push_back(i + 1 == count && ends_in_wrist(axes) ? LinkShape::general
@@ -69,7 +69,7 @@ void set_tip(Robot& robot, const Eigen::Vector3d& tip) {
   if (reach == 0.0 || last.kind == AxisKind::prismatic) return;
   const Eigen::Vector3d direction = tip / reach;
   if (robot.joints() > 1)
-    last.direction = direction;  // the link before has no length: the joint stays where it is
+    last.direction = direction;  // the link before has no length: the joint does not move
   else if (direction != Eigen::Vector3d::UnitX())
     return;
   robot.chain.length.back() = reach;

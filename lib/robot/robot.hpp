@@ -13,43 +13,43 @@
 
 namespace faultline {
 
-/// How a link's mass is distributed, which decides what its mass and length say about its inertia.
+/// How a link's mass is distributed, which decides how its mass and length determine its inertia.
 enum class LinkShape {
   rod,      ///< uniform thin rod along the link (the paper's links 1 and 2)
-  point,    ///< on the joint's origin (the paper's link 3)
+  point,    ///< at the joint's origin (the paper's link 3)
   general,  ///< mass, centre and inertia are free
 };
 
-/// A fact the user states in the robot file; std 0 means exact.
+/// A value that the user states in the robot file; std 0 means exact.
 struct KnownValue {
   double value = 0.0;
   double std = 0.0;
 };
 
 enum class TorqueMeaning { commanded, measured, current };
-/// What the torque did between two samples of the log.
+/// Course of the torque between two samples of the log.
 enum class TorqueTiming { held, linear, unknown };
 
-/// What the columns of this robot's logs mean ([log] of the robot file).
+/// Meaning of the columns of this robot's logs ([log] of the robot file).
 struct LogMeaning {
   TorqueMeaning torque = TorqueMeaning::commanded;
   TorqueTiming torque_between_samples = TorqueTiming::unknown;
   ColumnMap columns;
   RecordingChoice recording{};
-  /// C of drives that move more than one joint, n x n and regular: q = C q_logged (see coupled()); 0 x 0 when
-  /// each drive moves its own joint.
+  /// C of drives that move more than one joint, n x n and regular: q = C q_logged (see coupled()); 0 x 0 if
+  /// each drive moves its own joint only.
   Eigen::MatrixXd coupling;
 };
 
-/// A robot as its file describes it: geometry and whatever of its parameters is known so far.
+/// A robot as its file describes it: geometry and the known or identified parameters.
 struct Robot {
   std::string name;
   std::string axes;  ///< parallel axes such as "RRP", base to tip; "" for a chain given axis by axis
   Chain chain;
   std::vector<LinkShape> shapes;
-  /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.. and fc1.. (viscous and Coulomb
-  /// friction), fo1.. (friction offset), fl1.. (friction's share of the load), jr1.. (rotor inertia seen at
-  /// the joint). They are also set in `chain`.
+  /// Facts by parameter name, joints from 1: m1.. (kg), l1.. (m), fv1.., fc1.., fo1.., fb1.., fs1.., fl1..
+  /// (viscous, Coulomb, offset, bend, skew and load of Friction), jr1.. (rotor inertia seen at the joint).
+  /// They are also set in `chain`.
   std::map<std::string, KnownValue> known;
   /// Known mass carried at the tip (kg) during single logs, by the log's file name without folders.
   std::map<std::string, KnownValue> payloads;
@@ -57,13 +57,14 @@ struct Robot {
   bool identified = false;
   /// Identified timing of the torque: over a sample it was tau_k + phi (tau_k+1 - tau_k). 0 is held.
   std::optional<double> torque_phi;
-  /// Identified, by joint: how much later the torque acts than it is logged, in whole samples of the logs it
-  /// was identified from; s. Empty when all act when they are logged.
+  /// Identified for each joint: delay from the logged torque to its action, in s, a whole number of samples
+  /// of the identified logs. Empty if there is no delay.
   std::vector<double> torque_delay_s;
-  /// Identified, by joint: true torque of each one logged, beside the units of the columns. Empty when all 1.
+  /// Identified for each joint: ratio of true to logged torque, beside the units of the columns. Empty if all
+  /// are 1.
   std::vector<double> torque_gain;
-  /// Identified, by joint: how far its gear gives way between drive and link, rad/(N m) or m/N. Empty when
-  /// all are rigid. The equations of motion here are those of rigid gears.
+  /// Identified for each joint: compliance of the gear between drive and link, rad/(N m) or m/N. Empty if all
+  /// gears are rigid. The equations of motion of this library assume rigid gears.
   std::vector<double> gear_compliance;
   LogMeaning log;
   NormalRange normal;
@@ -75,23 +76,23 @@ struct Robot {
 /// Whether the text is 1 to kMaxJoints letters R and P.
 bool is_order_of_axes(const std::string& text);
 
-/// Parallel axes in any order, base to tip, such as "RRP", "RPRR" or "R": R turns about z, P slides along z.
-/// An R link reaches along x to the next joint, a P link carries the next joint on its own line. R links are
-/// rods, P links points; a last R right behind P, with two or more R before it, is a tool's wrist of general
-/// shape. Lengths 1 m, masses 1 kg, no friction, gravity along -z; the arm moves in a vertical plane when the
-/// gravity given lies in that plane. Throws Error(usage) when the text is no order of axes.
+/// Returns a robot with parallel axes in any order, base to tip, such as "RRP", "RPRR" or "R": R turns about
+/// z, P slides along z. An R link reaches along x to the next joint; a P link carries the next joint on its
+/// own line. R links are rods, P links points; a last R directly after P, with two or more R before it, is a
+/// tool's wrist of general shape. Lengths 1 m, masses 1 kg, no friction, gravity along -z; to move the arm in
+/// a vertical plane, set a gravity within that plane. Throws Error(usage) if the text is no order of axes.
 Robot preset_robot(const std::string& axes);
 
-/// Unit vector along link i in its own frame: towards the next joint, or along x for a link that says
-/// nothing.
+/// Unit vector along link i in its own frame: towards the next joint, or along x if the link has no
+/// direction.
 Eigen::Vector3d link_direction(const Robot& robot, int i);
 
-/// Puts the tip at `tip` (m, in the last link's frame at q = 0) of a chain whose joints sit by their offsets
-/// alone, all lengths 0. A chain tells only of tips beyond a last joint that turns and, with a single joint,
-/// along x; any other leaves the tip on the last joint.
+/// Sets the tip (m, in the last link's frame at q = 0) of a chain whose joints are placed by offsets alone,
+/// all lengths 0. A chain can hold a tip only beyond a revolute last joint and, if that is the only joint,
+/// along x; any other tip is ignored: it stays at the last joint.
 void set_tip(Robot& robot, const Eigen::Vector3d& tip);
 
-/// Sets the links of `robot` whose shape is rod or point from masses (kg) and lengths (m), one each a joint.
+/// Sets the links of `robot` of shape rod or point from masses (kg) and lengths (m), one for each joint.
 void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
                             const std::vector<double>& lengths);
 

@@ -16,9 +16,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kMostLoad = 0.9;  // of a drive's torque that its friction may take
+constexpr double kMostLoad = 0.9;  // highest share of a drive's torque that load friction may take
 
-/// [[joint]] without `axes`: every axis from its table.
+/// Builds a chain without `axes`: every axis from its [[joint]] table.
 Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& joints) {
   if (joints.empty())
     table.fail(
@@ -47,7 +47,7 @@ Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& jo
   return robot;
 }
 
-/// Axis, offset and direction of the joints whose tables say something of them.
+/// Reads axis, offset and direction from the tables of the joints that give them.
 void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     JointGeometry& geometry = robot.chain.geometry[i];
@@ -90,7 +90,7 @@ void read_link(Robot& robot, int i, const TomlTable& table) {
   }
 }
 
-/// [[link]]: lengths, masses and shapes, or those of a chain of which nothing is said.
+/// Reads [[link]]: lengths, masses and shapes; without [[link]], keeps those of `axes` or sets defaults.
 void read_links(Robot& robot, const TomlTable& table) {
   const auto links = table.tables("link");
   if (!links.empty() && static_cast<int>(links.size()) != robot.joints())

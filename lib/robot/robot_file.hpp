@@ -10,22 +10,22 @@
 namespace faultline {
 
 /// Reads a robot file, TOML (docs/robot-file.md) or URDF (docs/urdf.md); a relative path counts from
-/// `folder`. Where there is no file of that name, an order of axes such as "RRP" stands for the robot whose
-/// file says only that. Throws Error(usage) naming file, line, key, what was found and what was expected;
-/// Error(input) when the file cannot be read or is no URDF of a serial chain.
+/// `folder`. If there is no file of that name, an order of axes such as "RRP" gives preset_robot() of it.
+/// Throws Error(usage) naming file, line, key, what was found and what was expected; Error(input) if the file
+/// cannot be read or is no URDF of a serial chain.
 Robot load_robot_file(const std::string& name, const std::string& folder = "");
 
-/// A robot file from its text; `where` names it in errors.
+/// Reads a robot from the text of a robot file; `where` names it in errors.
 Robot robot_from_toml(const std::string& text, const std::string& where);
 
-/// The same from a table inside another option file, such as [robot] of a simulation spec.
+/// Reads a robot from a table inside another option file, such as [robot] of a simulation spec.
 Robot robot_from_table(const TomlTable& table);
 
-/// The robot as a robot file that loads again as the same values, bit for bit. An identified robot has its
-/// parameters in [identified].
+/// Returns the robot as the text of a robot file, which loads again as the same values, bit for bit. The
+/// parameters of an identified robot stand in [identified].
 std::string robot_file_text(const Robot& robot);
 
-/// The robot as the name of the file wants it: URDF for .urdf, a robot file for any other.
+/// Returns the robot in the format of the path's extension: URDF for .urdf, a robot file for any other.
 std::string robot_text_for(const std::string& path, const Robot& robot);
 
 }  // namespace faultline

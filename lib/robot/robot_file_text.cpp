@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-/// The parts of friction that few joints have.
+/// Returns the friction terms that are 0 for most joints (bend, skew, load), if they are not 0.
 std::string rare_friction_text(const Friction& f, const char* separator) {
   std::string text;
   if (f.bend != 0.0 || f.skew != 0.0)
@@ -34,7 +34,7 @@ std::string toml_joint(const Robot& robot, int i) {
   text += fmt::format("kind = \"{}\"\n", to_string(joint.kind));
   text += fmt::format("axis = {}\noffset = {}\n", toml_numbers(joint.axis), toml_numbers(joint.offset));
   if (!joint.direction.isZero()) text += fmt::format("direction = {}\n", toml_numbers(joint.direction));
-  if (robot.identified) return text;  // [identified] has the rest
+  if (robot.identified) return text;  // [identified] holds the other values
   text += fmt::format("friction = {{viscous = {}, coulomb = {}, offset = {}, width = {}{}}}\n",
                       toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.offset),
                       toml_number(f.width), rare_friction_text(f, ", "));
@@ -45,7 +45,7 @@ std::string toml_link(const Robot& robot, int i) {
   const LinkInertia& link = robot.chain.links[i];
   const LinkShape shape = robot.shapes[i];
   std::string text = fmt::format("\n[[link]]\nshape = \"{}\"\n", to_string(shape));
-  if (robot.identified) return text;  // [identified] has the rest
+  if (robot.identified) return text;  // [identified] holds the other values
   text += fmt::format("mass = {}\nlength = {}\n", toml_number(link.mass), toml_number(robot.chain.length[i]));
   if (shape == LinkShape::general)
     text += fmt::format("first_moment = {}\ninertia_at_joint = {}\n", toml_numbers(link.first_moment),

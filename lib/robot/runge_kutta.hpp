@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Moves `q` and `dq` on by `h` seconds with one Runge-Kutta step of fourth order. `acceleration(after, q,
+/// Advances `q` and `dq` by `h` seconds with one Runge-Kutta step of fourth order. `acceleration(after, q,
 /// dq, ddq)` writes the acceleration at a state `after` seconds from the start; `a1` is the one at the start.
 template <typename Vector, typename Acceleration>
 void runge_kutta_step(double h, const Vector& a1, const Acceleration& acceleration, Vector& q, Vector& dq) {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A velocity, an acceleration or an axis: of the turn, and of the body's point at the origin.
+/// A velocity, an acceleration or an axis: its rotational part, and that of the body's point at the origin.
 struct Motion {
   Vector3d turn, point;
 };
@@ -22,7 +22,7 @@ struct Wrench {
   Vector3d force, moment;
 };
 
-/// A body in the base frame, its first moment and inertia about the origin.
+/// A body in the base frame; first moment and inertia about the origin.
 struct Body {
   double mass;
   Vector3d first;
@@ -62,7 +62,7 @@ double power(const Motion& axis, const Wrench& w) {
 
 }  // namespace
 
-/// By joint, in the base frame: its axis, its link and how that moves.
+/// For each joint, in the base frame: its axis, the velocity of its link, and the link's body.
 struct SpatialDynamics::Bodies {
   std::array<Motion, kMaxJoints> axis, speed;
   std::array<Body, kMaxJoints> body;
@@ -79,7 +79,7 @@ SpatialDynamics::SpatialDynamics(const Chain& chain) : joints_(chain.joints()), 
 SpatialDynamics::Bodies SpatialDynamics::in_base(const JointVector& q, const JointVector& dq) const {
   Bodies out;
   Matrix3d rotation = Matrix3d::Identity();
-  Vector3d position = Vector3d::Zero();  // from the first joint
+  Vector3d position = Vector3d::Zero();  // from the first joint, in the base frame
   Motion speed{Vector3d::Zero(), Vector3d::Zero()};
   for (int i = 0; i < joints_; ++i) {
     const Link& link = link_[i];
@@ -134,7 +134,8 @@ void SpatialDynamics::momentum_and_force(const JointVector& q, const JointVector
   const Bodies at = in_base(q, dq);
   momentum.resize(joints_);
   force.resize(joints_);
-  Wrench moves{Vector3d::Zero(), Vector3d::Zero()}, weighs = moves;  // of all bodies at or beyond a joint
+  Wrench moves{Vector3d::Zero(), Vector3d::Zero()},
+      weighs = moves;  // momentum and weight of all bodies at or beyond a joint
   for (int i = joints_ - 1; i >= 0; --i) {
     add(at.body[i] * at.speed[i], moves);
     add({at.body[i].mass * gravity_, at.body[i].first.cross(gravity_)}, weighs);

@@ -8,9 +8,9 @@
 namespace faultline {
 
 /// M(q), h(q, dq) + G(q) and the momentum of a chain with any axes, in half the time of the recursions of
-/// dynamics.hpp and the same numbers to 1e-12: all bodies are brought to the base frame once, where composite
-/// bodies are sums and nothing has to be carried from link to link (Featherstone, Rigid Body Dynamics
-/// Algorithms, 2008, chapters 2 and 6). Without what joints share. No heap allocation; safe to share between
+/// dynamics.hpp and equal to 1e-12: transforms all bodies to the base frame once, in which composite bodies
+/// are sums and nothing has to be carried from link to link (Featherstone, Rigid Body Dynamics Algorithms,
+/// 2008, chapters 2 and 6). Without shared drives. Does not allocate on the heap; safe to share between
 /// threads.
 class SpatialDynamics {
  public:
@@ -19,7 +19,7 @@ class SpatialDynamics {
 
   void inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
                         JointVector& bias) const;
-  /// Momentum M dq and the part of its rate that is neither motor nor friction, dT/dq - G.
+  /// Momentum M dq and the part dT/dq - G of its rate that is neither motor torque nor friction.
   void momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
                           JointVector& force) const;
 

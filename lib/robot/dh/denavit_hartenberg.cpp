@@ -24,8 +24,8 @@ Eigen::Isometry3d dh_transform(const DhRow& row, DhConvention convention) {
 DhGeometry dh_geometry(const std::vector<AxisKind>& kinds, const std::vector<DhRow>& rows,
                        DhConvention convention) {
   DhGeometry geometry;
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  // of the table, in the base frame at q = 0
-  Eigen::Vector3d last = Eigen::Vector3d::Zero();           // origin of the joint before
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  // the table's frame in the base frame at q = 0
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();           // origin of the joint before, in the base frame
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Eigen::Isometry3d next = frame * dh_transform(rows[i], convention);
     const Eigen::Isometry3d& own = convention == DhConvention::standard ? frame : next;

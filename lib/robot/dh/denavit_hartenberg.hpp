@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// Whose rows a Denavit-Hartenberg table holds. With Rx, Rz turns and Tx, Tz shifts along x and z:
+/// Convention of a Denavit-Hartenberg table. Rx, Rz are turns about and Tx, Tz shifts along x and z.
 enum class DhConvention {
   standard,  ///< from frame i-1 to i: Rz(theta) Tz(d) Tx(a) Rx(alpha); joint i moves about or along z of i-1
   modified,  ///< Rx(alpha) Tx(a) Rz(theta) Tz(d); joint i moves about or along z of i (Craig)
@@ -22,19 +22,19 @@ struct DhRow {
   double theta = 0.0;  ///< rad
 };
 
-/// The transform of a row at q = 0.
+/// Returns the pose of the row's frame in the frame before it, at q = 0.
 Eigen::Isometry3d dh_transform(const DhRow& row, DhConvention convention);
 
-/// Where the joints sit that a table describes, and the tip.
+/// Placement of the joints and of the tip, as a table describes them.
 struct DhGeometry {
-  /// Origins on the z axes of the table's frames, in their coordinates at q = 0 turned parallel to the base:
-  /// of frame i-1 for joint i of a standard table, of frame i for a modified one. `direction` is zero.
+  /// Origins on the z axes of the table's frames, of frame i-1 for joint i of a standard table and of frame i
+  /// for a modified one, in link frames parallel to the base at q = 0. `direction` is zero.
   std::vector<JointGeometry> joints;
-  /// From the last joint's origin to that of the table's last frame at q = 0, m.
+  /// Vector from the last joint's origin to the origin of the table's last frame at q = 0, m.
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();
 };
 
-/// `kinds` and `rows` base to tip, one each a joint.
+/// `kinds` and `rows` have one entry for each joint, base to tip.
 DhGeometry dh_geometry(const std::vector<AxisKind>& kinds, const std::vector<DhRow>& rows,
                        DhConvention convention);
 

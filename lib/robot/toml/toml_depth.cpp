@@ -6,8 +6,8 @@
 namespace faultline {
 namespace {
 
-/// Behind the text in quotes that begins at `at`. Quotes that never close go to the end of the line, or of
-/// the text where three of them opened.
+/// Returns the position after the quoted text that begins at `at`. A quote that is not closed ends with its
+/// line, an open triple quote with the text.
 std::size_t after_quotes(std::string_view toml, std::size_t at) {
   const char quote = toml[at];
   const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
@@ -18,7 +18,7 @@ std::size_t after_quotes(std::string_view toml, std::size_t at) {
     } else if (long_text && toml.substr(at, 3) == three) {
       at += 3;
       for (int i = 0; i < 2 && at < toml.size() && toml[at] == quote; ++i)
-        ++at;  // of the text, before its end
+        ++at;  // belongs to the text, before the closing quotes
       return at;
     } else if (!long_text && (toml[at] == quote || toml[at] == '\n')) {
       return at + (toml[at] == quote);
@@ -29,7 +29,7 @@ std::size_t after_quotes(std::string_view toml, std::size_t at) {
 
 DeepPlace place_of(std::string_view toml, std::size_t at) {
   const std::string_view before = toml.substr(0, at);
-  const auto line_begin = before.rfind('\n') + 1;  // 0 when there is none
+  const auto line_begin = before.rfind('\n') + 1;  // 0 if there is no line break before
   return {static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
           static_cast<int>(at - line_begin) + 1};
 }

@@ -10,21 +10,21 @@
 
 namespace faultline {
 
-/// A table of an option file (TOML) that remembers which keys were asked for, so that finish() can name the
-/// keys nobody understands. Every failure throws Error(usage) with file, line, key, what was found and what
-/// was expected. Keeps the TOML library out of the headers.
+/// A table of an option file (TOML) that records which keys were asked for, so that finish() can report
+/// unknown keys. Every failure throws Error(usage) with file, line, key, what was found and what was
+/// expected. Keeps the TOML library out of the headers.
 class TomlTable {
  public:
   static TomlTable parse(const std::string& text, const std::string& where);
 
   bool has(const std::string& key) const;
-  /// In the order of the file's text as TOML sorts it: alphabetical. Marks nothing as understood.
+  /// Returns the keys in alphabetical order; does not record them as asked for.
   std::vector<std::string> keys() const;
   bool is_table(const std::string& key) const;
   bool is_text(const std::string& key) const;
   bool is_array(const std::string& key) const;
 
-  /// A finite number; the second form gives `fallback` when the key is absent.
+  /// A finite number; the second form returns `fallback` if the key is absent.
   double number(const std::string& key) const;
   double number(const std::string& key, double fallback) const;
   /// A number that may be nan or inf.
@@ -33,28 +33,28 @@ class TomlTable {
   bool flag(const std::string& key, bool fallback) const;
   std::string text(const std::string& key) const;
   std::string text(const std::string& key, const std::string& fallback) const;
-  /// Exactly `count` finite numbers, or any number of them when `count` is -1.
+  /// Exactly `count` finite numbers, or any number of them if `count` is -1.
   std::vector<double> numbers(const std::string& key, int count) const;
   /// A list of lists of `count` numbers each.
   std::vector<std::vector<double>> number_rows(const std::string& key, int count) const;
-  /// A list of `count` numbers, or one number that stands for all of them.
+  /// A list of `count` numbers, or one number that is repeated `count` times.
   std::vector<double> each(const std::string& key, int count) const;
   std::vector<std::string> texts(const std::string& key) const;
   /// One of `choices`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices) const;
-  /// The one of `all` whose to_string() the text is.
+  /// The value of `all` whose to_string() is the text.
   template <typename Enum>
   Enum choice_of(const std::string& key, std::initializer_list<Enum> all) const {
     std::vector<std::string> words;
     for (const Enum value : all) words.emplace_back(to_string(value));
     return *enum_named(choice(key, words), all);
   }
-  /// An empty table when the key is absent.
+  /// An empty table if the key is absent.
   TomlTable table(const std::string& key) const;
-  /// A list of tables ([[key]]); empty when the key is absent.
+  /// A list of tables ([[key]]); empty if the key is absent.
   std::vector<TomlTable> tables(const std::string& key) const;
 
-  /// Throws when the table, or one taken from it, has a key that was never asked for.
+  /// Throws if the table, or one taken from it, has a key that was never asked for.
   void finish() const;
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
 

@@ -10,7 +10,7 @@
 
 #include "lib/robot/toml/toml_table.hpp"
 
-/// What is behind a TomlTable; for its own sources alone.
+/// The implementation of TomlTable; for its own sources only.
 namespace faultline {
 
 struct TomlTable::Data {
@@ -22,16 +22,16 @@ struct TomlTable::Data {
   std::vector<std::shared_ptr<Data>> children;
 
   const toml::node* find(const std::string& key);
-  /// The value of a key; fails, saying what was `expected`, when there is none.
+  /// Returns the value of a key; fails with `expected` in the message if the key is absent.
   const toml::node& required(const std::string& key, const char* expected);
-  /// A finite number of that key's value; fails with what it is.
+  /// Returns the finite number in `node`; otherwise fails with the value found.
   double as_number(const std::string& key, const toml::node& node) const;
   std::shared_ptr<Data> child(const toml::table& of, const std::string& name);
   std::string place(const std::string& key) const;
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
 };
 
-/// A value as messages quote it.
+/// Returns a value as messages quote it.
 std::string shown(const toml::node& node);
 
 }  // namespace faultline

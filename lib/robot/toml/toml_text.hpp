@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-/// Values as TOML that reads back as the same bits.
+/// Values as TOML that loads again as the same bits.
 namespace faultline {
 
 /// Shortest text of a finite number.

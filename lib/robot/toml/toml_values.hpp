@@ -7,18 +7,18 @@
 
 #include "lib/robot/toml/toml_table.hpp"
 
-/// Values of option files that have a meaning in mechanics; they fail as TomlTable does.
+/// Values of option files with a meaning in mechanics; the readers fail as TomlTable does.
 namespace faultline {
 
-/// Three numbers, or `fallback` when the key is absent.
+/// Three numbers, or `fallback` if the key is absent.
 Eigen::Vector3d vector3(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback);
-/// The same of length 1.
+/// A vector of length 1, or `fallback` if the key is absent.
 Eigen::Vector3d unit_vector(const TomlTable& table, const std::string& key, const Eigen::Vector3d& fallback);
 /// [xx, yy, zz] or [xx, yy, zz, xy, xz, yz].
 Eigen::Matrix3d inertia_tensor(const TomlTable& table, const std::string& key);
 double not_negative(const TomlTable& table, const std::string& key, double fallback);
 double positive(const TomlTable& table, const std::string& key, double fallback);
-/// Fails when one of the numbers under `key` is negative, or zero where that is not allowed.
+/// Fails if one of the numbers under `key` is negative, or zero without `zero_allowed`.
 void check_signs(const TomlTable& table, const std::string& key, const std::vector<double>& values,
                  bool zero_allowed);
 

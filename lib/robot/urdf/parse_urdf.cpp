@@ -20,19 +20,20 @@
 namespace faultline {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 32u << 20;  ///< a URDF with its meshes beside it has some 100 kB
+constexpr std::uintmax_t kMostBytes =
+    32u << 20;  ///< a URDF has some 100 kB, as its meshes are files of their own
 constexpr std::size_t kShownLetters = 60;
 
-using Places = std::map<std::string, int>;  ///< of links by name
+using Places = std::map<std::string, int>;  ///< index of each link by name
 
-/// An element of a URDF file, which knows where it stands: every failure throws Error(input) naming file,
-/// line, element and what to do. Valid while the document lives.
+/// An element of a URDF file with its position: every failure throws Error(input) naming file, line, element
+/// and what to do. Valid as long as the document exists.
 class UrdfElement {
  public:
   UrdfElement(const tinyxml2::XMLElement& element, const std::string& file)
       : element_(&element), file_(file) {}
 
-  /// The only child of that name, if there is one.
+  /// Returns the child of that name, empty if there is none; fails if there are several.
   std::optional<UrdfElement> child(const std::string& name) const;
   UrdfElement required(const std::string& name) const;
   std::vector<UrdfElement> children() const;
@@ -42,12 +43,12 @@ class UrdfElement {
   /// The text between the tags.
   std::string content() const;
   bool has(const std::string& attribute) const;
-  /// An attribute that is there and not empty.
+  /// Returns an attribute; fails if it is absent or empty.
   std::string text(const std::string& attribute) const;
-  /// A finite number; the second form gives `fallback` when there is no such attribute.
+  /// A finite number; the second form returns `fallback` if the attribute is absent.
   double number(const std::string& attribute) const;
   double number(const std::string& attribute, double fallback) const;
-  /// Three of them.
+  /// Three finite numbers, or `fallback` if the attribute is absent.
   Eigen::Vector3d vector(const std::string& attribute, const Eigen::Vector3d& fallback) const;
 
   [[noreturn]] void fail(const std::string& message) const;
@@ -59,7 +60,7 @@ class UrdfElement {
   std::string file_;
 };
 
-/// A text of the file as messages quote it.
+/// Returns a text of the file as messages quote it.
 std::string quoted(const std::string& text) {
   const bool is_long = text.size() > kShownLetters;
   return "\"" + printable(text.substr(0, kShownLetters)) + (is_long ? "..." : "") + "\"";
@@ -150,7 +151,7 @@ void UrdfElement::fail(const std::string& message) const {
       message);
 }
 
-/// "XML_ERROR_MISMATCHED_ELEMENT" as words.
+/// Returns the name of an error in words: "mismatched element" for XML_ERROR_MISMATCHED_ELEMENT.
 std::string words_of(tinyxml2::XMLError error) {
   std::string words = tinyxml2::XMLDocument::ErrorIDToName(error);
   for (const char* prefix : {"XML_ERROR_", "XML_"})
@@ -232,7 +233,7 @@ UrdfJoint joint_of(const UrdfElement& element, const Places& places) {
   return joint;
 }
 
-/// Refuses a name that another element of the kind has.
+/// Fails if another element of the kind has the same name.
 void take_name(Places& places, const std::string& name, const UrdfElement& element) {
   const auto number = static_cast<int>(places.size());
   if (!places.emplace(name, number).second) element.fail("has the name of another one; names are given once");

@@ -19,8 +19,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kStartMass = 1.0;      // kg
-constexpr double kStartInertia = 0.01;  // kg m^2
+constexpr double kStartMass = 1.0;      // kg, if no link has a mass
+constexpr double kStartInertia = 0.01;  // kg m^2, if no link has a mass
 constexpr std::size_t kNamesShown = 4;
 constexpr int kNone = -1;
 
@@ -46,12 +46,12 @@ bool moves(const UrdfJoint& joint) { return joint.type != UrdfJointType::fixed; 
 /// Links and joints as a tree.
 struct Tree {
   std::vector<int> joint_to;                ///< each link's joint towards the base, or kNone
-  std::vector<std::vector<int>> joints_of;  ///< each link's joints away from it
-  std::vector<int> order;                   ///< links, each behind its parent
+  std::vector<std::vector<int>> joints_of;  ///< each link's joints away from the base
+  std::vector<int> order;                   ///< links, each after its parent
   std::vector<int> depth;                   ///< moving joints between base and link
 };
 
-/// The links that are no joint's child.
+/// Returns the only link that is no joint's child; fails if there is none or several.
 int root_of(const UrdfModel& model, const Tree& tree) {
   std::vector<std::string> names;
   int root = kNone;
@@ -98,7 +98,7 @@ Tree tree_of(const UrdfModel& model) {
   fail(model, fmt::format("has links that run in a circle, apart from the base: {}", listed(lost)));
 }
 
-/// The last joint of the longest chain of moving joints.
+/// Returns the last joint of the longest chain of moving joints; fails if several chains are longest.
 int last_joint(const UrdfModel& model, const Tree& tree) {
   const int longest = *std::max_element(tree.depth.begin(), tree.depth.end());
   if (longest == 0) fail(model, "has no joint that moves; expected revolute, continuous or prismatic ones");
@@ -137,7 +137,7 @@ std::vector<int> joints_to(const UrdfModel& model, const Tree& tree, int last) {
   return joints;
 }
 
-/// The end of what is fixed to the last joint's link, when it is a single one.
+/// Position (m) of the end of the links fixed to the last joint's link, from that joint; zero if they branch.
 Eigen::Vector3d tip_of(const UrdfModel& model, const Tree& tree, int last,
                        const std::vector<Eigen::Isometry3d>& pose) {
   const int begin = model.joints[last].child;
@@ -149,17 +149,17 @@ Eigen::Vector3d tip_of(const UrdfModel& model, const Tree& tree, int last,
 
 /// The serial chain in a tree of links, in frames parallel to the base's at q = 0.
 struct UrdfChain {
-  std::vector<int> joints;              ///< of the model, those that move, base to tip
-  std::vector<JointGeometry> geometry;  ///< by offsets alone
+  std::vector<int> joints;              ///< indices of the model's moving joints of the chain, base to tip
+  std::vector<JointGeometry> geometry;  ///< placed by offsets alone
   std::vector<LinkInertia> bodies;
-  bool weighed = false;                           ///< some moving body has a mass
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< the one end of what is fixed to the last joint; or zero
+  bool weighed = false;                           ///< whether a moving body has a mass
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< see tip_of()
 };
 
-/// The longest chain of moving joints. What is fixed to a link belongs to it, and so does what branches off,
-/// standing still at its zero. Throws Error(input) naming joints and links when the links are no tree, when
-/// two chains are longest, and for chains without a joint, with more than kMaxJoints, or with joints that are
-/// neither turns nor slides of their own.
+/// Returns the longest chain of moving joints. Each link includes what is fixed to it and all side branches,
+/// held at their zero positions. Throws Error(input) naming joints and links if the links form no tree, if
+/// two chains are longest, and for chains without a joint, with more than kMaxJoints joints, or with
+/// floating, planar or mimic joints.
 UrdfChain serial_chain(const UrdfModel& model) {
   const Tree tree = tree_of(model);
   for (const UrdfJoint& joint : model.joints)
@@ -170,7 +170,7 @@ UrdfChain serial_chain(const UrdfModel& model) {
   chain.bodies.resize(chain.joints.size());
   std::vector<Eigen::Isometry3d> pose(model.links.size(), Eigen::Isometry3d::Identity());
   std::vector<int> owner(model.links.size(), kNone);  // the joint of the chain that carries the link
-  std::vector<Eigen::Vector3d> place;                 // of the chain's joints, in the base frame
+  std::vector<Eigen::Vector3d> place;                 // origins of the chain's joints, in the base frame
   for (const int link : tree.order) {
     const int j = tree.joint_to[link];
     if (j == kNone) continue;
@@ -204,7 +204,7 @@ UrdfChain serial_chain(const UrdfModel& model) {
               fmt::format("{}, line {}, {} \"{}\"", model.file, line, what, printable(name)), message);
 }
 
-/// Identified numbers may be negative: one choice among those that move alike. Others may not.
+/// Fails for negative masses, inertias, damping or friction, which are valid only as identified numbers.
 void refuse_negative(const UrdfModel& model) {
   for (const UrdfLink& link : model.links) {
     if (!link.body) continue;

@@ -23,7 +23,7 @@ struct UrdfJoint {
   std::string name;
   int line = 0;
   UrdfJointType type = UrdfJointType::fixed;
-  int parent = 0, child = 0;                                 ///< of `links`
+  int parent = 0, child = 0;                                 ///< indices of `links`
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< the child's frame in the parent's at q = 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           ///< unit vector in the child's frame
   double damping = 0.0;                                      ///< N m s/rad or N s/m
@@ -31,7 +31,7 @@ struct UrdfJoint {
   bool mimics = false;                                       ///< follows another joint
 };
 
-/// What a URDF file says of masses and motion; what it draws is left out.
+/// Masses and motion of a URDF file, without its meshes and colours.
 struct UrdfModel {
   std::string file;
   std::string name;
@@ -40,12 +40,12 @@ struct UrdfModel {
   std::optional<std::string> more;  ///< content of <faultline>: what URDF cannot hold
 };
 
-/// Throws Error(input) for more bytes than a URDF has.
+/// Throws Error(input) if the size exceeds that of any plausible URDF.
 void check_urdf_size(std::uintmax_t bytes, const std::string& file);
 
-/// Throws Error(input) naming file, line and element when the text is no URDF that can be understood: broken
-/// XML, missing attributes, numbers that are none, unknown links, names given twice. Whether links and joints
-/// make a robot is judged by robot_from_urdf().
+/// Parses a URDF. Throws Error(input) naming file, line and element if the text is not valid: broken XML,
+/// missing attributes, invalid numbers, unknown links, repeated names. robot_from_urdf() checks whether links
+/// and joints form a robot.
 UrdfModel parse_urdf(const std::string& text, const std::string& file);
 
 }  // namespace faultline

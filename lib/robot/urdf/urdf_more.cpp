@@ -16,7 +16,7 @@ namespace faultline {
 namespace {
 
 const double kWidth = Friction{}.width;
-constexpr double kSameBody = 1e-13;  ///< relative
+constexpr double kSameBody = 1e-13;  ///< relative error up to which a body counts as converted back
 
 template <typename Of>
 std::string each_joint(const Robot& robot, const char* key, Of of) {
@@ -39,7 +39,8 @@ std::string more_link(const Robot& robot, int i) {
   return text;
 }
 
-/// Negative rotor inertias may be identified: one choice among those that move alike.
+/// Reads rotor inertias and friction. Identified rotor inertias may be negative: the split is not
+/// identifiable.
 void read_friction(Robot& robot, const TomlTable& table) {
   const int n = robot.joints();
   if (table.has("rotor_inertia")) robot.chain.rotor_inertia = table.each("rotor_inertia", n);
@@ -77,7 +78,7 @@ void read_axes(Robot& robot, const TomlTable& table) {
                                    printable(robot.axes)));
 }
 
-/// Lengths and directions move a part of the joints' offsets into lengths; the joints stay where they are.
+/// Moves a part of the joints' offsets into lengths and directions; the joints keep their places.
 void read_more_links(Robot& robot, const TomlTable& table) {
   const auto links = table.tables("link");
   if (static_cast<int>(links.size()) != robot.joints())
@@ -158,7 +159,7 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   read_more_links(robot, table);
   const Chain chain = robot.chain;
   read_known(robot, table);
-  if (robot.identified) robot.chain = chain;  // what was identified stands above what was known
+  if (robot.identified) robot.chain = chain;  // identified values take precedence over known ones
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   robot.normal = normal_range_from_table(table.table("normal"));
   table.finish();

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// Characters that mean something between tags, as references.
+/// Replaces the characters with a meaning in XML by references.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -24,7 +24,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// The same inside quotes.
+/// Replaces the quotes, too, for an attribute.
 std::string attribute(const std::string& text) {
   std::string out;
   for (const char c : escaped(text)) out += c == '"' ? std::string("&quot;") : std::string(1, c);
@@ -50,7 +50,7 @@ std::string urdf_link(const Robot& robot, int i) {
       inertia(1, 2), inertia(2, 2));
 }
 
-/// URDF wants limits of a slide; none are known.
+/// Returns a joint as URDF. URDF requires limits for prismatic joints; unknown here, they are wide.
 std::string urdf_joint(const Robot& robot, int i) {
   const JointGeometry& joint = robot.chain.geometry[i];
   const Friction& friction = robot.chain.friction[i];
@@ -71,7 +71,7 @@ std::string urdf_joint(const Robot& robot, int i) {
       turns ? "" : "    <limit lower=\"-1000\" upper=\"1000\" effort=\"1e9\" velocity=\"1000\"/>\n");
 }
 
-/// The end of the last link as a frame of its own, where a chain has one.
+/// Returns the tip as a fixed link of its own; "" if the last link has no length or its joint is prismatic.
 std::string tip_text(const Robot& robot) {
   const int last = robot.joints() - 1;
   const double reach = robot.chain.length[last];
