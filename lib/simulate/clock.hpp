@@ -6,8 +6,8 @@
 
 namespace faultline {
 
-/// Multiples of a period. Periods of whole microseconds give the doubles nearest to the decimal times, so
-/// that they read 3.953 in a log and not 3.9530000000000003.
+/// Multiples of a period. For periods of whole microseconds, returns the doubles nearest to the decimal
+/// times, so that a log has 3.953 and not 3.9530000000000003.
 class Clock {
  public:
   explicit Clock(double period_s) : period_s_(period_s) {

@@ -17,21 +17,21 @@ enum class ControllerKind {
 
 struct ControllerSpec {
   ControllerKind kind = ControllerKind::computed_torque;
-  /// Natural frequency of the closed loop, rad/s; 0: 15, or 0.4 / control period when that is less.
+  /// Natural frequency of the closed loop, rad/s; 0: 15, or 0.4 / control period if that is less.
   double bandwidth_rad_s = 0.0;
   double damping = 1.0;  ///< of the closed loop, 1 is critical
   bool friction_compensation = true;
-  /// The controller's model is the robot with link i's mass and inertia times 1 + mass_error[i]; empty:
-  /// exact.
+  /// The controller's model is the robot with mass and inertia of link i multiplied by 1 + mass_error[i];
+  /// empty: no error.
   std::vector<double> mass_error{};
-  /// The controller's model; empty: the robot simulated. `mass_error` comes on top.
+  /// The controller's model, before `mass_error`; empty: the simulated robot.
   std::optional<Chain> nominal{};
 };
 
-/// Turns a reference and a reading into the commanded torque. No state, no heap allocation per call.
+/// Computes the commanded torque from a reference and a measurement. No state, no heap allocation per call.
 class Controller {
  public:
-  /// Throws Error(usage) when `spec` does not fit the robot.
+  /// Throws Error(usage) if `spec` does not fit the robot.
   Controller(const Robot& robot, const ControllerSpec& spec, double control_period_s);
 
   void torque(const Reference& reference, const JointVector& q, const JointVector& dq,
@@ -42,7 +42,7 @@ class Controller {
   FastDynamics nominal_;
   double kp_ = 0.0;      ///< 1/s^2
   double kd_ = 0.0;      ///< 1/s
-  JointVector inertia_;  ///< diagonal of M in the middle, which scales the gains of PD
+  JointVector inertia_;  ///< diagonal of M at q = 0, which scales the gains of pd_gravity
 };
 
 }  // namespace faultline

@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr double kUsualMemory_s = 0.03;
-constexpr double kFinestStep = 0.25;  // of the correlation time, over which it hardly changes
+constexpr double kFinestStep = 0.25;  // of the correlation time; the random torque hardly changes in it
 
 }  // namespace
 

@@ -8,27 +8,27 @@
 
 namespace faultline {
 
-/// What drives give beside what is commanded, and so logged, one each a joint; empty: nothing.
+/// Torque of the drives beyond the commanded, logged one; one number for each joint; empty: none.
 struct DriveSpec {
-  std::vector<double> gain{};                ///< share by which more torque arrives: another torque constant
+  std::vector<double> gain{};                ///< relative error of the torque constant
   std::vector<double> offset{};              ///< N m or N
-  std::vector<double> roughness{};           ///< standard deviation of a torque that comes and goes, N m or N
-  std::vector<double> roughness_memory_s{};  ///< its correlation time; 0.03 s where none is given
+  std::vector<double> roughness{};           ///< standard deviation of a random torque, N m or N
+  std::vector<double> roughness_memory_s{};  ///< correlation time of the random torque; empty: 0.03 s
 };
 
-/// The torques that arrive at the joints. What comes and goes is an Ornstein-Uhlenbeck process.
+/// The torques that act on the joints. The random torque is an Ornstein-Uhlenbeck process.
 class Drives {
  public:
   Drives(int joints, const DriveSpec& spec, Random random);
 
-  /// `commanded` becomes what arrives, in the mean, over the next `length_s`.
+  /// Replaces the `commanded` torque by the mean acting torque over the next `length_s`.
   void act(double length_s, JointVector& commanded);
 
  private:
   double mean_roughness(int joint, double length_s);
 
   std::vector<double> gain_, offset_, roughness_, memory_s_;
-  std::vector<double> rough_;  ///< now, N m or N
+  std::vector<double> rough_;  ///< random torque at present, N m or N
   Random random_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSteepestOfBell = 0.858;  // largest slope of exp(-x^2)
 
-/// Where a share is not 0 the number beside it must be positive.
+/// Throws Error(usage) if a joint with a positive `share` has no positive number in `beside`.
 void check_beside(int joints, const std::vector<double>& share, const std::vector<double>& beside,
                   const char* key, const char* what) {
   check_not_negative(joints, beside, key);

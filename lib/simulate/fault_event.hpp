@@ -12,35 +12,35 @@ namespace faultline {
 /// A fault that happens during a simulated run.
 struct SimulatedFault {
   FaultKind kind = FaultKind::none;
-  int joint = 0;         ///< from 1; of a payload_change that of the link that carries it, 0: the last one
-  double onset_s = 0.0;  ///< the first moment it acts, at any time between samples
-  double end_s = std::numeric_limits<double>::infinity();  ///< the first moment it no longer acts
+  int joint = 0;         ///< from 1; for a payload_change the link that carries it, 0: the last one
+  double onset_s = 0.0;  ///< the first moment at which it acts; need not be a sample
+  double end_s = std::numeric_limits<double>::infinity();  ///< the first moment at which it no longer acts
   /// torque_loss: share lost, 0 to 1. sensor_bias: rad or m. sensor_drift: rad/s or m/s. friction_increase:
   /// added Coulomb friction, N m or N. payload_change: kg added at the end of the link, may be negative.
-  /// collision: external torque or force on the joint, N m or N. Others: not used.
+  /// collision: torque on the joint, N m or N. torque_sensor_error: logged minus acting torque, N m or N.
   double size = 0.0;
   double viscous = 0.0;  ///< friction_increase: added viscous friction, N m s/rad or N s/m
 };
 
-/// What a fault does to the machine while it acts; nothing by default.
+/// Effect of a fault on the machine while it acts; by default none.
 struct MachineFault {
   double torque_gain = 1.0;      ///< of the joint's drive
   double external_torque = 0.0;  ///< on the link, N m or N
   double drive_offset = 0.0;     ///< of the joint's drive, N m or N
   double coulomb = 0.0;          ///< added friction, N m or N
   double viscous = 0.0;          ///< added friction, N m s/rad or N s/m
-  double payload = 0.0;          ///< added at the end of the link behind the joint, kg
+  double payload = 0.0;          ///< added at the end of the joint's link, kg
   bool locks = false;
-  double reading_offset = 0.0;       ///< rad or m
-  double reading_drift_per_s = 0.0;  ///< rad/s or m/s, since the onset
-  bool reading_sticks = false;       ///< of position and velocity
+  double reading_offset = 0.0;       ///< of the measured position, rad or m
+  double reading_drift_per_s = 0.0;  ///< of the measured position, rad/s or m/s, since the onset
+  bool reading_sticks = false;       ///< measured position and velocity repeat
 };
 MachineFault machine_fault(const SimulatedFault& fault);
 
-/// Throws Error(usage) that says what is wrong when `fault` cannot happen to `robot`.
+/// Throws Error(usage) with the reason if `fault` cannot happen to `robot`.
 void check_fault(const Robot& robot, const SimulatedFault& fault);
 
-/// Unit of `SimulatedFault::size` for this fault, "" when it has none.
+/// Unit of `SimulatedFault::size` for this fault, "" if it has no size.
 std::string size_unit(const Robot& robot, const SimulatedFault& fault);
 
 }  // namespace faultline

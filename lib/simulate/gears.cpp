@@ -20,9 +20,9 @@ namespace {
 
 double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
 
-constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg: less is none, and no spring's step is that short
+constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg; less counts as none: its step would be too short
 
-/// A link that has no inertia of its own cannot hang on a spring.
+/// Throws Error(usage) if a link behind a spring has no inertia of its own.
 void check_links(const Chain& chain, const Gears& gears) {
   const JointMatrix inertia =
       inertia_matrix(gears.link_side(chain), JointVector(JointVector::Zero(chain.joints())));
@@ -109,7 +109,7 @@ Chain Gears::link_side(Chain chain) const {
 }
 
 double Gears::vibration_rate(const JointVector& link_mobility) const {
-  double square = 0.0;  // the trace of K (M^-1 + J^-1) is no less than its largest eigenvalue
+  double square = 0.0;  // trace of K (M^-1 + J^-1), which is at least its largest eigenvalue
   for (int j = 0; j < link_mobility.size(); ++j)
     if (has_spring(j)) square += stiffness_[j] * (link_mobility[j] + 1.0 / motor_inertia_[j]);
   return std::sqrt(square);

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-/// Lists of a spec that hold one number a joint, or none for the default.
+/// Lists of a spec that hold one number for each joint, or none for the default.
 namespace faultline {
 
-/// Each throws Error(usage) naming `key` when the list is neither empty nor of that many numbers, or when one
-/// of them is not what it must be.
+/// Each throws Error(usage) naming `key` if the list has another length than 0 or `joints`, or if a number is
+/// not positive or is negative, respectively.
 void check_count(int joints, const std::vector<double>& list, const char* key);
 void check_positive(int joints, const std::vector<double>& list, const char* key);
 void check_not_negative(int joints, const std::vector<double>& list, const char* key);
 
-/// The list, or `joints` times `usual` when it is empty.
+/// Returns the list, or `joints` times `usual` if it is empty.
 std::vector<double> or_all(const std::vector<double>& list, int joints, double usual);
 
 }  // namespace faultline

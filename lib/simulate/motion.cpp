@@ -19,7 +19,7 @@ namespace {
   throw Error(ErrorCode::usage, std::string("motion.") + key, message);
 }
 
-/// `given`, or the paper's bench ranges when it is empty.
+/// Returns `given`, or the paper's bench ranges if it is empty.
 std::vector<double> range_end(const Robot& robot, const std::vector<double>& given, const char* key,
                               bool high) {
   if (!given.empty() && static_cast<int>(given.size()) != robot.joints())
@@ -31,7 +31,7 @@ std::vector<double> range_end(const Robot& robot, const std::vector<double>& giv
   return ends;
 }
 
-/// The ranges that points are drawn from. Throws Error(usage) when `spec` does not fit the robot's joints.
+/// Returns the ranges of the points. Throws Error(usage) if `spec` does not fit the robot's joints.
 JointRanges checked_ranges(const Robot& robot, const MotionSpec& spec) {
   const JointRanges ranges{range_end(robot, spec.low, "low", false),
                            range_end(robot, spec.high, "high", true)};
@@ -56,7 +56,7 @@ JointRanges checked_ranges(const Robot& robot, const MotionSpec& spec) {
   return ranges;
 }
 
-/// Throws Error(usage) when the samples are no motion of this robot.
+/// Throws Error(usage) if the samples are no motion of this robot.
 void check_replay(const Robot& robot, const SampledMotion& replay) {
   const auto n = static_cast<std::size_t>(robot.joints());
   if (!(replay.period_s > 0.0)) bad_motion("replay", "expected samples with a positive period");
@@ -67,7 +67,7 @@ void check_replay(const Robot& robot, const SampledMotion& replay) {
       bad_motion("replay", "its columns differ in length");
 }
 
-/// Path parameter of a move and its derivatives by tau = time / length of the move.
+/// Path parameter of a move and its derivatives over x = time / duration of the move.
 struct Path {
   double s = 1.0, ds = 0.0, dds = 0.0;
 };
@@ -123,8 +123,8 @@ void Motion::plan_moves(const MotionSpec& spec, const JointRanges& ranges, doubl
   } while (t < duration_s);
 }
 
-/// Random harmonics of falling amplitude, scaled so that they fill the joint's range; the first sine takes
-/// the slope that makes the period start at rest.
+/// Draws random harmonics of falling amplitude, scaled so that they fill the joint's range; the first sine
+/// gets the slope with which the period starts at rest.
 void Motion::plan_harmonics(const MotionSpec& spec, const JointRanges& ranges, std::uint64_t seed) {
   Random random(seed);
   base_rate_ = 2.0 * std::numbers::pi / spec.fourier_period_s;

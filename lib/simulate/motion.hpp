@@ -17,15 +17,15 @@ enum class MotionProfile {
   replay,       ///< follows `MotionSpec::replay`
 };
 
-/// A motion given by samples at a constant period; between them cubic Hermite interpolation.
+/// A motion as samples at a constant period, with cubic Hermite interpolation between them.
 struct SampledMotion {
   double period_s = 0.0;
   JointSignals q;
   JointSignals dq;
 };
 
-/// What the robot is asked to do. Points of point-to-point motions are drawn uniformly within the joint
-/// ranges.
+/// The motion that the robot is to follow. Points of point-to-point motions are drawn uniformly within the
+/// joint ranges.
 struct MotionSpec {
   MotionProfile profile = MotionProfile::quintic;
   /// Joint ranges, rad or m; empty: -2 to 2 rad, -0.35 to 0.05 m.
@@ -36,7 +36,7 @@ struct MotionSpec {
   double dwell_min_s = 0.2;  ///< rest after each move
   double dwell_max_s = 0.6;
   double blend = 0.25;  ///< trapezoidal: share of the move spent on acceleration, at most 0.5
-  /// Points to visit in turn and then again from the first, [point][joint]; empty: drawn at random.
+  /// Points to visit in turn, then again from the first, [point][joint]; empty: drawn at random.
   std::vector<std::vector<double>> points{};
   int harmonics = 5;              ///< fourier
   double fourier_period_s = 8.0;  ///< fourier: period of the first harmonic
@@ -56,10 +56,10 @@ struct Reference {
 /// The reference trajectory of one run, a function of time.
 class Motion {
  public:
-  /// Throws Error(usage) when `spec` does not fit a robot with these joints.
+  /// Throws Error(usage) if `spec` does not fit a robot with these joints.
   Motion(const Robot& robot, const MotionSpec& spec, double duration_s, std::uint64_t seed);
 
-  /// Sets all of `reference`; t >= 0. After the last planned move the robot rests.
+  /// Sets all of `reference`; t >= 0. The robot rests after the last planned move.
   void at(double t, Reference& reference) const;
 
  private:

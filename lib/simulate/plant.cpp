@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// The longest step that is safe from a state in which the drives turn with `rate` and accelerate with `ddq`:
-/// friction is stiff only where a velocity may pass near zero within the step.
+/// Returns the longest safe step from a state in which the drives have the velocity `rate` and the
+/// acceleration `ddq`: friction is stiff only if a velocity may pass near zero within the step.
 double Plant::safe_step(const JointVector& rate, const JointVector& ddq) const {
   if (step_ == sliding_step_) return step_;
   const std::vector<Friction>& friction = (geared_ ? geared_->drives : dynamics_).chain().friction;
@@ -36,7 +36,7 @@ void Plant::advance(double from, double to, const JointVector& tau) {
   move_on(to - now);
 }
 
-/// A stop pushes, it never pulls.
+/// Returns the torque of the end stop, which pushes but never pulls.
 double Plant::stop_torque(int joint, double at, double rate) const {
   const bool high = at > stop_high_[joint];
   const double beyond = at - (high ? stop_high_[joint] : stop_low_[joint]);

@@ -13,48 +13,48 @@ namespace faultline {
 
 /// Stiff ends of travel: a spring and damper beyond each end.
 struct JointStops {
-  std::vector<double> low{};  ///< rad or m, one each a joint; empty: no stops
+  std::vector<double> low{};  ///< rad or m, one number for each joint; empty: no stops
   std::vector<double> high{};
-  double frequency_rad_s = 200.0;  ///< of the joint's inertia on the stop's spring
-  double damping = 0.5;            ///< ratio
+  double frequency_rad_s = 200.0;  ///< natural frequency of the joint's inertia on the stop's spring
+  double damping = 0.5;            ///< damping ratio
 };
 
-/// What a machine has that rigid links with the friction of their model have not.
+/// Properties of a machine beyond rigid links with the friction of their model.
 struct MachineSpec {
   GearSpec gears{};
   StickSlipSpec stick_slip{};
   WarmUpSpec warm_up{};
 };
 
-/// The robot as it is at a time: its motion under a commanded torque, with the faults that act on the
+/// The mechanics of the simulated robot: its motion under a commanded torque, with the faults that act on the
 /// mechanics. Integrates with Runge-Kutta of fourth order in sub-steps short enough for the stiffness of
 /// friction, stops and gears.
 class Plant {
  public:
-  /// `machine` fits the robot. Throws Error(usage) when the stops do not.
+  /// `machine` must fit the robot. Throws Error(usage) if the stops do not.
   Plant(const Robot& robot, const JointStops& stops, const std::vector<SimulatedFault>& faults,
         double max_step_s, const MachineSpec& machine = {});
 
   JointVector q, dq;  ///< of the links
 
-  /// Motors and links move with `speed`, the motors are at `position`; gears that give way hang as at rest.
+  /// Starts motors and links at `speed` and the motors at `position`, with gear springs as loaded by weight.
   void start(const JointVector& position, const JointVector& speed);
-  /// Moves from `from` to `to` seconds under a constant commanded torque; faults that begin or end in between
-  /// do so at their very moment. The friction's warmth is that of the middle.
+  /// Integrates from `from` to `to` seconds under a constant commanded torque; faults begin and end at their
+  /// exact times. Evaluates the warm-up of the friction at the middle of the interval.
   void advance(double from, double to, const JointVector& tau);
 
-  /// Position and speed of the motors, which the encoders read; with rigid gears those of the links.
+  /// Position and speed of the motors, which the encoders measure; with rigid gears those of the links.
   const JointVector& motor_q() const { return geared_ ? geared_->q : q; }
   const JointVector& motor_dq() const { return geared_ ? geared_->dq : dq; }
 
  private:
-  /// The motors' side of a plant whose gears give way; a joint without a spring moves with its link.
+  /// The motors' side of a plant with compliant gears; a motor without a spring moves with its link.
   struct Geared {
     Gears gears;
-    FastDynamics drives;  ///< the whole chain, for the friction of the motors
+    FastDynamics drives;  ///< the whole chain; used for the friction and ripple of the motors
     JointVector q{}, dq{};
   };
-  /// Positions or rates of the links and then of the motors.
+  /// Positions or velocities of the links, followed by those of the motors.
   using BothSides = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
 
   void set_stops(const JointStops& stops);
@@ -79,16 +79,16 @@ class Plant {
   JointVector stop_low_, stop_high_, stop_stiffness_, stop_damping_;
   double max_step_ = 0.001;
 
-  FastDynamics dynamics_;  ///< of the links, with all that is rigidly joined to them
+  FastDynamics dynamics_;  ///< of the links and of all that is rigidly joined to them
   std::optional<Geared> geared_;
   ExtraFriction extra_friction_;
-  JointVector gain_;          ///< share of the torque that arrives
+  JointVector gain_;          ///< ratio of the acting to the commanded torque
   JointVector external_;      ///< added torque on the links
   JointVector drive_offset_;  ///< added torque of drives with springs
-  bool altered_ = false;      ///< gain_ or external_ matter
+  bool altered_ = false;      ///< whether a fault acts at present
   unsigned locked_ = 0;
-  double step_ = 0.001;          ///< where friction is stiff
-  double sliding_step_ = 0.001;  ///< elsewhere
+  double step_ = 0.001;          ///< sub-step near rest, with stiff friction, s
+  double sliding_step_ = 0.001;  ///< sub-step otherwise, s
 };
 
 }  // namespace faultline

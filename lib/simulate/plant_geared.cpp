@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The motion of a plant whose gears give way: motors and links each have a state of their own.
+// The motion of a plant with compliant gears: motors and links each have a state of their own.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kRestIterations = 100;  // each as much nearer as the spring is stiffer than the weight's change
+constexpr int kRestIterations = 100;  // each scales the error by weight's slope / spring stiffness
 
 }  // namespace
 
@@ -29,8 +29,8 @@ void Plant::start(const JointVector& position, const JointVector& speed) {
   }
 }
 
-/// A joint with a spring: J th'' = arriving torque - drag - gear torque for its motor, and the gear torque
-/// drives its link. A rigid one: as without gears, and its motor moves with its link.
+/// A joint with a spring: J th'' = acting torque - drag - gear torque for its motor, and the gear torque
+/// drives its link. A rigid joint: as without gears; its motor moves with its link.
 void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector& tau,
                               BothSides& out) const {
   const int n = dynamics_.joints();

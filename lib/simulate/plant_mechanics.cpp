@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a plant is from one change to the next: faults that act, stops, steps. Its motion is in plant.cpp.
+// The mechanics of a plant between two changes: acting faults, stops, steps. Its motion is in plant.cpp.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -15,16 +15,16 @@
 namespace faultline {
 namespace {
 
-/// Largest rate x step that Runge-Kutta of fourth order follows with a few per cent (it is stable to 2.78).
+/// Largest product of rate and step that RK4 integrates to a few per cent (it is stable up to 2.78).
 constexpr double kRateTimesStep = 1.0;
-/// The same for a vibration that must neither grow nor fade: it loses 4e-5 of its amplitude a period.
+/// The same for an undamped vibration, whose amplitude then decays by only 4e-5 in a period.
 constexpr double kVibrationTimesStep = 0.25;
 
-/// Steps a stiff friction may ask for within max_step_s.
+/// Highest number of sub-steps in max_step_s that stiff friction may require.
 constexpr double kMostSubSteps = 10.0;
-constexpr double kLively = 10.0;  // rad/s^2 or m/s^2
+constexpr double kLively = 10.0;  // acceleration for usual_torque(), rad/s^2 or m/s^2
 
-/// Largest diagonal of M^-1 for each joint over some postures.
+/// Returns the largest diagonal of M^-1 for each joint over some postures.
 JointVector mobility(const FastDynamics& dynamics) {
   const int n = dynamics.joints();
   Random random(1);
@@ -40,7 +40,7 @@ JointVector mobility(const FastDynamics& dynamics) {
   return most;
 }
 
-/// What a drive usually has to give: the weight and a lively acceleration at q = 0.
+/// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of kLively.
 JointVector usual_torque(const Chain& chain) {
   const JointVector zero = JointVector::Zero(chain.joints());
   return kLively * inertia_matrix(chain, zero).diagonal() + gravity_torque(chain, zero).cwiseAbs();
@@ -82,7 +82,7 @@ void Plant::set_stops(const JointStops& stops) {
   stop_damping_ = 2.0 * stops.damping * stops.frequency_rad_s * inertia.diagonal();
 }
 
-/// The steps this moment's mechanics allow, near rest and sliding; raises friction widths that would ask for
+/// Chooses the steps for the current mechanics, near rest and sliding; widens friction that would require
 /// more than kMostSubSteps.
 void Plant::choose_steps(Chain& chain) {
   const JointVector links = mobility(FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain));
@@ -114,7 +114,7 @@ void Plant::choose_steps(Chain& chain) {
   step_ = std::min(sliding_step_, step_for(near_rest));
 }
 
-/// The mechanics of the moment `now`: which faults act, and the velocity that a joint just locked has lost.
+/// Sets the mechanics at the time `now`: acting faults, and the velocities after a joint has locked.
 void Plant::enter(double now) {
   const int n = healthy_.joints();
   Chain chain = healthy_;
@@ -142,8 +142,8 @@ void Plant::enter(double now) {
   if (locked_ & ~was_locked) impact(locked_ & ~was_locked);
 }
 
-/// A joint locks: it stops at once, and the impulse of the lock changes the other joints' velocities so that
-/// their momenta stay. Behind a spring the motor alone stops.
+/// Stops newly locked joints at once; the impulse of the lock changes the other joints' velocities so that
+/// their momenta are conserved. Of a joint with a spring only the motor stops.
 void Plant::impact(unsigned newly_locked) {
   const int n = healthy_.joints();
   if (newly_locked & ~springs()) {

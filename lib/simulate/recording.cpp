@@ -14,7 +14,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeastGap = 0.01;  // of the sample period, between two stamps
+constexpr double kLeastGap = 0.01;  // least time between two stamps, as a share of the sample period
 
 [[noreturn]] void bad_recording(const char* key, const std::string& message) {
   throw Error(ErrorCode::usage, std::string("recording.") + key, message);
@@ -36,7 +36,7 @@ void round_torque(Log& log, const std::vector<double>& resolution) {
       if (resolution[j] > 0.0) tau = resolution[j] * std::round(tau / resolution[j]);
 }
 
-/// A stamp that would not be after the one before is the next that is.
+/// Sets the time stamps; a stamp that is not after the one before moves to the next possible time.
 void stamp(Log& log, const RecordingSpec& spec, double period_s, Random& random) {
   const Clock clock(spec.stamp_resolution_s);
   std::int64_t last_tick = -1;
@@ -51,7 +51,7 @@ void stamp(Log& log, const RecordingSpec& spec, double period_s, Random& random)
   }
 }
 
-/// The log without the rows that are lost.
+/// Returns the log without a random share `lost` of its inner rows.
 Log thinned(const Log& log, double lost, Random& random) {
   std::vector<std::size_t> kept;
   for (int k = 0; k < log.rows(); ++k) {
@@ -86,7 +86,7 @@ Log recorded(Log exact, const RecordingSpec& spec, double sample_period_s, Rando
   if (spec.velocity == RecordedVelocity::difference) differ_velocity(exact, sample_period_s);
   if (spec.torque_late_rows > 0) delay_torque(exact, spec.torque_late_rows);
   round_torque(exact, spec.torque_resolution);
-  Random losses(random.bits());  // the same whatever the stamps do
+  Random losses(random.bits());  // independent of how many numbers the stamps draw
   stamp(exact, spec, sample_period_s, random);
   return spec.lost > 0.0 ? thinned(exact, spec.lost, losses) : exact;
 }

@@ -7,9 +7,9 @@
 
 namespace faultline {
 
-/// First line of labels.csv, with its newline.
+/// Returns the first line of labels.csv, with its newline.
 std::string labels_header();
-/// The lines of labels.csv for one run: one each fault, or one with fault "none".
+/// Returns the lines of labels.csv for one run: one for each fault, or one with fault "none".
 std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run);
 
 }  // namespace faultline

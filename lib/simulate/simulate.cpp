@@ -17,7 +17,7 @@
 namespace faultline {
 namespace {
 
-/// 3 is that of the controller's mass errors in spec files.
+/// Random streams of a run; spec files use 3 for the controller's mass errors.
 enum Stream : std::uint64_t {
   motion_stream = 1,
   noise_stream = 2,
@@ -26,9 +26,9 @@ enum Stream : std::uint64_t {
   recording_stream = 6
 };
 
-constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s: the simulation diverged
+constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s, above which the simulation has diverged
 
-/// Control periods in a sample period. Throws Error(usage) when that is no whole number.
+/// Returns the control periods in a sample period. Throws Error(usage) if that is no whole number.
 int control_periods_per_sample(const SimulationSpec& spec) {
   const double ratio = spec.sample_period_s / spec.control_period_s;
   if (std::round(ratio) < 1.0 || std::abs(ratio - std::round(ratio)) > 1e-6)
@@ -66,7 +66,7 @@ void check_drives(int joints, const DriveSpec& drives) {
       throw Error(ErrorCode::usage, "drives.gain", fmt::format("expected shares above -1, found {}", gain));
 }
 
-/// The part of check_simulation() that nothing built from the spec checks by itself.
+/// Makes the checks of check_simulation() that no constructor makes.
 void check_numbers(const Robot& robot, const SimulationSpec& spec) {
   const int joints = robot.joints();
   check_times(spec);
@@ -103,13 +103,13 @@ Log empty_log(const Robot& robot, const SimulationSpec& spec, int rows) {
   return log;
 }
 
-/// Turns the true motion into what the controller and the log get: noise, encoder steps and the faults of the
-/// sensors, which therefore go through the feedback.
+/// Measures the true motion for the controller and the log: adds noise, encoder steps and sensor faults,
+/// which thereby act through the feedback.
 class Sensors {
  public:
   Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random);
 
-  /// Reads at time t; `q` and `dq` keep the reading until the next call (a stuck encoder repeats it).
+  /// Measures at time t; `q` and `dq` keep the values until the next call (a stuck encoder repeats them).
   void read(double t, const JointVector& true_q, const JointVector& true_dq);
 
   JointVector q, dq;
@@ -151,7 +151,7 @@ void Sensors::read(double t, const JointVector& true_q, const JointVector& true_
   started_ = true;
 }
 
-/// What a controller sees and does at one moment.
+/// Inputs and output of the controller at one time.
 struct ControlTick {
   double time_s = 0.0;
   const Sensors& sensors;

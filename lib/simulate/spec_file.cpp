@@ -51,7 +51,7 @@ void read_faults(const TomlTable& table, const Robot& robot, std::vector<Simulat
     faults.push_back(read_fault(table.table("fault"), robot));
 }
 
-/// Keys shared by the file and each of its runs; a run's replace the file's.
+/// Reads the keys that the file and each of its runs share; those of a run take precedence.
 void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed, SimulationSpec& spec,
                      bool& held) {
   const int joints = robot.joints();
@@ -123,7 +123,7 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
     RunSpec run;
     run.name = run_name(runs[i], taken);
     run.seed = read_seed(runs[i], seed + i);
-    bool held = false;  // the file's "held" also holds over a run's own sample period
+    bool held = false;  // "held" of the file also applies to a run with a sample period of its own
     read_simulation(table, file.robot, run.seed, run.simulation, held);
     read_simulation(runs[i], file.robot, run.seed, run.simulation, held);
     try {

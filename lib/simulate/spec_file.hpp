@@ -19,21 +19,21 @@ struct RunSpec {
 /// A simulation spec file (TOML, docs/simulate.md): a robot and the runs it makes.
 struct SimulationFile {
   Robot robot;
-  std::string robot_path;      ///< of the robot file it names; empty: the robot is in the spec
+  std::string robot_path;      ///< path of the robot file that it names; empty: the robot is in the spec
   std::string format = "csv";  ///< extension of the logs: "csv" or "flog"
   std::vector<RunSpec> runs;
 };
 
 struct SimulationFileOptions {
-  bool override_seed = false;  ///< `seed` in place of the file's
+  bool override_seed = false;  ///< use `seed` instead of the file's
   std::uint64_t seed = 1;
 };
 
-/// Reads a spec file; a robot file it names is looked for beside it. Every run is checked against the robot.
-/// Throws Error(usage) naming file, line, key, what was found and what was expected.
+/// Reads a spec file; a relative path of a robot file counts from the folder of the spec file. Checks every
+/// run against the robot. Throws Error(usage) naming file, line, key, what was found and what was expected.
 SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options = {});
 
-/// The same from text; `where` names it in errors and `folder` is where a robot file is looked for.
+/// Reads a spec from text; `where` names it in errors and a robot file's path counts from `folder`.
 SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
                                     const std::string& folder, const SimulationFileOptions& options = {});
 

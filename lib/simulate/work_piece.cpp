@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortest_s = 1e-3;  // so that a long run has no endless list of them
+constexpr double kShortest_s = 1e-3;  // shortest time, so that a long run has no endless list of pieces
 
 void check_span(const char* key, double shortest, double longest) {
   if (!(shortest >= kShortest_s && shortest <= longest && std::isfinite(longest)))

@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// A work piece that the robot picks up and puts down all day, which is no fault.
+/// A work piece that the robot picks up and puts down in healthy operation.
 struct WorkPieceSpec {
   double mass = 0.0;           ///< kg; 0: none
   double carried_min_s = 1.0;  ///< time between picking up and putting down, drawn uniformly
@@ -17,11 +17,11 @@ struct WorkPieceSpec {
   double empty_max_s = 3.0;
 };
 
-/// Throws Error(usage) naming the key when there can be no such piece.
+/// Throws Error(usage) naming the key if the mass or a time is not valid.
 void check_work_piece(const WorkPieceSpec& spec);
 
-/// When a run of that length, which begins with an empty tool, carries it: to the plant the same as a change
-/// of payload. The piece moves with the tip when it is picked up.
+/// Returns when a run of `duration_s`, which begins with an empty tool, carries the piece, as changes of
+/// payload for the plant. The piece already has the tip's velocity when it is picked up.
 std::vector<SimulatedFault> carried(const WorkPieceSpec& spec, int joints, double duration_s, Random random);
 
 }  // namespace faultline
