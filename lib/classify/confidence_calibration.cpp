@@ -12,9 +12,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kParameters = 1 + 1 + kConfidenceSources;  // slope, shift of all, shift of each
+constexpr int kParameters = 1 + 1 + kConfidenceSources;  // slope, common shift, shift of each source
 constexpr int kSteps = 50;
-constexpr double kSureEnough = 0.99;  // said more surely than this, it is as if said so
+constexpr double kSureEnough = 0.99;  // confidences above this, or below its complement, are clamped to it
 // Standard deviations of the prior.
 constexpr double kSlopeStd = 0.5, kShiftStd = 2.0, kOwnShiftStd = 1.0;
 constexpr int kBins = 10;

@@ -13,13 +13,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kSizeFades = 20.0;  // the size of a label this far behind hardly counts
-constexpr double kNotJudged = -1e3;  // nats of a label that did not stand out
+constexpr double kSizeFades = 20.0;  // nats; a label's size is weighted by exp(-deficit / this)
+constexpr double kNotJudged = -1e3;  // nats of a label without a judged hypothesis
 constexpr double kMeanOfHalfSine = 2.0 / std::numbers::pi;
-constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations that differ
+constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations are bounded to this range
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// A hypothesis that lost the robot has no size.
+/// Returns the size bounded to -1..1; 0 for a hypothesis that diverged.
 double bounded_size(double size) { return std::isfinite(size) ? elementary::tanh(size) : 0.0; }
 
 }  // namespace

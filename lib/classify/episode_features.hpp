@@ -14,41 +14,41 @@
 
 namespace faultline {
 
-/// What the regression makes of one label in an episode.
+/// Evidence of the regression for one label in an episode.
 struct LabelEvidence {
   FaultLabel label;
-  double log_likelihood_ratio = 0.0;      ///< against healthy; far below 0 where it was not worth judging
-  std::array<double, kMostSizes> size{};  ///< as the catalogue lists them, over their feature_scale()
-  double left = std::numeric_limits<double>::quiet_NaN();  ///< mean square that it leaves; 1 is noise
+  double log_likelihood_ratio = 0.0;      ///< against healthy, nats; -1000 if the label was not judged
+  std::array<double, kMostSizes> size{};  ///< in the order of the catalogue, divided by feature_scale()
+  double left = std::numeric_limits<double>::quiet_NaN();  ///< mean square of its residual; 1 is noise
 };
 
-/// One entry a label, in the order of `labels`. `end_s` is the last sample of the episode, up to which a
-/// fault that grows has grown.
+/// Returns one entry for each label, in the order of `labels`. `end_s` is the last sample of the episode, at
+/// which the size of a growing fault is taken.
 std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,
                                              std::span<const FaultLabel> labels, const UsualMotion& usual);
 
-/// Sizes of a fault in the units of the catalogue's features, as far as it has grown by `end_s`.
+/// Returns the sizes of a fault in the units of the catalogue's features; of a growing fault, at `end_s`.
 std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, int joints);
 
-/// Momentum that a collision of the scored size passes on to joint `joint` (from 0), N m s or N s.
+/// Momentum that a collision of the scored size transfers to joint `joint` (from 0), N m s or N s.
 double impulse_of(const FaultClaim& collision, int joint, int joints);
 
-/// Posterior probability of `label` among all labels, each as likely as the others before the log was seen.
+/// Returns the posterior probability of `label` among all labels, with equal priors.
 double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
 
-/// The numbers the two networks classify an episode by: for each label how far it stays behind the likeliest
-/// and its size, how strong and how long the episode is, and the MLP's residual of each joint over the
-/// episode (root mean square in units of healthy; a joint without one counts as 1).
+/// Returns the inputs of the two networks: for each label its deficit of evidence to the most likely one and
+/// its size, the strength and the duration of the episode, and the MLP's residual of each joint over the
+/// episode (rms in units of healthy rms; a joint without one counts as 1).
 std::vector<double> episode_features(const std::vector<LabelEvidence>& evidence, double lasts_s,
                                      std::span<const JointResidual> residuals, int joints);
 
-/// What a number among the features of an episode tells.
+/// The meaning of a feature of an episode.
 enum class FeatureRole {
-  behind,    ///< how far `label` stays behind the likeliest
-  size,      ///< size number `size` of `label`, as its kind has them
-  strength,  ///< how much likelier the best label is than a healthy robot
-  duration,  ///< from onset to end
-  residual,  ///< of the MLP at `joint`
+  behind,    ///< deficit of evidence of `label` to the most likely label
+  size,      ///< size number `size` of `label`, in the order of its kind
+  strength,  ///< evidence of the most likely label against healthy
+  duration,  ///< time from onset to end
+  residual,  ///< residual of the MLP at `joint`
 };
 struct EpisodeFeature {
   FeatureRole role = FeatureRole::strength;
@@ -57,14 +57,14 @@ struct EpisodeFeature {
   int joint = 0;  ///< from 1
 };
 
-/// What episode_features() gives, in its order.
+/// Returns the meaning of each feature in the order of episode_features().
 std::vector<EpisodeFeature> episode_feature_list(std::span<const FaultLabel> labels, int joints);
 std::string name_of(const EpisodeFeature& feature);
 std::vector<std::string> episode_feature_names(std::span<const FaultLabel> labels, int joints);
 
-// How numbers become features, and back as far as that is possible: nats behind the likeliest (at most
-// kLargestDeficit), and how much the size of a label so far behind counts.
-inline constexpr double kLargestDeficit = 300.0;  ///< beyond it a label is out of the question anyway
+// Conversions between numbers and features: deficit of evidence to the most likely label in nats (at most
+// kLargestDeficit), and the weight of the size of a label with that deficit.
+inline constexpr double kLargestDeficit = 300.0;  ///< nats; a label with more is excluded anyway
 double feature_of_deficit(double nats);
 double deficit_of_feature(double feature);
 double size_counts(double deficit_nats);

@@ -12,21 +12,21 @@ namespace faultline {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr double kFewestFound = 0.9;  // of what the most sensitive setting finds
-constexpr double kFreeMargin = 0.97;  // one step more for margin may cost this share of the detections
+constexpr double kFewestFound = 0.9;  // of the largest number of detections of any setting
+constexpr double kFreeMargin = 0.97;  // least share of the detections that the next larger setting must keep
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kLeastOutput = 1e-4;  // linear outputs stray below 0; their logarithm must not
+constexpr double kLeastOutput = 1e-4;  // lower bound, as linear outputs may be negative and have no logarithm
 
 void start_state(CriterionState& state, Index outputs) {
   if (state.sum.size() == outputs) return;
   state.sum = state.sum_start_s = state.votes = state.support = VectorXd::Zero(outputs);
 }
 
-/// Log odds of every fault against `none`, freed of the training's class shares and capped; 0 for `none`
-/// itself.
+/// Returns the capped log odds of every fault against `none`, without the influence of the class shares in
+/// training; 0 for `none` itself.
 VectorXd log_odds(const CriterionOptions& options, const OutputMeaning& meaning, const VectorXd& outputs) {
   const Index none = outputs.size() - 1;
   VectorXd odds = VectorXd::Zero(outputs.size());
@@ -64,7 +64,7 @@ SampleEpisode finished(const OutputMeaning& meaning, const CriterionState& state
   return episode;
 }
 
-/// Counts the sample for the fault that it points to most.
+/// Counts the sample for the fault with the largest output.
 void vote(CriterionState& state, const VectorXd& outputs, const VectorXd& support) {
   state.votes[largest_fault(outputs)] += 1.0;
   state.support += support;
@@ -78,7 +78,7 @@ void forget(CriterionState& state) {
   state.open.reset();
 }
 
-/// Equation 9 of the paper. True when the sample ends the open episode.
+/// Applies equation 9 of the paper to a sample. Returns whether the sample ends the open episode.
 bool consecutive_step(const CriterionOptions& options, double time, const VectorXd& outputs,
                       CriterionState& state) {
   if (!outputs.allFinite()) {
@@ -107,7 +107,7 @@ bool consecutive_step(const CriterionOptions& options, double time, const Vector
   return state.open && state.run_length >= options.g;
 }
 
-/// Page's sums. True when the sample ends the open episode.
+/// Updates Page's sums. Returns whether the sample ends the open episode.
 bool log_odds_step(const CriterionOptions& options, const OutputMeaning& meaning, double time,
                    const VectorXd& outputs, CriterionState& state) {
   if (!outputs.allFinite()) return false;
@@ -234,7 +234,7 @@ CriterionSearch tune_criterion(const CriterionOptions& start, const OutputMeanin
     if (search.tried[i].detected < kFewestFound * most) continue;
     if (best == search.tried.size() || key(search.tried[i]) < key(search.tried[best])) best = i;
   }
-  // The last setting without a false alarm stands on an edge; one step more is margin if it costs no
+  // The largest setting without a false alarm has no margin; the next larger one has, if it loses hardly any
   // detection.
   const bool margin = best + 1 < search.tried.size() &&
                       search.tried[best + 1].detected >= kFreeMargin * search.tried[best].detected;

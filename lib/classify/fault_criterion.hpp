@@ -22,49 +22,50 @@ const char* to_string(CriterionKind kind);
 
 struct CriterionOptions {
   CriterionKind kind = CriterionKind::log_odds;
-  int g = 3;                ///< samples; as many fault-free ones end an episode
-  double threshold = 12.0;  ///< nats; as much for fault-free ends an episode
-  double sample_cap = 2.0;  ///< nats: no single sample says more, whatever the networks put out
+  int g = 3;  ///< samples of a fault that raise an alarm; as many fault-free samples end an episode
+  double threshold = 12.0;  ///< nats that raise an alarm; as many against the fault end an episode
+  double sample_cap = 2.0;  ///< nats; bound of the log odds of a single sample
 };
 
-/// A stretch of samples that the classifier calls faulty.
+/// A stretch of samples that the criterion assigns to a fault.
 struct SampleEpisode {
   FaultLabel label;  ///< the fault with the most support over the episode
   double onset_s =
       std::numeric_limits<double>::quiet_NaN();  ///< first sample of the run or sum that led to the alarm
   double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< sample at which the criterion was met
-  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last sample that supports it
+  double end_s = std::numeric_limits<double>::quiet_NaN();    ///< last sample that supports the fault
   double confidence =
-      0.0;            ///< share of the samples from onset to end whose largest fault output is the label's
-  bool open = false;  ///< still going on at the last sample
+      0.0;  ///< share of the label among the samples counted for a fault, by their largest fault output
+  bool open = false;  ///< not ended at the last sample
 };
 
-/// What crosses a segment border. Values of its own; start with a fresh one for each log.
+/// State carried over a segment border. Owns its data; start with a new one for each log.
 struct CriterionState {
-  int run_output = -1, run_length = 0;  // of equal largest outputs
+  int run_output = -1, run_length = 0;  // number of successive equal largest outputs
   double run_start_s = 0.0, run_last_s = 0.0;
-  Eigen::VectorXd sum, sum_start_s;  // of log odds, an output each
-  Eigen::VectorXd votes, support;    // of each fault since the run or the sums began
-  double healthy_sum = 0.0;          // for the end of an open episode
+  Eigen::VectorXd sum, sum_start_s;  // of log odds, one for each output
+  Eigen::VectorXd votes, support;    // of each fault, since the start of the run or the sums
+  double healthy_sum = 0.0;          // evidence that an open episode has ended
   std::optional<SampleEpisode> open;
 };
 
-/// What the outputs stand for.
+/// Meaning of the outputs.
 struct OutputMeaning {
   std::vector<FaultLabel> classes;  ///< the last is `none`
-  Eigen::VectorXd prior;            ///< of each class where the classifier was trained; empty = equal
+  Eigen::VectorXd prior;            ///< share of each class in the training samples; empty = equal
 };
 
-/// Episodes that ended within these samples (outputs: classes x samples, times ascending). Samples with NaN
-/// say nothing: they break a run and leave sums as they are. Where segment borders fall changes nothing.
+/// Returns the episodes that ended within these samples (outputs: classes x samples, times ascending).
+/// Samples with NaN have no evidence: they break a run and do not change sums. The result does not depend on
+/// the segment borders.
 std::vector<SampleEpisode> apply_criterion(const CriterionOptions& options, const OutputMeaning& meaning,
                                            const Eigen::Ref<const Eigen::VectorXd>& time,
                                            const Eigen::Ref<const Eigen::MatrixXd>& outputs,
                                            CriterionState& state);
-/// The episode that is open after the last sample, if any.
+/// Returns the episode that is open after the last sample, if any.
 std::optional<SampleEpisode> open_episode(const OutputMeaning& meaning, const CriterionState& state);
 
-/// A run of known truth for tuning.
+/// A run with its true fault, for tuning.
 struct LabelledOutputs {
   Eigen::VectorXd time;
   Eigen::MatrixXd outputs;
@@ -72,22 +73,22 @@ struct LabelledOutputs {
   double onset_s = std::numeric_limits<double>::infinity();
 };
 
-/// What a criterion does on labelled runs.
+/// Performance of a criterion on labelled runs.
 struct CriterionScore {
   CriterionOptions options;
   int false_alarms = 0;  ///< alarms before the onset or in fault-free runs
   double fault_free_hours = 0.0;
   int faulty_runs = 0;
-  int detected = 0;                                                  ///< alarm at or after the onset
-  int right = 0;                                                     ///< and kind and joint are right
-  double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< of the detected
+  int detected = 0;  ///< runs with an alarm at or after the onset
+  int right = 0;     ///< detected runs with the right kind and joint
+  double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< of the detected runs
 };
 CriterionScore score_criterion(const CriterionOptions& options, const OutputMeaning& meaning,
                                std::span<const LabelledOutputs> runs);
 
-/// Tries g (or the threshold, for log odds) from small to large. Best: fewest false alarms among the settings
-/// that find at least 90 % of what the most sensitive one finds, then most found, then the shortest delay;
-/// and one step more for margin where that costs no detection.
+/// Result of trying g (or the threshold, for log odds) from small to large. Best: fewest false alarms among
+/// the settings that detect at least 90 % of the most that any setting detects, then most detected, then the
+/// shortest delay; then, as a margin, the next larger setting if it keeps at least 97 % of the detections.
 struct CriterionSearch {
   CriterionOptions best;
   std::vector<CriterionScore> tried;

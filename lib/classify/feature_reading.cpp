@@ -10,13 +10,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kHardlyCounts = 0.5;  // the size of what explains the episode no better says nothing
+constexpr double kHardlyCounts = 0.5;  // weight of a size below which it is not shown
 constexpr double kLargestTanh = 0.9999;
 constexpr double kRounding = 1e-6;
 constexpr double kPercent = 100.0;
 constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
-/// The largest stands for all beyond it, whatever rounding left of it.
+/// Returns the deficit in nats; kLargestDeficit, a bound of larger ones, without rounding error.
 double nats_behind(double feature) {
   const double nats = deficit_of_feature(feature);
   return nats > kLargestDeficit - kRounding ? kLargestDeficit : nats;
@@ -24,7 +24,7 @@ double nats_behind(double feature) {
 
 std::string quoted(const FaultLabel& label) { return "\"" + plain_words(label) + "\""; }
 
-/// The size over its feature_scale(), from before it was faded and bounded.
+/// Returns the size divided by its feature_scale(), without the weight and the bound of the feature.
 double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
                     std::span<const double> features) {
   const auto behind = std::find_if(list.begin(), list.end(), [&](const EpisodeFeature& f) {
@@ -34,7 +34,7 @@ double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
   const double counts = size_counts(deficit_of_feature(features[behind - list.begin()]));
   if (!(counts > kHardlyCounts)) return kNotTold;
   const double tanh = std::clamp(features[which] / counts, -kLargestTanh, kLargestTanh);
-  return 0.5 * elementary::log1p(2.0 * tanh / (1.0 - tanh));  // its inverse
+  return 0.5 * elementary::log1p(2.0 * tanh / (1.0 - tanh));  // inverse of tanh
 }
 
 FeatureReading read_size(std::span<const EpisodeFeature> list, std::size_t which,

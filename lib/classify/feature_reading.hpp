@@ -9,15 +9,15 @@
 
 namespace faultline {
 
-/// A feature of an episode as a person reads it: in words, and in a unit instead of its logarithm.
+/// A feature of an episode for a person: in words, and in a unit instead of its logarithm.
 struct FeatureReading {
   std::string what;                                         ///< such as "MLP residual of joint 2"
-  std::string unit;                                         ///< empty for a number without one
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN where the feature does not tell it
+  std::string unit;                                         ///< empty for a number without unit
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the feature does not determine it
 };
 
-/// Feature `which` of `features`, whose meaning is `list`. The size of a fault that stays far behind the
-/// likeliest is not told.
+/// Returns feature `which` of `features`, whose meaning is `list`. The size of a label far less likely than
+/// the best one is NaN.
 FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t which,
                             std::span<const double> features, const UsualMotion& usual, const Chain& chain);
 

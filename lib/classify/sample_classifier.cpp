@@ -59,7 +59,7 @@ struct Place {
   int sample = 0;
 };
 
-/// Samples of each class, of the runs that train and of those that validate.
+/// Samples of each class, from the runs that train and from those that validate.
 struct Samples {
   std::map<FaultLabel, std::vector<Place>, decltype(&comes_before)> training{&comes_before},
       validation{&comes_before};
@@ -78,7 +78,7 @@ Samples sort_samples(std::span<const LabelledResiduals> runs, int validate_every
   return samples;
 }
 
-/// At most `most` of the places, at random, order kept.
+/// Returns at most `most` of the places, drawn at random, in their order.
 std::vector<Place> draw(const std::vector<Place>& places, int most, Random& random) {
   std::vector<Place> drawn;
   std::size_t needed = std::min<std::size_t>(most, places.size());

@@ -18,7 +18,7 @@
 
 namespace faultline {
 
-/// What the networks see of each sample.
+/// The networks' inputs of each sample.
 enum class SampleFeatures {
   velocity,      ///< velocity residual of each joint, as in the paper
   torque_space,  ///< of each joint: torque-space residual and torque (both compressed by asinh, in healthy
@@ -29,8 +29,8 @@ enum class SampleFeatures {
 };
 const char* to_string(SampleFeatures features);
 
-/// The paper's classifier: an MLP and an RBFN, each with an output a fault and a last one for fault-free
-/// operation.
+/// The paper's classifier: an MLP and an RBFN, each with one output for each fault and a last one for
+/// fault-free operation.
 struct SampleClassifier {
   SampleFeatures features = SampleFeatures::torque_space;
   std::vector<FaultLabel> classes;  ///< of the outputs; the last is `none`
@@ -43,20 +43,20 @@ struct SampleClassifier {
   int joints() const { return static_cast<int>(torque_rms.size()); }
 };
 
-/// Outputs of both networks, classes x samples: near 1 for the class that is there. NaN where a residual is
+/// Outputs of both networks, classes x samples: near 1 for the class that is present. NaN if a residual is
 /// missing.
 struct SampleOutputs {
   Eigen::VectorXd time;  ///< s
   Eigen::MatrixXd mlp;
   Eigen::MatrixXd rbfn;
 
-  /// The dual classification's mean of both networks.
+  /// Mean of both networks, as in the dual classification.
   Eigen::MatrixXd average() const { return 0.5 * (mlp + rbfn); }
 };
 
 SampleOutputs classify_samples(const SampleClassifier& classifier, const Residuals& residuals);
 
-/// Residuals of a run whose truth is known: fault-free up to `onset_s` and after `end_s`.
+/// Residuals of a run with its true fault: fault-free up to `onset_s` and after `end_s`.
 struct LabelledResiduals {
   Residuals residuals;
   FaultLabel fault;
@@ -74,7 +74,7 @@ struct SampleClassifierOptions {
   SampleTrainer trainer = SampleTrainer::quasi_newton;  ///< of the MLP; back-propagation is the paper's
   RbfnOptions rbfn = {.map = {.rows = 10, .columns = 10}};
   int patterns_per_class = 400;  ///< drawn at random from all runs
-  int validate_every = 5;        ///< of each fault's runs, one in so many validates; 0: all of them train
+  int validate_every = 5;        ///< one in this number of each fault's runs validates; 0: all runs train
   int max_iterations = 300;      ///< of the MLP's trainer; epochs for back-propagation
   double weight_decay = 1e-4;
   std::uint64_t seed = 1;
@@ -88,14 +88,14 @@ struct TrainedSampleClassifier {
 };
 
 /// Trains both networks on samples of labelled runs. Classes are the labels that occur, in the order of kind
-/// and joint, with `none` last. Throws Error(input) when there are no fault-free or no faulty samples.
+/// and joint, with `none` last. Throws Error(input) if there are no fault-free or no faulty samples.
 TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
                                                 const ResidualGenerator& generator,
                                                 const SampleClassifierOptions& options = {},
                                                 const Progress& progress = {});
 
 void to_json(nlohmann::json& json, const SampleClassifier& classifier);
-/// Throws Error(input) when something is missing or does not fit; `where` names the file.
+/// Throws Error(input) if something is missing or does not fit; `where` names the file.
 SampleClassifier sample_classifier_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline
