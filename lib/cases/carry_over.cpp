@@ -9,15 +9,15 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kUnknownModel = "unknown";  // of a base that does not tell its model
+constexpr const char* kUnknownModel = "unknown";  // model of a base without model identity
 
 bool is_revised(const Case& c) {
   return c.outcome != CaseOutcome::confirmed || !(c.label == c.decision) || !c.what_was_done.empty() ||
          !c.person.empty() || !c.date.empty();
 }
 
-/// The case that `learn` made of the same fault of the same log; null when there is none. Bases that do not
-/// tell the log of a case are told apart by the fault alone.
+/// Returns the case that `learn` made of the same fault of the same log; null if there is none. If the log of
+/// a labelled case is not known, compares the fault alone.
 const Case* twin_of(const Case& c, const CaseBase& fresh) {
   const auto& cases = fresh.cases();
   const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& other) {
@@ -27,7 +27,7 @@ const Case* twin_of(const Case& c, const CaseBase& fresh) {
   return found == cases.end() ? nullptr : &*found;
 }
 
-/// The features of a case of `old` in the order of `fresh`.
+/// Returns the features of a case of `old` in the order of `fresh`; NaN if `old` lacks a feature.
 std::vector<double> moved_features(const Case& c, const CaseBase& old, const CaseBase& fresh) {
   std::map<std::string, double> by_name;
   for (std::size_t i = 0; i < c.episode.features.size(); ++i)
@@ -48,7 +48,7 @@ void mark_as_old(Case& c, const CaseBase& old, const CaseBase& fresh) {
     c.features_by = old.model_identity();
 }
 
-/// `fresh` without the cases that are those of people over again.
+/// Returns `fresh` without the cases that a case added or revised by people replaces.
 CaseBase without_superseded(const CaseBase& old, const CaseBase& fresh) {
   std::set<std::int64_t> superseded;
   for (const Case& c : old.cases())

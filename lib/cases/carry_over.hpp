@@ -5,21 +5,21 @@
 
 namespace faultline {
 
-/// What became of the cases of a base in whose place another one steps.
+/// Counts of the cases of a base that another base replaces.
 struct CarriedCases {
-  int carried = 0;     ///< cases that people added or revised, and of labelled logs that are not given again
-  int recomputed = 0;  ///< of them: with the features that the new model gives the same fault of the same log
-  int old_features = 0;  ///< of them: with the features of the earlier model
-  int renumbered = 0;    ///< of them: under another id
-  int replaced = 0;      ///< that `learn` had made and makes anew
+  int carried = 0;     ///< cases that people added or revised, and of labelled logs that are no longer given
+  int recomputed = 0;  ///< of these, with the new model's features of the same fault of the same log
+  int old_features = 0;  ///< of these, with the features of the earlier model
+  int renumbered = 0;    ///< of these, under another id
+  int replaced = 0;      ///< cases made by `learn` that it made again
 };
 
-/// True for a case that `learn` made and nobody has revised since.
+/// Whether `learn` made the case and it has not been revised since.
 bool is_made_by_learn(const Case& c);
 
-/// Adds to `fresh`, which a new model came with, the cases of `old` that nothing can make again; of a
-/// labelled log, where `fresh` has the same fault of the same log, in its place. A feature that `old` did not
-/// have is not measured.
+/// Adds to `fresh`, the base of a new model, the cases of `old` that `learn` cannot make again. Such a case
+/// takes the place of the case of `fresh` with the same fault of the same labelled log. Features that `old`
+/// does not have become NaN.
 CarriedCases carry_over(const CaseBase& old, CaseBase& fresh);
 
 }  // namespace faultline

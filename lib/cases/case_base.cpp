@@ -30,7 +30,7 @@ void check_features(const std::vector<Feature>& features) {
   }
 }
 
-/// NaN, which is not measured, or a number that something measured may have.
+/// Whether `x` is NaN (not measured) or a plausible measurement.
 bool is_sane(double x) { return std::isnan(x) || std::abs(x) <= kLargestNumber; }
 
 bool is_share(double x) { return x >= 0.0 && x <= 1.0; }

@@ -54,7 +54,7 @@ void check_counts(SqliteFile& file, const std::string& path, const CaseBase& bas
                           std::to_string(base.cases().size()));
 }
 
-/// Little-endian IEEE doubles, whatever the machine.
+/// Returns the values as little-endian IEEE doubles on any machine.
 std::string to_bytes(const std::vector<double>& values) {
   std::string bytes;
   for (const double value : values)
@@ -73,7 +73,7 @@ std::vector<double> from_bytes(const std::string& bytes) {
   return values;
 }
 
-/// A joint that is no int becomes one that the base refuses.
+/// Returns the joint, or -1, which the base refuses, if it is out of range.
 int joint_from(std::int64_t joint) { return joint >= 0 && joint <= 1000 ? static_cast<int>(joint) : -1; }
 
 FaultLabel label_at(const SqliteStatement& row, int column) {
@@ -130,7 +130,7 @@ void write_metric(SqliteFile& file, const Metric& metric) {
   }
 }
 
-/// What the tables of a case base of this version hold; that they are whole and fit is not checked.
+/// Reads the tables of a case base without checking whether they are complete and consistent.
 Metric metric_in_tables(SqliteFile& file) {
   Metric metric;
   SqliteStatement near(file, "SELECT near_similarity FROM metric");
@@ -163,8 +163,7 @@ void fill_tables(SqliteFile& file, const CaseBase& base) {
       .step();
 }
 
-/// In a transaction of the caller, so that all statements see the file of one moment, whoever changes it
-/// meanwhile.
+/// Reads the base within a transaction of the caller, so that all statements see the same state of the file.
 CaseBase read_content(SqliteFile& file, const std::string& path) try {
   const std::int64_t version = checked_case_schema(file, path);
   check_whole(file, path, version);
@@ -186,7 +185,7 @@ CaseBase read_at_one_moment(SqliteFile& file, const std::string& path) {
   return base;
 }
 
-/// Nothing when somebody changed the file meanwhile.
+/// Returns nothing if the file changed meanwhile.
 std::optional<CaseBase> read_settled(const std::string& path) {
   const SettledCopy copy(path);
   if (!copy.is_of_one_moment()) return {};
@@ -219,12 +218,12 @@ void write_new(const std::string& path, const CaseBase& base) {
   file.commit();
 }
 
-/// In one transaction: what `make` makes of the open file becomes its content.
+/// Replaces the content of the file by what `make` returns for the open file, in one transaction.
 void rewrite(const std::string& path, const std::function<CaseBase(SqliteFile& file)>& make) {
   check_file(path);
   refuse_other_names(path);
   SqliteFile file(path, SqliteMode::change);
-  file.text("PRAGMA journal_mode = DELETE");  // one file, also when another tool had left it in WAL mode
+  file.text("PRAGMA journal_mode = DELETE");  // one file, even if another tool had left it in WAL mode
   file.run("BEGIN IMMEDIATE");
   const std::int64_t version = checked_case_schema(file, path);
   const CaseBase base = make(file);
@@ -257,7 +256,7 @@ CaseBase read_case_base(const std::string& path) {
   if (!has_journal(path)) return read_in_place(path);
   for (int attempt = 1;; ++attempt) {
     try {
-      return read_in_place(path);  // who writes it may be alive
+      return read_in_place(path);  // a change in progress may finish
     } catch (const Error&) {
       if (attempt == kCopyAttempts) throw;
     }

@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-/// Numbers and texts in one unambiguous order of bytes.
+/// Hashes numbers and texts as an unambiguous sequence of bytes.
 class ContentHash {
  public:
   void add(const std::string& text) {

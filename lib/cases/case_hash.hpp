@@ -7,11 +7,11 @@
 
 namespace faultline {
 
-/// SHA-256 of metric, robot and all cases with their ids, the same on every machine. Bases that tell nothing
-/// of what cases did not know in earlier programs keep the hash that they had there.
+/// SHA-256 of metric, robot and all cases with their ids, the same on every machine. A base without any field
+/// that early programs did not have keeps its early hash.
 std::string content_hash(const CaseBase& base);
 
-/// Of all of a case but its id.
+/// SHA-256 of a case without its id.
 std::string content_hash(const Case& c);
 
 }  // namespace faultline

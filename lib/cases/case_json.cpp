@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "faultline/cases/1";
 
 constexpr std::size_t kLongestJsonWord = 24;
-constexpr int kNumberOverflow = 406;  // of nlohmann::json
+constexpr int kNumberOverflow = 406;  // error number of nlohmann::json
 
 Json label_json(const FaultLabel& label) { return {{"kind", to_string(label.kind)}, {"joint", label.joint}}; }
 
@@ -81,7 +81,7 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
 
-/// The word, or else the character, around byte `at`.
+/// Returns the word, or else the character, around byte `at`.
 std::string word_at(std::string_view text, std::size_t at) {
   std::size_t begin = at, end = at;
   while (begin > 0 && at - begin < kLongestJsonWord && is_of_word(text[begin - 1])) --begin;
@@ -103,14 +103,14 @@ std::string place_words(std::string_view text, std::size_t byte) {
   return sentence;
 }
 
-/// Without the name and number that the library gives its messages.
+/// Returns the message without the name and number that the library prepends.
 std::string plain(const std::string& message) {
   const std::size_t end = message.starts_with('[') ? message.find("] ") : std::string::npos;
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-/// What is wrong with a JSON text, for a person: the line and column where it is none, a number that is too
-/// large, or what was expected of a value. `error` is what nlohmann::json threw at the text.
+/// Describes an error in a JSON text for a person: line and column of a syntax error, a number that is too
+/// large, or what a value was expected to be. `error` is the exception of nlohmann::json for the text.
 std::string json_problem(const std::exception& error, std::string_view text) {
   if (const auto* no_json = dynamic_cast<const nlohmann::json::parse_error*>(&error))
     return place_words(text, no_json->byte);
@@ -127,7 +127,7 @@ std::string json_problem(const std::exception& error, std::string_view text) {
   return message;
 }
 
-/// `number` in the list, from 1, is for the message.
+/// `number` is the position in the list, from 1, for messages.
 Case case_number(std::int64_t number, const Json& json, const std::vector<Feature>& features) try {
   return case_from(json, features);
 } catch (const nlohmann::json::exception& error) {

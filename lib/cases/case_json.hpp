@@ -8,13 +8,13 @@
 
 namespace faultline {
 
-/// One case with its features by name; NaN is null.
+/// Returns one case with its features by name; NaN is null.
 nlohmann::ordered_json to_json(const CaseBase& base, const Case& c);
 
-/// The whole base as JSON text, schema "faultline/cases/1", without loss: from_cases_json gives a base with
-/// the same sha256.
+/// Returns the whole base as JSON text, schema "faultline/cases/1", without loss: from_cases_json() returns a
+/// base with the same sha256.
 std::string to_cases_json(const CaseBase& base);
-/// Throws Error(input) with `where` and the place in the text.
+/// Throws Error(input) with `where` and the position in the text.
 CaseBase from_cases_json(const std::string& text, const std::string& where);
 
 }  // namespace faultline

@@ -7,12 +7,12 @@
 namespace faultline {
 namespace {
 
-/// " by A. Weber on 2026-03-02", as far as it is told.
+/// Returns " by A. Weber on 2026-03-02", without the parts that are not known.
 std::string signature_words(const Case& c) {
   return (c.person.empty() ? "" : " by " + c.person) + (c.date.empty() ? "" : " on " + c.date);
 }
 
-/// The same, or that it is not told.
+/// Returns the signature, or words that it is not known.
 std::string signed_words(const Case& c) {
   const std::string words = signature_words(c);
   return words.empty() ? ", by whom and when is not told" : words;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x464c4342;  // "FLCB"
 static_assert(kApplicationId == 1179403074);
 
-/// The tables without white space that matters; a version adds to the one before.
+/// Returns the tables as SQL, without significant white space; each version extends the one before.
 std::string tables_of(std::int64_t version) {
   std::string tables = R"(
     CREATE TABLE metric(near_similarity REAL NOT NULL) STRICT;
@@ -36,7 +36,7 @@ std::string tables_of(std::int64_t version) {
                           digest TEXT NOT NULL) STRICT;)";
 }
 
-/// Everything in the schema, as one text in which white space does not count.
+/// Returns the whole schema as one text, without white space.
 std::string schema_of(SqliteFile& file) {
   SqliteStatement row(file, "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY type, name");
   std::string text;
@@ -60,7 +60,7 @@ std::string expected_schema(std::int64_t version) {
   throw Error(ErrorCode::input, name, message);
 }
 
-/// The first thing in the schema that is no table of a case base, for the message; may be empty.
+/// Returns in words the first element of the schema that no case base has, for a message; may be empty.
 std::string stranger_in(SqliteFile& file) {
   SqliteStatement row(file,
                       "SELECT type, name FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR name NOT "

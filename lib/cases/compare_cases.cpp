@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastWeight = 0.1;
-constexpr double kStandsOut = 0.5;  // spreads: what both have less unusual than that says nothing
+constexpr double kStandsOut = 0.5;  // least shared_oddity() of a listed feature, standard deviations
 
-/// How much further both are from what is usual than from each other, in spreads over all cases.
+/// Returns how much further both are from the mean than from each other, in standard deviations of all cases.
 double shared_oddity(double a, double b, const UsualFeature& usual) {
   if ((a > usual.mean) != (b > usual.mean) || !(usual.spread > 0.0)) return 0.0;
   const double odd = std::min(std::abs(a - usual.mean), std::abs(b - usual.mean));

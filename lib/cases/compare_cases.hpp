@@ -11,25 +11,25 @@ namespace faultline {
 
 /// One feature of two episodes.
 struct FeatureMatch {
-  std::size_t feature = 0;  ///< its place in the metric
-  double difference = 0.0;  ///< in scales: below 1 as cases of the same fault commonly have it
-  double telling = 0.0;     ///< ranks what a person should see first
+  std::size_t feature = 0;  ///< index in the metric
+  double difference = 0.0;  ///< in scales; below 1 is common between cases of the same fault
+  double telling = 0.0;     ///< importance for a person, by which the matches are sorted
 };
 
-/// Why two episodes are as similar as they are, each list with what tells most first.
+/// The features that make two episodes similar or not, the most important first.
 struct Likeness {
-  std::vector<FeatureMatch> alike;   ///< within a scale, and both unlike what is usual in the base
-  std::vector<FeatureMatch> unlike;  ///< further apart than that, by their share of the distance
+  std::vector<FeatureMatch> alike;   ///< within one scale, and both unusual in the base
+  std::vector<FeatureMatch> unlike;  ///< further apart than one scale, by their share of the distance
 };
 
-/// A feature over all cases of a base; NaN where fewer than two have it.
+/// Statistics of a feature over all cases of a base; NaN if fewer than two have it.
 struct UsualFeature {
   double mean = 0.0;
   double spread = 0.0;  ///< standard deviation
 };
 std::vector<UsualFeature> usual_features(const CaseBase& base);
 
-/// Features that are missing on either side, or tell no faults apart (weight below 0.1), are left out.
+/// Ignores features that are missing on either side or do not distinguish faults (weight below 0.1).
 Likeness compare_cases(const Metric& metric, std::span<const UsualFeature> usual, std::span<const double> a,
                        std::span<const double> b);
 

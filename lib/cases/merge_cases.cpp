@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CaseBase::merge(): cases of another base of the same kind of robot.
+// CaseBase::merge(): adds cases of another base of the same kind of robot.
 #include <set>
 
 #include "lib/cases/case_base.hpp"
@@ -30,7 +30,7 @@ void check_kind(const CaseBase& base, const CaseBase& other) {
                 "meaning of its torque or another program version");
 }
 
-/// Whether a person said what `c` is, and later than what is said of `there`.
+/// Whether a person has judged `c`, and later than `there`.
 bool says_more(const Case& c, const Case& there) {
   if (c.outcome == CaseOutcome::unconfirmed) return false;
   if (there.outcome == CaseOutcome::unconfirmed) return true;
@@ -38,13 +38,13 @@ bool says_more(const Case& c, const Case& there) {
          (c.outcome != there.outcome || c.label != there.label || c.what_was_done != there.what_was_done);
 }
 
-/// Equal for cases that differ in their id alone, or in whether they tell that they are of the robot itself.
+/// Returns a key that is equal for cases that differ only in their id or in naming the base's own robot.
 std::string key_of(Case c, const CaseRobot& robot) {
   if (c.robot == robot.name) c.robot.clear();
   return content_hash(c);
 }
 
-/// What people said of an event, on the case that tells of it here.
+/// Returns `there` with outcome, label and signature of `c`, a case of the same event.
 Case with_word_of(const Case& c, Case there) {
   there.outcome = c.outcome;
   there.label = c.label;

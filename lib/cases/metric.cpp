@@ -23,7 +23,7 @@ struct Moments {
 using LabelKey = std::pair<int, int>;
 LabelKey key_of(const FaultLabel& label) { return {static_cast<int>(label.kind), label.joint}; }
 
-/// Sums of squares of one feature: within the faults, and about the mean of all.
+/// Sums of squares of one feature: within the faults, and about the mean of all cases.
 struct ValueSpread {
   double within = 0.0, total = 0.0, count = 0.0, groups = 0.0;
 };
@@ -47,13 +47,13 @@ ValueSpread spread_of(std::span<const Case> cases, std::size_t feature) {
 
 void learn_feature(Feature& feature, const ValueSpread& spread) {
   if (spread.count <= spread.groups || !(spread.total > 0.0)) {
-    feature.weight = 0.0;  // the same in all cases, or never twice in one fault: it tells nothing
+    feature.weight = 0.0;  // constant over all cases, or never twice in one fault: distinguishes nothing
     return;
   }
   const double within = spread.within / (spread.count - spread.groups);
   const double total = spread.total / (spread.count - 1.0);
   feature.weight = std::clamp(1.0 - spread.within / spread.total, 0.0, 1.0);
-  feature.scale = std::sqrt(std::max(within, 1e-4 * total));  // a feature that never varies within a fault
+  feature.scale = std::sqrt(std::max(within, 1e-4 * total));  // bounded if it is constant within each fault
 }
 
 bool enough_to_learn(std::span<const Case> cases) {
@@ -63,7 +63,7 @@ bool enough_to_learn(std::span<const Case> cases) {
          2;
 }
 
-/// For each case that has company in its fault, how similar the nearest other case of it is.
+/// Returns the similarity to the nearest other case of its fault, for each case that has one.
 std::vector<double> similarity_to_own(const Metric& metric, std::span<const Case> cases) {
   std::vector<double> nearest;
   for (const Case& a : cases) {

@@ -11,8 +11,8 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kOfLabel = "behind ";        // begins a feature of each hypothesis
-constexpr const char* kOfJoint = "mlp residual ";  // begins a feature of each joint
+constexpr const char* kOfLabel = "behind ";        // prefix of the feature of each hypothesis
+constexpr const char* kOfJoint = "mlp residual ";  // prefix of the feature of each joint
 
 [[noreturn]] void refuse_label(const std::string& where, const std::string& message) {
   throw Error(ErrorCode::usage, where, message);
@@ -50,7 +50,7 @@ void check_joint(int joints, const FaultLabel& label, const std::string& where) 
 
 void check_place(int joints, const FaultLabel& label, const std::string& where) {
   check_joint(joints, label, where);
-  if (label.kind == FaultKind::unknown) return;  // at a joint, or nowhere
+  if (label.kind == FaultKind::unknown) return;  // at any joint, or without one
   const std::string kind = to_string(label.kind);
   const FaultPlace place = describe(label.kind).place;
   if (place == FaultPlace::nowhere && label.joint != 0)

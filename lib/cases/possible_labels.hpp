@@ -7,21 +7,21 @@
 
 namespace faultline {
 
-/// Joints of the robot of the base, by its axes or by what is compared of each joint; 0 where neither tells.
+/// Returns the number of joints of the base's robot, from its axes or from the features; 0 if unknown.
 int joints_of(const CaseBase& base);
 
-/// Throws Error(usage) with `where` for a joint that a robot of so many does not have; 0: how many is not
-/// known.
+/// Throws Error(usage) with `where` if a robot with `joints` joints does not have the label's joint; 0
+/// joints: not known, no check.
 void check_joint(int joints, const FaultLabel& label, const std::string& where);
 
-/// The same, and that a joint is told where the fault is one of a joint, and only there.
+/// As check_joint(); also checks that the label has a joint if its kind is a fault of a joint, and only then.
 void check_place(int joints, const FaultLabel& label, const std::string& where);
 
-/// The same for the robot of a base, and that some fault of this kind is known for it: as a hypothesis of its
-/// model, or by a case.
+/// As check_place() for the robot of a base; also checks that the base's model has the label as a hypothesis,
+/// or that the base has a case of this kind.
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where);
 
-/// The label with the last joint where it is a changed payload whose link was left out.
+/// Returns the label with the last joint if it is a changed payload without a link.
 FaultLabel with_tip(FaultLabel label, int joints);
 
 }  // namespace faultline

@@ -8,15 +8,15 @@
 
 namespace faultline {
 
-/// A case and how much it resembles the episode asked for. Points into the case base it came from.
+/// A case and its similarity to the query episode. Points into its case base.
 struct Neighbour {
   const Case* found = nullptr;
   double similarity = 0.0;  ///< 0 to 1
 };
 
-/// The `count` most similar cases, the most similar first; among equals the lower id. Fewer when the base is
-/// smaller; cases with nothing to compare (similarity 0) or less similar than `least_similarity` are left
-/// out.
+/// Returns the `count` most similar cases, the most similar first, with equal similarity the lower id first.
+/// Fewer if the base is smaller; leaves out cases that cannot be compared (similarity 0) or are less similar
+/// than `least_similarity`.
 std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count,
                                 double least_similarity = 0.0);
 

@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kOneOnset_s = 0.1;  // another model estimates the onset of the same fault anew
+constexpr double kOneOnset_s = 0.1;  // another model may estimate another onset of the same fault
 
 bool same_time(double a_s, double b_s) {
   return std::isnan(a_s) || std::isnan(b_s) ? std::isnan(a_s) == std::isnan(b_s)

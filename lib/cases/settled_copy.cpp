@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 2> kJournals = {"-journal", "-wal"};
 
-/// Tells whether a file is still as it was; empty when there is none.
+/// Returns a text that changes if the file changes; empty if there is no file.
 std::string state_of(const std::string& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) return "";
@@ -46,7 +46,7 @@ std::string private_folder(const std::string& path) {
   return name;
 }
 
-/// Without the rights of the original, which may forbid writing. Gives why it failed, if it did.
+/// Copies a file without its permissions, which may forbid writing. Returns the reason of a failure, or "".
 std::string copy_bytes(const std::string& from, const std::string& to) {
   std::error_code error, ignored;
   fs::copy_file(from, to, error);
@@ -54,7 +54,7 @@ std::string copy_bytes(const std::string& from, const std::string& to) {
   return error ? error.message() : "";
 }
 
-/// The same of the file and those journals that there are.
+/// Copies the file and the existing journals, as copy_bytes().
 std::string copy_all(const std::string& from, const std::string& to) {
   std::string failure = copy_bytes(from, to);
   for (const char* journal : kJournals)

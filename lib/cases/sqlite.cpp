@@ -25,12 +25,12 @@ int open_flags(SqliteMode mode) {
   return SQLITE_OPEN_READONLY;
 }
 
-constexpr int kPatienceMs = 5000;  // for the lock of another program
+constexpr int kPatienceMs = 5000;  // waiting time for the lock of another program
 constexpr int kLongestValue = 64 << 20;
 constexpr int kStepsAtATime = 10'000;
 constexpr long long kLeastSteps = 50'000'000, kStepsAByte = 100;
 
-/// Counts down; SQLite ends the statement when it returns something else than 0.
+/// Counts the steps down; SQLite ends the statement if it returns a value other than 0.
 int use_up_steps(void* left) { return --*static_cast<long long*>(left) < 0 ? 1 : 0; }
 
 ErrorCode code_of(int sqlite, SqliteMode mode) {

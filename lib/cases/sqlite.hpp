@@ -11,19 +11,19 @@ struct sqlite3_stmt;
 
 namespace faultline {
 
-/// The file and the journals that SQLite keeps beside it while it is changed, whether they are there or not.
-/// SQLite believes what it finds in them.
+/// Returns the paths of the file and of the journals that SQLite keeps beside it during a change, whether
+/// they exist or not. SQLite applies any journal that it finds.
 std::vector<std::string> sqlite_files(const std::string& path);
 
 enum class SqliteMode { read_only, change, create };
 
-/// An open SQLite file; every failure throws Error(input), or Error(output) where writing failed, with the
-/// file's name and SQLite's reason in words. What the file brings along is not trusted: its triggers and
-/// views do not run, no function of its schema may do harm, and a statement that takes far more steps than
-/// the size of the file explains is ended.
+/// An open SQLite file; every failure throws Error(input), or Error(output) if writing failed, with the
+/// file's name and SQLite's reason in words. The file's schema is not trusted: its triggers and views do not
+/// run, its functions are restricted, and a statement is ended once all statements have taken far more steps
+/// than the size of the file explains.
 class SqliteFile {
  public:
-  /// `name` stands in messages; empty: the path. The path ":memory:" is a new one that is no file.
+  /// `name` stands in messages; empty: the path. The path ":memory:" is a new database without a file.
   SqliteFile(std::string path, SqliteMode mode, std::string name = "");
   ~SqliteFile();
   SqliteFile(const SqliteFile&) = delete;
@@ -32,7 +32,7 @@ class SqliteFile {
   void run(const char* sql);
   std::int64_t number(const char* sql);
   std::string text(const char* sql);
-  /// All its bytes, as they would stand in a file.
+  /// Returns all bytes of the database, as they would stand in a file.
   std::string bytes();
 
  private:
@@ -47,7 +47,7 @@ class SqliteFile {
   sqlite3* db_ = nullptr;
 };
 
-/// A prepared statement; parameters and columns count from 0 and go left to right.
+/// A prepared statement; parameters and columns count from 0, left to right.
 class SqliteStatement {
  public:
   SqliteStatement(SqliteFile& file, const char* sql);
@@ -59,14 +59,14 @@ class SqliteStatement {
   SqliteStatement& bind(double value);  ///< NaN becomes NULL
   SqliteStatement& bind(const std::string& text);
   SqliteStatement& bind_blob(std::string_view bytes);
-  /// True when there is a row; after the last one the statement is ready to be bound again.
+  /// Whether there is a row; after the last one the statement can be bound again.
   bool step();
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NULL becomes NaN
   std::string text(int column) const;
   std::string blob(int column) const;
   int columns() const;
-  /// Type and value without loss: what is different has different bytes.
+  /// Returns type and value without loss: different values have different bytes.
   std::string exact(int column) const;
 
  private:

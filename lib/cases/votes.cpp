@@ -27,7 +27,7 @@ void vote_of_cases(std::vector<LabelShare>& votes, const std::vector<Neighbour>&
            n.similarity * (n.found->outcome == CaseOutcome::unconfirmed ? options.unconfirmed_weight : 1.0));
 }
 
-/// Votes as shares of their sum, the largest first; among equals the one voted for first.
+/// Converts votes to shares of their sum, sorted by size; equal shares in the order of voting.
 void normalise(std::vector<LabelShare>& votes) {
   double sum = 0.0;
   for (const LabelShare& v : votes) sum += v.share;
