@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Eigen::VectorXi;
 
-/// Writes each member that it is shown.
+/// Visitor that writes each member to `json`.
 struct Writer {
   nlohmann::json json = nlohmann::json::object();
 
@@ -28,7 +28,7 @@ struct Writer {
   void operator()(const char* key, const MatrixXd& value) { json[key] = matrix_to_json(value); }
 };
 
-/// Reads each member that it is shown.
+/// Visitor that reads each member from `json`.
 struct Reader {
   const nlohmann::json& json;
   const std::string& where;

@@ -8,9 +8,9 @@
 
 namespace faultline {
 
-/// What explains the logs of a robot, every bit kept both ways.
+/// Returns the model that explains the logs of a robot as JSON, without loss of a bit both ways.
 nlohmann::json explain_model_to_json(const ExplainModel& model);
-/// Throws Error(input) when members do not fit together, and what nlohmann::json throws.
+/// Throws Error(input) if members do not fit together, and the exceptions of nlohmann::json.
 ExplainModel explain_model_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

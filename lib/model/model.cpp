@@ -22,7 +22,7 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kLargestModel = 64 << 20;           // bytes
-constexpr const char* kLearnedFromTracking = "tracking";  // logs without torque: no mechanics
+constexpr const char* kLearnedFromTracking = "tracking";  // learned from logs without torque: no mechanics
 
 nlohmann::json validation_to_json(const Validation& validation) {
   nlohmann::json rows = nlohmann::json::array();
@@ -54,7 +54,7 @@ nlohmann::json validation_to_json(const Validation& validation) {
           {"confidence_error", number_or_null(validation.confidence_error)}};
 }
 
-/// Throws what nlohmann::json throws, and Error(usage) for an unknown kind.
+/// Throws the exceptions of nlohmann::json, and Error(usage) for an unknown kind.
 Validation validation_from_json(const nlohmann::json& json) {
   Validation validation;
   for (const auto& row : json.at("rows"))
@@ -78,7 +78,7 @@ Validation validation_from_json(const nlohmann::json& json) {
   return validation;
 }
 
-/// Calls visit(key, vector) for every list that has one number a joint.
+/// Calls visit(key, vector) for every list with one number for each joint.
 template <typename Usual, typename Visit>
 void visit_joint_lists(Usual& usual, Visit visit) {
   visit("q_low", usual.q_low);
@@ -107,7 +107,7 @@ nlohmann::json usual_motion_to_json(const UsualMotion& usual) {
   return json;
 }
 
-/// Throws Error(input) when a key is missing or the lists do not have one number for each of `joints`.
+/// Throws Error(input) if a key is missing or a list does not have one number for each of `joints`.
 UsualMotion usual_motion_from_json(const nlohmann::json& json, int joints, const std::string& where) {
   UsualMotion usual;
   visit_joint_lists(usual, [&](const char* key, std::vector<double>& values) {
@@ -164,7 +164,7 @@ ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
           json.at("most").get<double>()};
 }
 
-/// Who the model is, who changed it and what speaks against it.
+/// Reads the identity of the model, its edits and its doubts.
 void read_origin(const nlohmann::json& json, Model& model) {
   model.identity = json.value("identity", "");
   model.doubts = json.value("doubts", std::vector<std::string>{});

@@ -21,108 +21,106 @@
 
 namespace faultline {
 
-/// How often faults of one kind were found in simulated runs that nothing was trained on.
+/// Detection and classification of faults of one kind in simulated runs that were not used for training.
 struct ValidationRow {
   FaultKind kind = FaultKind::none;
   int runs = 0;
   int detected = 0;
-  int right_kind = 0;   ///< whatever the joint
-  int right_joint = 0;  ///< whatever the kind
+  int right_kind = 0;   ///< at any joint
+  int right_joint = 0;  ///< of any kind
   int right_kind_and_joint = 0;
-  int right_or_named = 0;  ///< right, or the right one in could_also_be
-  double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< onset to alarm
+  int right_or_named = 0;  ///< right, or the right label in could_also_be
+  double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< from onset to alarm
   double p90_delay_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// How small a fault of one kind at one joint may be to be found all the same, by simulated runs.
+/// Smallest fault of one kind at one joint that is still found, from simulated runs.
 struct Reach {
   FaultLabel label;
   int runs = 0;
   int found = 0;
-  /// Found nine times of ten from this size on: share, rad, m, N m, N, kg and so on, of a collision its
-  /// impulse. NaN for kinds without a size, and where none is large enough.
+  /// From this size on, nine of ten faults are found: share, rad, m, N m, N, kg and so on; for a collision
+  /// its impulse. NaN for kinds without a size, or if no size suffices.
   double size = std::numeric_limits<double>::quiet_NaN();
-  double least_size = std::numeric_limits<double>::quiet_NaN();  ///< the smallest that was simulated
+  double least_size = std::numeric_limits<double>::quiet_NaN();  ///< the smallest simulated size
   double median_delay_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// How good a model is, on runs of the identified robot (its parameters drawn from their uncertainty).
+/// Performance of a model on runs of the identified robot (its parameters drawn from their uncertainty).
 struct Validation {
   std::vector<ValidationRow> rows;
-  std::vector<Reach> reach;  ///< in the order of the labels; also of the runs that were trained on
+  std::vector<Reach> reach;  ///< in the order of the labels; includes training runs
   int early_alarms = 0;      ///< alarms before the onset, in the runs of `rows`
   double healthy_hours = 0.0;
-  int false_alarms = 0;  ///< in them
-  /// Expected calibration error of the confidences in `rows`: as networks, votes and likelihood gave them,
-  /// and calibrated by other runs. NaN where nothing was found.
+  int false_alarms = 0;  ///< in the healthy hours
+  /// Expected calibration error of the confidences in `rows`: as computed from networks, votes and
+  /// likelihood, and after calibration by other runs. NaN if nothing was found.
   double raw_confidence_error = std::numeric_limits<double>::quiet_NaN();
   double confidence_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 inline constexpr const char* kLeftOut = "left out";
 
-/// A log that a model was learned from, or would have been.
+/// A log that a model was learned from, or that was left out.
 struct ModelSource {
   std::string path;  ///< file name without folders
   std::string sha256;
   long long rows = 0;
-  std::string fault;  ///< "none", the label it came with, or kLeftOut
+  std::string fault;  ///< "none", the given label, or kLeftOut
 };
 
-/// The paper's way: both networks over the residuals of each sample, and the fault criterion, as tuned.
+/// The paper's method: both networks on the residuals of each sample, and the tuned fault criterion.
 struct SampleMode {
   SampleClassifier classifier;
   CriterionOptions consecutive{.kind = CriterionKind::consecutive};
   CriterionOptions log_odds{.kind = CriterionKind::log_odds};
 };
 
-/// A change of a model file by hand that somebody accepted (`faultline model sign`).
+/// A manual change of a model file that a person accepted (`faultline model sign`).
 struct ModelEdit {
-  std::string digest_before;  ///< that the file carried when it was signed; empty where it carried none
-  std::string why;            ///< as its signer says; may be empty
+  std::string digest_before;  ///< digest in the file when it was signed; empty if there was none
+  std::string why;            ///< reason of the signer; may be empty
 };
 
-/// All that is known of one healthy robot: what `learn` makes and `diagnose` needs besides the case base.
+/// The model of one healthy robot: the result of `learn` and, with the case base, the input of `diagnose`.
 struct Model {
   std::string name;
   Robot robot;  ///< identified
-  /// How well, with intervals; without robot, estimate, covariance and logs. `not_run` in models of programs
-  /// that did not keep it.
+  /// Quality of the identification, with intervals; without robot, estimate, covariance and logs. `not_run`
+  /// in models of early programs.
   Identification identification;
-  double sample_period_s = 0.0;    ///< usual one of the logs it was learned from
-  bool has_velocity = true;        ///< those logs have dq
+  double sample_period_s = 0.0;    ///< usual sample period of the training logs
+  bool has_velocity = true;        ///< whether these logs have dq
   UsualMotion motion;              ///< of its healthy logs
-  ExplainModel explain;            ///< what explains its logs
-  std::vector<FaultLabel> labels;  ///< what may be wrong with it; follows from the robot, not stored
+  ExplainModel explain;            ///< explains its logs
+  std::vector<FaultLabel> labels;  ///< possible faults; follow from the robot, not stored
   ResidualGenerator residual;
-  std::vector<SignalRelation>
-      relations;  ///< second residuals, tracking; none where the logs lack the signals
+  std::vector<SignalRelation> relations;  ///< second residuals, tracking; empty if the logs lack the signals
   EpisodeClassifier episode_classifier;
-  ConfidenceCalibration confidence;  ///< of what names a fault, by simulated runs that it was not trained on
+  ConfidenceCalibration confidence;  ///< of fault labels; from simulated runs not used for training
   SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;
-  std::optional<TwinOptions>
-      twin;            ///< what it was trained on; none in models of programs that did not keep it
-  std::string sha256;  ///< of the file it was read from
-  /// What binds the case base to it (bind_cases()); empty in models of programs that gave none. It stays when
-  /// the model is edited.
+  std::optional<TwinOptions> twin;  ///< distribution of the training runs; empty in models of early programs
+  std::string sha256;               ///< of the file that it was read from
+  /// Identity that binds the case base to the model (bind_cases()); empty in models of early programs. An
+  /// edit of the model does not change it.
   std::string identity;
   std::vector<ModelEdit> edits;
-  std::vector<std::string> doubts;  ///< why it is not to be trusted as others are; each diagnosis says so
-  std::vector<std::string> grave_doubts;  ///< those of them with which no log can be called healthy
+  std::vector<std::string> doubts;        ///< reasons against trusting the model; each diagnosis reports them
+  std::vector<std::string> grave_doubts;  ///< those that forbid calling any log healthy
 
-  /// False where it was learned from logs without torque: then only `relations` judge.
+  /// False if the model was learned from logs without torque: then only `relations` are judged.
   bool has_mechanics() const { return residual.joints() > 0; }
 };
 
-/// What may be wrong with a robot whose torque is logged as its file says.
+/// Returns the possible faults of a robot whose torque is logged as its file states.
 std::vector<FaultLabel> labels_of(const Robot& robot);
 
-/// The model as one JSON file, schema "faultline/model/4", with the digest of its content.
+/// Returns the model as a JSON file, schema "faultline/model/4", with the digest of its content.
 std::string model_to_json(const Model& model);
-/// Throws Error(input) for text that is no model, is cut, damaged or edited without a signature, is of a
-/// newer schema, has a number beyond its range or does not fit together.
+/// Throws Error(input) if the text is no model, is cut, damaged or edited without a signature, has a newer
+/// schema or a number beyond its range, or does not fit together.
 Model model_from_json(const std::string& text, const std::string& where);
 /// Throws Error(input).
 Model load_model(const std::string& path);

@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// The robot of a model, as its case base tells it.
+/// Returns the robot of a model as its case base stores it.
 CaseRobot case_robot_of(const Model& model);
 
-/// Gives a model and the case base that was learned with it the same identity, which follows from the model,
-/// and the case base its robot.
+/// Gives a model and the case base that was learned with it the same identity, a hash of the model, and gives
+/// the case base the robot.
 void bind_cases(Model& model, CaseBase& cases);
 
 /// A model with its case base.
@@ -22,11 +22,11 @@ struct ModelFiles {
   CaseBase cases;
 };
 
-/// Reads both. Throws Error(input) also when the case base belongs to another model.
+/// Reads both files. Throws Error(input) also if the case base belongs to another model.
 ModelFiles load_model_files(const std::string& model, const std::string& cases);
 
-/// What a reader of a diagnosis must know of the model besides its name, a sentence each: that it was edited
-/// by hand, that it carries no digest.
+/// Returns notes on the model for the reader of a diagnosis, a sentence each: its doubts, and that it was
+/// edited by hand.
 std::vector<std::string> notes_of(const Model& model);
 
 }  // namespace faultline

@@ -17,7 +17,7 @@ struct Range {
   double low = 0.0, high = 0.0;
 };
 
-/// Holds for the place and everything below it.
+/// Range of the numbers at a place and at all places below it.
 struct PlacedRange {
   std::string_view place;
   Range range;
@@ -29,10 +29,10 @@ constexpr Range kAnything{-1e15, 1e15}, kPositive{0.0, 1e12}, kSigned{-1e12, 1e1
 
 constexpr double kLargestOfRobot = 1e9;  // m, kg, kg m^2, N m
 
-/// Of what is only told and never computed with; where a log does not determine a parameter it may be huge.
+/// Ranges of values that are only reported, never computed with; those that no log determines may be huge.
 constexpr Range kTold{-1e100, 1e100}, kToldPositive{0.0, 1e100};
 
-/// The first that fits counts.
+/// The first matching entry applies.
 constexpr std::array kRanges = {
     PlacedRange{"/sample_period_s", kPeriod},
     PlacedRange{"/sources/*/rows", {0.0, 1e15}},

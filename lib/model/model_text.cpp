@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchemaName = "faultline/model/";
-constexpr const char* kEnd = "\n}";  // of the JSON text without digest
+constexpr const char* kEnd = "\n}";  // end of the JSON text without digest
 constexpr const char *kBeforeDigest = ",\n \"digest\": \"", *kAfterDigest = "\"\n}\n";
 
 std::string with_digest(const std::string& before) {
@@ -25,7 +25,7 @@ bool digest_fits(const std::string& text) {
   return begin != std::string::npos && text == with_digest(text.substr(0, begin));
 }
 
-/// 0 where the text is JSON but no model.
+/// Returns the schema version; 0 if the JSON is no model, -1 if its version is not valid.
 int version_of(const Json& json) {
   const bool named = json.is_object() && json.contains("schema") && json["schema"].is_string();
   const std::string schema = named ? json["schema"].get<std::string>() : "";

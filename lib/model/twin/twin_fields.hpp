@@ -3,8 +3,8 @@
 
 namespace faultline {
 
-/// Calls visit(key, value, words) for each number and range of TwinOptions but the faults', in the order in
-/// which they are shown; the words say unit and meaning.
+/// Calls visit(key, value, words) for each number and range of TwinOptions except those of the faults, in the
+/// order of display; the words state unit and meaning.
 template <typename Options, typename Visit>
 void visit_twin_fields(Options& o, Visit visit) {
   visit("least_length_s", o.least_length_s, "s, length of a run at least");

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// The distribution of the simulated runs as a table for people.
+/// Returns the distribution of the simulated runs as a table for people.
 std::string twin_text(const TwinOptions& options);
 
 }  // namespace faultline
