@@ -10,16 +10,16 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kBlock = 64;   // samples: two panels of them stay in the first-level cache
-constexpr int kColumns = 4;  // with kVectors, as many sums as sixteen registers hold
+constexpr int kBlock = 64;   // samples: two panels of them fit into the first-level cache
+constexpr int kColumns = 4;  // with kVectors, as many sums as fit into sixteen registers
 constexpr int kVectors = 3;
 
-/// sums[c][r] += rows[n][r] * columns[n][c] over the samples n; a panel of rows, kColumns columns.
+/// sums[c][r] += rows[n][r] * columns[n][c] over the samples n, for a panel of rows and kColumns columns.
 template <int Width>
 [[gnu::always_inline]] inline void tile_body(const double* rows, const double* columns, int samples,
                                              double* const* sums) {
   using Vector [[gnu::vector_size(Width * sizeof(double))]] = double;
-  constexpr int kSums = kColumns * kVectors;  // of column c, vector v at c * kVectors + v
+  constexpr int kSums = kColumns * kVectors;  // column c, vector v at c * kVectors + v
   for (int strip = 0; strip < kGramPanel; strip += kVectors * Width) {
     Vector sum[kSums];
 #pragma GCC unroll 12
@@ -63,12 +63,12 @@ TileKernel tile_for(VectorUnit unit) {
 TileKernel tile_for(VectorUnit) { return tile_base; }
 #endif
 
-/// Rows of a panel for one sample, on a border of cache lines.
+/// The rows of a panel for one sample, aligned to cache lines.
 struct alignas(64) PanelRow {
   double values[kGramPanel];
 };
 
-/// Samples first .. first + count - 1 as [panel][sample].
+/// Packs samples first .. first + count - 1 as [panel][sample].
 void pack(const Eigen::MatrixXd& features, Index first, int count, std::vector<PanelRow>& packed) {
   PanelRow* to = packed.data();
   for (Index panel = 0; panel < features.rows(); panel += kGramPanel)

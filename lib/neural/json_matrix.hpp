@@ -7,7 +7,7 @@
 
 #include "lib/core/json_members.hpp"
 
-/// Vectors and matrices in JSON, every bit kept both ways; members are read as those of json_members.
+/// Vectors and matrices as JSON without loss of a bit both ways; members are read as by json_members.
 namespace faultline {
 
 nlohmann::json vector_to_json(const Eigen::VectorXd& values);

@@ -10,12 +10,12 @@ namespace faultline {
 namespace {
 
 /// tanh(x) = -(e^y - 1) / (e^y + 1), y = -2|x| = k ln 2 + r, e^r by the Pade approximant [5/5]
-/// (E + O) / (E - O) with E even and O odd in r. Written so that nothing cancels near zero.
+/// (E + O) / (E - O) with E even and O odd in r. Arranged so that nothing cancels near zero.
 inline double tanh_of(double x) {
-  constexpr double kRounder = 0x1.8p52;  // added and taken away: rounds to the nearest whole number
+  constexpr double kRounder = 0x1.8p52;  // added and subtracted: rounds to the nearest whole number
   constexpr double kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
   double a = std::fabs(x);
-  a = a > 20.0 ? 20.0 : a;  // this way round NaN stays
+  a = a > 20.0 ? 20.0 : a;  // in this order NaN stays NaN
   const double y = -2.0 * a;
   const double shifted = y * 1.4426950408889634 + kRounder;
   const double k = shifted - kRounder;
@@ -49,7 +49,7 @@ struct Pack {
   }
 };
 
-/// Numbers of a layer, column-major: two tables of `rows` x `columns`, or one and a vector of `rows`.
+/// Numbers of a layer, column-major: two tables of `rows` x `columns`, or a table and a vector of `rows`.
 struct LayerNumbers {
   const double* first;
   const double* second;
@@ -61,7 +61,7 @@ template <int Width, int Count>
 [[gnu::always_inline]] inline void affine_outputs(const LayerNumbers& layer, int first, const double* in,
                                                   double* out) {
   using P = Pack<Width>;
-  constexpr int kSums = Count * P::kCount;  // of output o, vector p at o * P::kCount + p
+  constexpr int kSums = Count * P::kCount;  // output o, vector p at o * P::kCount + p
   typename P::Type sum[kSums];
 #pragma GCC unroll 12
   for (int k = 0; k < kSums; ++k) sum[k] = layer.second[first + k / P::kCount] + typename P::Type{};
@@ -82,7 +82,7 @@ template <int Width, int Count>
 /// `layer`: weights and bias of outputs x inputs.
 template <int Width>
 [[gnu::always_inline]] inline void affine_body(LayerNumbers layer, const double* in, double* out) {
-  constexpr int kTogether = Width / 2;  // as many as the registers of this width hold
+  constexpr int kTogether = Width / 2;  // as many as fit into the registers of this width
   int o = 0;
   for (; o + kTogether <= layer.rows; o += kTogether) affine_outputs<Width, kTogether>(layer, o, in, out);
   for (; o < layer.rows; ++o) affine_outputs<Width, 1>(layer, o, in, out);
@@ -119,8 +119,8 @@ struct Kernels {
   MatrixKernel distance;
 };
 
-// The same bodies compiled for three instruction sets. Wider vectors hold more lanes; no lane sees a
-// difference.
+// The same functions compiled for three instruction sets. Wider vectors hold more lanes; the result of a lane
+// is the same.
 void tanh_base(double* v, int n) { tanh_body(v, n); }
 void affine_base(LayerNumbers layer, const double* in, double* out) { affine_body<2>(layer, in, out); }
 void distance_base(LayerNumbers layer, const double* in, double* out) { distance_body<2>(layer, in, out); }

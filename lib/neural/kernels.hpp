@@ -11,20 +11,20 @@
 #define FAULTLINE_AVX512 "avx512f,prefer-vector-width=512"
 #endif
 
-/// Inner loops of the networks. Each sample is a lane that never mixes with another one, and the order of the
-/// operations in a lane is fixed, so a result does not depend on how many samples were processed together.
+/// Inner loops of the networks. Each sample is a lane of its own, and the order of the operations in a lane
+/// is fixed, so that a result does not depend on the number of samples processed together.
 namespace faultline {
 
-/// Samples that go through a network side by side.
+/// Samples that are processed side by side.
 inline constexpr int kLanes = 16;
 
-/// Which vector instructions do the work; every one gives the same bits.
+/// Vector instructions to use; all give the same bits.
 enum class VectorUnit { baseline, avx2, avx512 };
-/// The widest this processor has, which the functions below use unless told otherwise.
+/// Returns the widest unit of this processor, the default of the functions below.
 VectorUnit best_vector_unit();
 
-/// tanh of `count` numbers in place; no libm, relative error below 1e-14; NaN stays NaN. `count` is a
-/// multiple of kLanes.
+/// tanh of `count` numbers in place, without libm, relative error below 1e-14; NaN stays NaN. `count` must be
+/// a multiple of kLanes.
 void tanh_in_place(double* values, int count);
 void tanh_in_place(double* values, int count, VectorUnit unit);
 

@@ -23,7 +23,7 @@ void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
   }
 }
 
-/// Damping between Gauss-Newton and gradient descent, moved by how well the quadratic model predicted a step.
+/// Damping between Gauss-Newton and gradient descent, adapted to the quadratic model's prediction of a step.
 struct Damping {
   double value = 0.0;
   double growth = 2.0;
@@ -40,7 +40,7 @@ struct Damping {
   }
 };
 
-/// The step from the normal equations; false when they are not positive definite at this damping.
+/// Solves the normal equations for the step; returns false if they are not positive definite.
 bool solve(const MatrixXd& normal, const VectorXd& gradient, double damping, VectorXd& step) {
   MatrixXd damped = normal;
   damped.diagonal().array() += damping;

@@ -89,7 +89,7 @@ void forward(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs, Eigen::Re
   std::vector<double> now(widest * kLanes), next(widest * kLanes);
   for (Eigen::Index first = 0; first < inputs.cols(); first += kLanes) {
     const int samples = static_cast<int>(std::min<Eigen::Index>(kLanes, inputs.cols() - first));
-    for (int lane = 0; lane < kLanes; ++lane)  // idle lanes of the last block repeat the first sample
+    for (int lane = 0; lane < kLanes; ++lane)  // unused lanes of the last block repeat the first sample
       for (int i = 0; i < mlp.inputs(); ++i)
         now[i * kLanes + lane] = inputs(i, first + (lane < samples ? lane : 0));
     for (const MlpLayer& layer : mlp.layers) {

@@ -10,11 +10,11 @@
 
 namespace faultline {
 
-/// What the last layer does with its weighted sums a, and the loss that belongs to it (a pattern's; dloss/da
-/// is output - target in each case).
+/// Output function of the last layer's weighted sums a, and the loss of a pattern that belongs to it
+/// (dloss/da is output - target in each case).
 enum class OutputKind {
   linear,    ///< y = a; half the squared error
-  logistic,  ///< y = 1 / (1 + exp(-a)) each for itself; cross-entropy
+  logistic,  ///< y = 1 / (1 + exp(-a)), each output independent; cross-entropy
   softmax,   ///< y = exp(a) / sum exp(a), probabilities of exclusive classes; cross-entropy
 };
 const char* to_string(OutputKind kind);
@@ -24,7 +24,7 @@ struct MlpLayer {
   Eigen::VectorXd bias;
 };
 
-/// Multi-layer perceptron: tanh in every layer but the last. The paper's has 9-49-6 units and a linear
+/// Multi-layer perceptron with tanh in every layer but the last. The paper's has 9-49-6 units and a linear
 /// output.
 struct Mlp {
   std::vector<MlpLayer> layers;
@@ -35,15 +35,15 @@ struct Mlp {
   int parameters() const;
 };
 
-/// Random start for training: uniform weights of variance 2 / (fan in + fan out) (Glorot and Bengio 2010),
-/// small random biases. `sizes` = inputs, hidden..., outputs. Throws Error(usage) for fewer than two or empty
-/// layers.
+/// Returns a random start for training: uniform weights of variance 2 / (fan in + fan out) (Glorot and Bengio
+/// 2010), small random biases. `sizes` = inputs, hidden..., outputs. Throws Error(usage) for fewer than two
+/// layers or for empty layers.
 Mlp make_mlp(const std::vector<int>& sizes, OutputKind output = OutputKind::linear, std::uint64_t seed = 1);
 
-/// Outputs (outputs x samples) for inputs (inputs x samples). A sample's result depends on its own inputs
-/// only, to the last bit, however many samples are passed at once. NaN in gives NaN out.
+/// Outputs (outputs x samples) for inputs (inputs x samples). The result of a sample depends on its own
+/// inputs only, to the last bit, for any number of samples. NaN inputs give NaN outputs.
 Eigen::MatrixXd forward(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs);
-/// The same into storage of the caller, for streams.
+/// Writes the outputs to storage of the caller, for streams.
 void forward(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
              Eigen::Ref<Eigen::MatrixXd> outputs);
 
@@ -63,8 +63,8 @@ LossGradient loss_gradient(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixX
 /// Mean squared error over all patterns and outputs.
 double mean_squared_error(const Mlp& mlp, const Patterns& patterns);
 
-/// Exact in both directions: the numbers come back bit for bit. Throws Error(input) that names the layer when
-/// the shapes do not fit or a number is missing; `where` names the file.
+/// Writes and reads without loss of a bit. Throws Error(input) naming the layer if the shapes do not fit or a
+/// number is missing; `where` names the file.
 void to_json(nlohmann::json& json, const Mlp& mlp);
 Mlp mlp_from_json(const nlohmann::json& json, const std::string& where);
 

@@ -16,10 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Patterns worked on at once, so that memory stays bounded.
+/// Patterns processed at once, which bounds the memory.
 constexpr Index kChunk = 512;
 
-/// Inputs of every layer for some patterns, and the network's outputs last.
+/// Returns the inputs of every layer for some patterns, followed by the network's outputs.
 std::vector<MatrixXd> layer_inputs(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
   std::vector<MatrixXd> values{inputs};
   Mlp one;
@@ -36,7 +36,8 @@ std::vector<MatrixXd> layer_inputs(const Mlp& mlp, const Eigen::Ref<const Matrix
   return values;
 }
 
-/// Column n: row `b` of a matrix B with B^T B = H, H the Hessian of pattern n's loss by the weighted sums.
+/// Returns in column n row `b` of a matrix B with B^T B = H, H the Hessian of pattern n's loss by the
+/// weighted sums.
 MatrixXd root_hessian_rows(OutputKind kind, const MatrixXd& outputs, Index b) {
   MatrixXd rows = MatrixXd::Zero(outputs.rows(), outputs.cols());
   for (Index n = 0; n < outputs.cols(); ++n) {

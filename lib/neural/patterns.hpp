@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// What a network learns from, a pattern a column.
+/// Training data of a network, one column for each pattern.
 struct Patterns {
   Eigen::MatrixXd inputs;   ///< inputs x patterns
   Eigen::MatrixXd targets;  ///< outputs x patterns
@@ -19,12 +19,12 @@ struct PatternSplit {
   Patterns validation;
 };
 
-/// Draws `validation_share` (0 to 1) of the patterns for validation, at random by `seed`; order is kept.
+/// Draws `validation_share` (0 to 1) of the patterns for validation, at random by `seed`; keeps their order.
 PatternSplit split_patterns(const Patterns& patterns, double validation_share, std::uint64_t seed = 1);
 
-/// Throws Error(input) when there are no patterns, when the counts of inputs and targets or the sizes
-/// expected (inputs, outputs; -1 = any) disagree, or when a number is not finite; `where` says whose patterns
-/// they are.
+/// Throws Error(input) if there are no patterns, if the counts of inputs and targets or the expected sizes
+/// (inputs, outputs; -1 = any) disagree, or if a number is not finite; `where` names the origin of the
+/// patterns.
 void check_patterns(const Patterns& patterns, int inputs, int outputs, const char* where);
 
 }  // namespace faultline

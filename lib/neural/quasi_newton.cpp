@@ -32,13 +32,13 @@ VectorXd direction(const std::deque<Pair>& memory, const VectorXd& gradient) {
   return d;
 }
 
-/// Weights and what they cost.
+/// Weights and their loss.
 struct Point {
   VectorXd weights;
   LossGradient cost;
 };
 
-/// What is made small.
+/// The function to be minimised.
 struct Objective {
   const Patterns& patterns;
   double weight_decay = 0.0;
@@ -48,14 +48,14 @@ struct Objective {
   }
 };
 
-/// Where to look: `length` times `along` at first.
+/// Direction and initial length of a line search.
 struct Ray {
   VectorXd along;
   double length = 1.0;
 };
 
-/// Halves the step until the loss falls by a share of what the slope
-/// promises (Armijo). False, and the weights stay, when it never does.
+/// Halves the step until the loss falls by a share of the slope's prediction (Armijo). Returns false, with
+/// the old weights, if no step does.
 bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& ray, Point& found) {
   const double slope = from.cost.gradient.dot(ray.along);
   double length = ray.length;

@@ -38,7 +38,7 @@ struct Units {
   MatrixXd spread;  // inputs x units
 };
 
-/// Mean square distance of patterns to a node, counting the patterns of nodes within one grid step.
+/// Returns for each input the mean square distance to a node of the patterns of nodes within one grid step.
 VectorXd local_variance(const SelfOrganisingMap& map, const std::vector<int>& nearest, const MatrixXd& inputs,
                         int node) {
   VectorXd sum = VectorXd::Zero(inputs.rows());
@@ -58,7 +58,7 @@ VectorXd global_variance(const SelfOrganisingMap& map, const std::vector<int>& n
   return sum / static_cast<double>(inputs.cols());
 }
 
-/// Least spread an input may have: a share of its deviation over all patterns, never zero.
+/// Returns the least spread of each input: a share of its standard deviation over all patterns, never zero.
 VectorXd spread_floor(const MatrixXd& inputs, double share) {
   const VectorXd mean = inputs.rowwise().mean();
   const VectorXd deviation = (inputs.colwise() - mean).array().square().rowwise().mean().sqrt().matrix();
@@ -84,8 +84,8 @@ Units place_units(const MatrixXd& inputs, const RbfnOptions& options) {
   return units;
 }
 
-/// Ridge regression of the targets on the units for every penalty at once, by the eigenvalues of the units'
-/// Gram matrix; the bias is not penalised.
+/// Ridge regression of the targets on the units for any penalty, by the eigenvalues of the units' Gram
+/// matrix; the bias has no penalty.
 class RidgeFit {
  public:
   RidgeFit(const MatrixXd& units, const MatrixXd& targets)

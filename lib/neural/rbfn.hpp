@@ -13,8 +13,8 @@
 
 namespace faultline {
 
-/// Radial basis function network of Cauchy units: unit u gives 1 / (1 + ||R_u^-1 (x - mu_u)||^2), R_u
-/// diagonal; the output is a weighted sum of the units and a bias.
+/// Radial basis function network of Cauchy units: unit u has the activation 1 / (1 + ||R_u^-1 (x -
+/// mu_u)||^2), R_u diagonal; the output is a weighted sum of the activations and a bias.
 struct Rbfn {
   Eigen::MatrixXd centres;        ///< mu, inputs x units
   Eigen::MatrixXd inverse_radii;  ///< diagonal of R^-1, inputs x units
@@ -26,33 +26,33 @@ struct Rbfn {
   int outputs() const { return static_cast<int>(bias.size()); }
 };
 
-/// Outputs x samples for inputs x samples; a sample's result does not depend on the others, NaN stays NaN.
+/// Outputs x samples for inputs x samples; each sample's result is independent of the others, NaN stays NaN.
 Eigen::MatrixXd forward(const Rbfn& rbfn, const Eigen::Ref<const Eigen::MatrixXd>& inputs);
 double mean_squared_error(const Rbfn& rbfn, const Patterns& patterns);
 
 enum class RadiusKind {
   per_unit,  ///< from the spread of the patterns near each unit
-  global,    ///< one radius an input: the rms distance of the patterns to their nearest unit
+  global,    ///< one radius for each input: the rms distance of the patterns to their nearest unit
 };
 
 struct RbfnOptions {
-  SomOptions map = {};  ///< rows * columns units; units that no pattern is nearest to are left out
+  SomOptions map = {};  ///< rows * columns units; units that are nearest to no pattern are left out
   RadiusKind radius = RadiusKind::per_unit;
-  /// Radii in multiples of sqrt(inputs) * spread. The best by generalised cross-validation is taken.
+  /// Radii in multiples of sqrt(inputs) * spread. Generalised cross-validation selects one.
   std::vector<double> widths = {0.5, 1.0, 2.0, 4.0};
-  /// Ridge penalties on the output weights, as a share of the units' mean power; the best as above.
+  /// Ridge penalties on the output weights, as a share of the units' mean power; selected likewise.
   std::vector<double> ridges = {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
-  /// A radius is at least this share of the input's spread over all patterns.
+  /// Least spread of a unit, as a share of the input's standard deviation over all patterns.
   double least_radius = 0.1;
 };
 
 struct RbfnSummary {
   int units = 0;
-  double width = 0.0;  ///< chosen
-  double ridge = 0.0;  ///< chosen
+  double width = 0.0;  ///< selected
+  double ridge = 0.0;  ///< selected
   double effective_weights =
-      0.0;  ///< trace of the hat matrix: weights that the ridge left free, with the bias
-  double generalised_error = std::numeric_limits<double>::quiet_NaN();  ///< expected mse by cross-validation
+      0.0;  ///< trace of the hat matrix: effective number of weights under the ridge, with the bias
+  double generalised_error = std::numeric_limits<double>::quiet_NaN();  ///< expected mse, by cross-validation
   double training_mse = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -61,12 +61,12 @@ struct TrainedRbfn {
   RbfnSummary summary;
 };
 
-/// Centres from a self-organising map, then the output weights by ridge regression with penalty and width
-/// from generalised cross-validation (Golub, Heath and Wahba 1979). Inputs should be scaled.
+/// Places the centres by a self-organising map, then fits the output weights by ridge regression with penalty
+/// and width from generalised cross-validation (Golub, Heath and Wahba 1979). Inputs should be scaled.
 TrainedRbfn train_rbfn(const Patterns& patterns, const RbfnOptions& options = {});
 
 void to_json(nlohmann::json& json, const Rbfn& rbfn);
-/// Throws Error(input) when shapes do not fit; `where` names the file.
+/// Throws Error(input) if shapes do not fit; `where` names the file.
 Rbfn rbfn_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

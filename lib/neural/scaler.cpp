@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-/// Below this share of its size a spread is rounding, not change.
+/// A relative spread below this is rounding error.
 constexpr double kNoSpread = 1e-12;
 
 double factor_for(double half_spread, double size) {

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// Scaled = (value - offset) * factor, a row each. A row that never changes gets factor 1, so it scales to 0.
+/// Scaled = (value - offset) * factor for each row. A constant row has factor 1, so that it scales to 0.
 struct Scaler {
   Eigen::VectorXd offset;
   Eigen::VectorXd factor;
@@ -18,13 +18,13 @@ struct Scaler {
   Eigen::MatrixXd invert(const Eigen::Ref<const Eigen::MatrixXd>& scaled) const;
 };
 
-/// The range seen becomes [-1, 1] (the paper's normalisation to half range).
+/// Scales the range of the values to [-1, 1] (the paper's normalisation to half range).
 Scaler range_scaler(const Eigen::Ref<const Eigen::MatrixXd>& values);
-/// Mean 0, standard deviation 1.
+/// Scales to mean 0 and standard deviation 1.
 Scaler standard_scaler(const Eigen::Ref<const Eigen::MatrixXd>& values);
 
 void to_json(nlohmann::json& json, const Scaler& scaler);
-/// Throws Error(input) when a number is missing or a factor is 0; `where` names the file.
+/// Throws Error(input) if a number is missing or a factor is 0; `where` names the file.
 Scaler scaler_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

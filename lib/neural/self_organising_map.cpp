@@ -25,7 +25,7 @@ double geometric(double from, double to, double share) { return from * elementar
 
 void pull_neighbours(SelfOrganisingMap& map, const Eigen::Ref<const Eigen::VectorXd>& input, int winner,
                      double rate, double radius) {
-  constexpr double kTooFar = 7.0;  // exp(-7) < 0.001
+  constexpr double kTooFar = 7.0;  // nodes further away are not moved; exp(-7) < 0.001
   for (int node = 0; node < map.count(); ++node) {
     const double exponent = map.grid_distance2(winner, node) / (2.0 * radius * radius);
     if (exponent > kTooFar) continue;

@@ -11,29 +11,28 @@
 
 namespace faultline {
 
-/// Why a training stopped.
+/// Reason why a training stopped.
 enum class TrainingStop {
   not_run,
   target_reached,   ///< the mean squared error over the training patterns fell to the target
   converged,        ///< the gradient vanished or the loss no longer falls
   validation_rose,  ///< no better on the validation patterns for `patience` iterations
-  iteration_limit,  ///< would have gone on
+  iteration_limit,  ///< not converged within the limit
   no_descent,       ///< no step lowers the loss although the gradient is not zero
 };
 const char* to_string(TrainingStop stop);
 
-/// How a training went. Errors are mean squares over patterns and outputs; NaN where there was nothing to
-/// measure.
+/// Course of a training. Errors are mean squares over patterns and outputs; NaN without patterns.
 struct TrainingSummary {
   TrainingStop stop = TrainingStop::not_run;
-  int iterations = 0;           ///< of the trainer; epochs for back-propagation
-  int best_iteration = 0;       ///< whose weights are returned; the last one without validation patterns
-  double initial_mse = 0.0;     ///< training patterns, before
-  double training_mse = 0.0;    ///< training patterns, weights returned
-  double validation_mse = 0.0;  ///< validation patterns, weights returned
+  int iterations = 0;         ///< of the trainer; epochs for back-propagation
+  int best_iteration = 0;     ///< iteration of the returned weights; the last one without validation patterns
+  double initial_mse = 0.0;   ///< of the training patterns, before training
+  double training_mse = 0.0;  ///< of the training patterns, with the returned weights
+  double validation_mse = 0.0;  ///< of the validation patterns, with the returned weights
   std::vector<double> loss;     ///< training loss (with weight decay) after each iteration
 
-  /// One line for a person.
+  /// Returns one line for a person.
   std::string text() const;
 };
 
@@ -42,12 +41,12 @@ struct TrainedMlp {
   TrainingSummary summary;
 };
 
-/// When every trainer stops.
+/// Stop criteria of every trainer.
 struct StopOptions {
   int max_iterations = 200;
   double target_mse = 0.0;  ///< 0 = none
   double relative_tolerance =
-      1e-7;           ///< converged when the loss falls by less than this share ten times running
+      1e-7;           ///< converged if the loss falls by less than this share ten times in succession
   int patience = 20;  ///< iterations without a better validation error
 };
 
@@ -64,10 +63,9 @@ struct BackPropagationOptions {
 TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
                                   const BackPropagationOptions& options = {}, const Progress& progress = {});
 
-/// Gauss-Newton with Levenberg's damping (Marquardt 1963), the damping steered by the gain ratio (Nielsen
-/// 1999). With one hidden layer and a linear output the normal matrix comes from one Gram matrix
-/// (docs/neural.md), which makes hundreds of parameters cheap; other networks take a dense Jacobian and
-/// should be small.
+/// Gauss-Newton with Levenberg's damping (Marquardt 1963), controlled by the gain ratio (Nielsen 1999). With
+/// one hidden layer and a linear output the normal matrix comes from one Gram matrix (docs/neural.md), which
+/// makes hundreds of parameters cheap; other networks use a dense Jacobian and should be small.
 struct LevenbergMarquardtOptions {
   StopOptions stop = {.max_iterations = 100};
   double weight_decay = 0.0;
@@ -82,7 +80,7 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
 struct QuasiNewtonOptions {
   StopOptions stop = {.max_iterations = 400};
   double weight_decay = 1e-4;
-  int memory = 12;  ///< steps remembered
+  int memory = 12;  ///< number of stored steps
 };
 TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
                               const QuasiNewtonOptions& options = {}, const Progress& progress = {});

@@ -8,23 +8,23 @@
 
 namespace faultline {
 
-/// What a watch looks at; borrowed for as long as the training lasts.
+/// Inputs of a watch; they must exist as long as the training.
 struct WatchedTraining {
   const Patterns& training;
   const Patterns& validation;
   const StopOptions& stop;
   const Progress& progress;
-  const char* what;  ///< as progress names it
+  const char* what;  ///< name of the training in progress messages
 };
 
-/// Follows a training: decides when it ends and keeps the weights that did best on the validation patterns.
+/// Monitors a training: decides when it ends and keeps the weights with the least validation error.
 class TrainingWatch {
  public:
   TrainingWatch(const Mlp& start, const WatchedTraining& watched);
 
-  /// After each iteration. A value means: stop, for this reason.
+  /// Call after each iteration. Returns the reason to stop, if there is one.
   std::optional<TrainingStop> after_iteration(const Mlp& mlp, double loss);
-  /// The result, with the best weights.
+  /// Returns the result with the best weights.
   TrainedMlp finish(Mlp last, TrainingStop stop);
 
  private:
