@@ -14,27 +14,27 @@
 namespace faultline {
 namespace {
 
-constexpr double kBetter = 0.5;  // a shift or a warp leaves at most this share of what was left without
-constexpr double kAgreesAWhile = 0.25;  // of the time, by positions: runs of one motion that a fault parts
-constexpr double kMoreAgreeing = 0.2;   // of the time: what a shift must gain then
+constexpr double kBetter = 0.5;         // largest ratio of the differences with and without a shift or a warp
+constexpr double kAgreesAWhile = 0.25;  // least `agreeing` by positions for runs that a fault separates
+constexpr double kMoreAgreeing = 0.2;   // of the time: least gain by a shift for such runs
 constexpr int kRefinements = 6;
 constexpr double kLeastShift = 0.1;  // sample periods
 
-/// Share of the rms speed below which a joint's place tells no time.
+/// Share of the rms speed below which a position determines no time.
 constexpr double kSlow = 0.05;
 
-constexpr int kFine = 20000;  // samples when a shift is refined
+constexpr int kFine = 20000;  // samples to refine a shift
 constexpr int kShiftRefinements = 6;
-constexpr std::size_t kRefined = 8;    // shifts that are refined
-constexpr double kNearlyAsGood = 4.0;  // as the best, before they are
-constexpr double kAgreeing = 1e-4;     // squared distance, in shares of the motion, of motions that agree
+constexpr std::size_t kRefined = 8;    // number of shifts to refine
+constexpr double kNearlyAsGood = 4.0;  // largest ratio to the least cost, before refinement
+constexpr double kAgreeing = 1e-4;     // squared distance of motions that agree, in variances of the motion
 
 /// A shift and its cost.
 struct ShiftCost {
   double shift = 0.0, cost = 0.0;
 };
 
-/// Shifts that are better than those beside them and not much worse than the best, smallest first.
+/// Returns local minima of the cost over the shift that are not much worse than the best, smallest first.
 std::vector<ShiftCost> likely_shifts(const MotionPair& motions, const RunSignals& first,
                                      const RunSignals& second) {
   const double step = motions.coarse_step();
@@ -71,8 +71,8 @@ double refined_shift(const MotionPair& motions, const RunSignals& first, double 
   return shift;
 }
 
-/// How much later the second run is, s, to a fraction of a sample; what differs by more than a tenth of the
-/// motion does not count. Of a motion that repeats, the smallest of the shifts that are as good.
+/// Returns the delay of the second run, s, to a fraction of a sample; differences beyond a tenth of the
+/// motion have no more weight. For a periodic motion, the smallest of the equally good shifts.
 double best_shift(const MotionPair& motions, const RunSignals& first, const RunSignals& second) {
   const double step = motions.coarse_step();
   std::vector<ShiftCost> refined;

@@ -8,34 +8,34 @@
 
 namespace faultline {
 
-/// How times of two runs are brought together.
+/// Method of alignment of the times of two runs.
 enum class AlignmentKind {
-  automatic,  ///< motion where that is better than time
-  time,       ///< each from its first row
-  motion,     ///< by the motion: a constant shift, or a monotone warp where none suits; by positions alone a
-              ///< warp is taken for `motion` only, since it would follow what a fault does to them, too
+  automatic,  ///< by motion if that is better than by time
+  time,       ///< from the first row of each run
+  motion,     ///< by a constant shift of the motion, or a monotone warp if none suits; by positions alone, a
+              ///< warp is used for `motion` only, since it would also follow the effect of a fault on them
 };
 
-/// Which time of the second run belongs to a time of the first.
+/// Assignment of times of the second run to times of the first.
 struct RunAlignment {
   AlignmentKind kind = AlignmentKind::time;  ///< never automatic
-  double shift_s = 0.0;                      ///< the second run is later by it
-  std::vector<double> first_s, second_s;     ///< of a warp: increasing, points in between by straight lines
-  double left_rms = 0.0;  ///< of the motions' difference then, in shares of how far the motion goes
+  double shift_s = 0.0;                      ///< delay of the second run
+  std::vector<double> first_s, second_s;  ///< of a warp: increasing, linear interpolation between the points
+  double left_rms = 0.0;  ///< rms difference of the aligned motions, in standard deviations of the motion
   double agreeing = 0.0;  ///< share of the time in which the motions agree
-  bool parts = false;     ///< positions that agree for a while only: one motion, until a fault parts the runs
+  bool parts = false;     ///< positions agree for a while only: one motion, until a fault separates the runs
   bool same_motion = true;
-  double uncertain_s = 0.0;  ///< how far times may be off, standard deviation
+  double uncertain_s = 0.0;  ///< standard deviation of the assigned times
   std::string why;           ///< a sentence
 
   bool warped() const { return !first_s.empty(); }
-  /// s in the second run; NaN before a warp begins and after it ends.
+  /// Returns s in the second run; NaN before and after a warp.
   double second_at(double first_s_at) const;
-  /// Seconds of the second run a second of the first.
+  /// Returns seconds of the second run per second of the first.
   double rate_at(double first_s_at) const;
 };
 
-/// Both runs have the same joints and are aligned by the same signals.
+/// Both runs must have the same joints and the same kind of motion signals.
 RunAlignment align_runs(const RunSignals& first, const RunSignals& second, AlignmentKind wanted);
 
 }  // namespace faultline

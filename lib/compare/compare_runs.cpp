@@ -13,12 +13,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kOtherPace = 0.02;  // a torque is judged while the second run is no more faster or slower
-constexpr double kErrors = 3.0;      // how often errors of interpolation and time may be exceeded
-constexpr double kRounding = 1e-9;   // of the largest value: what the arithmetic alone may make
+constexpr double kOtherPace = 0.02;  // largest relative difference of speed at which torques are judged
+constexpr double kErrors = 3.0;      // factor on the errors of interpolation and time
+constexpr double kRounding = 1e-9;   // of the largest value: rounding error of the arithmetic
 
-/// Standard deviation of the difference of two residuals of healthy logs, each 1; at rest, where third
-/// differences mostly look, they are less.
+/// Least noise of the difference of two residuals of healthy logs, each with rms 1; third differences
+/// estimate less, as they are mostly taken at rest.
 const double kHealthyResiduals = std::sqrt(2.0);
 
 double largest_of(const std::vector<double>& values) {
@@ -35,10 +35,10 @@ double rms_of(const std::vector<double>& values) {
   return count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Of a normal variable, its magnitude exceeded once in 1 / `chance` samples at most (a bound on its tail).
+/// Returns the limit that a standard normal variable exceeds in magnitude with a probability below `chance`.
 double sigmas_for(double chance) { return std::sqrt(-2.0 * elementary::log(chance / 2.0)); }
 
-/// One signal at the samples of the first run.
+/// Difference of one signal at the samples of the first run.
 class OneDifference {
  public:
   OneDifference(const RunSignal& first, const RunSignal& second, const RunComparison& all,
@@ -91,7 +91,7 @@ class OneDifference {
     if (in_a_row_ == options_.in_a_row && std::isnan(found_.diverges_s)) found_.diverges_s = since_;
   }
 
-  /// What times that are not known better make of the signal's slope.
+  /// Returns the error from the uncertainty of the time and the slope of the signal.
   double time_error(double at) const {
     if (all_.alignment.uncertain_s <= 0.0) return 0.0;
     const double h = all_.second_period_s, gap = kGapPeriods * h;

@@ -7,14 +7,14 @@
 
 namespace faultline {
 
-/// The answer in a sentence.
+/// Returns the result in a sentence.
 std::string verdict_of(const RunComparison& comparison);
-/// Unit of a quantity at a joint that turns or slides.
+/// Returns the unit of a quantity at a revolute (`turns`) or prismatic joint.
 const char* unit_of(const std::string& quantity, bool turns);
 
-/// For a terminal. `turns`: of each joint, whether it turns; joints beyond it turn.
+/// Returns a text for a terminal. `turns`: whether each joint is revolute; joints beyond its end are.
 std::string to_text(const RunComparison& comparison, const std::vector<char>& turns);
-/// Schema "faultline/comparison/1".
+/// Returns JSON, schema "faultline/comparison/1".
 std::string to_json(const RunComparison& comparison, const std::vector<char>& turns);
 
 }  // namespace faultline

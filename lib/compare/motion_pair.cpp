@@ -9,8 +9,8 @@
 namespace faultline {
 namespace {
 
-constexpr int kCoarse = 1200;          // samples when the shift is looked for
-constexpr double kLeastSpread = 1e-9;  // rad or m: a joint that stays does not divide by nothing
+constexpr int kCoarse = 1200;          // samples for the first search of the shift
+constexpr double kLeastSpread = 1e-9;  // rad or m, so that a constant joint causes no division by 0
 
 double spread(const std::vector<double>& values) {
   double sum = 0.0, squares = 0.0, count = 0.0;

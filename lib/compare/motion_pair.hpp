@@ -7,11 +7,11 @@
 
 namespace faultline {
 
-/// Motions that are no further apart, rms in shares of their spread, agree.
+/// Largest rms distance of motions that agree, in standard deviations of the motion.
 inline constexpr double kSameMotion = 0.05;
-/// Of the shorter run, what has to lie beside the other one.
+/// Least share of the shorter run that must overlap the other run.
 inline constexpr double kLeastOverlap = 0.5;
-/// A squared distance that counts no further.
+/// Bound of a squared distance in cost(), so that outliers do not decide.
 inline constexpr double kOutlier = 0.01;
 
 /// Both motions on the scale of the first: 1 is the standard deviation of a joint. Refers to the runs.
@@ -19,14 +19,14 @@ class MotionPair {
  public:
   MotionPair(const RunSignals& first, const RunSignals& second);
 
-  /// Of all joints, scaled; NaN where a run has none.
+  /// Scaled positions of all joints; NaN if a run has none at `t`.
   std::vector<double> first_at(double t) const { return at(first_, t); }
   std::vector<double> second_at(double t) const { return at(second_, t); }
 
-  /// How well times fit: what is between the motions at t of the first run and at times(t) of the second.
+  /// Fit of assigned times: distance between the motions at t of the first run and at times(t) of the second.
   struct Fit {
     double left_rms = 0.0;  ///< distances beyond 1 count as 1; NaN without common time
-    double agreeing = 0.0;  ///< share of the time in which they agree
+    double agreeing = 0.0;  ///< share of the time in which the motions agree
   };
   template <typename Times>
   Fit fit(Times times, double step) const {
@@ -36,15 +36,15 @@ class MotionPair {
     return tally.fit();
   }
 
-  /// Mean of squared distances that count up to kOutlier; infinite with too little overlap.
+  /// Returns the mean of squared distances, each bounded by kOutlier; infinite with too little overlap.
   double cost(double shift, double step) const;
-  /// Time to add to `at` in the second run so that it is where the first is at `t`, by the speed there; NaN
-  /// where it is slower than `slow`.
+  /// Returns the time to add to `at` in the second run to reach the first run's position at `t`, by the speed
+  /// at `at`; NaN if that is below `slow`.
   double correction(double t, double at, double slow) const;
   double rms_speed() const;
-  /// Of the motions, scaled, all joints together.
+  /// Returns the noise of the scaled motions, over all joints.
   double noise() const;
-  /// At which motions are looked at first, s.
+  /// Returns the step of the first search, s.
   double coarse_step() const;
 
  private:

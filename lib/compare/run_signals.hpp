@@ -17,24 +17,24 @@ struct RunSignal {
   std::vector<double> values;
 };
 
-/// A run as it is compared.
+/// The signals of a run for a comparison.
 struct RunSignals {
   std::string name;
   double start_s = 0.0, length_s = 0.0;
   double period_s = 0.0;           ///< median
-  std::vector<RunSignal> signals;  ///< of those that the log has, by quantity, then joint
-  std::vector<RunSignal> motion;   ///< what runs are aligned by: the references, or else the positions
-  bool by_reference = false;       ///< `motion` is the references
+  std::vector<RunSignal> signals;  ///< those that the log has, by quantity, then joint
+  std::vector<RunSignal> motion;   ///< signals for the alignment: the references, or else the positions
+  bool by_reference = false;       ///< whether `motion` is the references
 
-  /// Null when the run does not have it.
+  /// Returns null if the run does not have the signal.
   const RunSignal* find(const std::string& quantity, int joint) const;
 };
 
-/// Of a whole log; with a generator also its normalised velocity residuals (1 as in healthy logs). Throws
-/// Error(input) for a log of fewer than a few rows.
+/// Returns the signals of a whole log; with a generator also its normalised velocity residuals (1 as in
+/// healthy logs). Throws Error(input) for a log of fewer than eight rows.
 RunSignals run_signals(const std::string& name, const Log& log, const ResidualGenerator* generator = nullptr);
 
-/// The same, to be aligned by positions, as when the other run has no references.
+/// Returns the run for alignment by positions, as needed if the other run has no references.
 RunSignals by_positions(RunSignals run);
 
 }  // namespace faultline

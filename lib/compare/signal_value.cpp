@@ -9,11 +9,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kNormalMad = 1.4826;      // standard deviation of normal noise over its median magnitude
+constexpr double kNormalMad = 1.4826;      // ratio of standard deviation to median magnitude of normal noise
 constexpr double kThirdDifference = 20.0;  // variance of 1 -3 3 -1 of white noise of variance 1
-constexpr double kUniform = 12.0;          // variance of values cut to steps of 1: 1 / 12
+constexpr double kUniform = 12.0;          // variance of rounding to steps of 1 is 1 / 12
 
-/// The polynomial through samples [begin, end) at `at` (Lagrange).
+/// Returns the polynomial through samples [begin, end) at `at` (Lagrange).
 double through(const std::vector<double>& time, const std::vector<double>& values, std::size_t begin,
                std::size_t end, double at) {
   double sum = 0.0;

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-/// Of two that are as good the straight way, so that rests do not stretch time at will.
+/// Penalty that prefers the straight step among equally good ones, so that rests do not stretch time.
 constexpr double kDetour = 1e-6;
 
 enum Step : std::uint8_t { both, only_first, only_second };
@@ -19,7 +19,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-/// The step into each pair (i, j) on the best way there.
+/// Returns the step into each pair (i, j) on the best path to it.
 std::vector<Step> best_steps(const MotionSamples& first, const MotionSamples& second) {
   const std::size_t rows = first.size(), columns = second.size();
   std::vector<Step> steps(rows * columns);

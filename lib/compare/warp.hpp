@@ -5,11 +5,11 @@
 
 namespace faultline {
 
-/// Samples at equal distances of several signals: [sample][signal].
+/// Equidistant samples of several signals: [sample][signal].
 using MotionSamples = std::vector<std::vector<double>>;
 
-/// For each sample of `first` the place among those of `second` (with fractions, never decreasing) that makes
-/// the sum of squared distances least: dynamic time warping. Both begin and both end together.
+/// Returns for each sample of `first` the place among those of `second` (fractional, never decreasing) that
+/// minimises the sum of squared distances: dynamic time warping. First samples and last samples correspond.
 std::vector<double> warped_places(const MotionSamples& first, const MotionSamples& second);
 
 }  // namespace faultline
