@@ -234,8 +234,8 @@ CriterionSearch tune_criterion(const CriterionOptions& start, const OutputMeanin
     if (search.tried[i].detected < kFewestFound * most) continue;
     if (best == search.tried.size() || key(search.tried[i]) < key(search.tried[best])) best = i;
   }
-  // The largest setting without a false alarm has no margin; the next larger one has, if it loses hardly any
-  // detection.
+  // The smallest setting with the fewest false alarms has no margin; take the next larger one if it loses
+  // hardly any detection.
   const bool margin = best + 1 < search.tried.size() &&
                       search.tried[best + 1].detected >= kFreeMargin * search.tried[best].detected;
   search.best = search.tried[best + (margin ? 1 : 0)].options;

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-6;
 constexpr double kPercent = 100.0;
 constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns the deficit in nats; kLargestDeficit, a bound of larger ones, without rounding error.
+/// Returns the deficit in nats, without rounding error at its bound kLargestDeficit.
 double nats_behind(double feature) {
   const double nats = deficit_of_feature(feature);
   return nats > kLargestDeficit - kRounding ? kLargestDeficit : nats;

@@ -123,7 +123,7 @@ JointMatrix inertia_matrix(const Chain& chain, const JointVector& q) {
     const JointGeometry& joint = chain.geometry[i];
     const Eigen::Vector3d axis = joint.axis;
     Eigen::Vector3d force,
-        moment;  // moves the composite body at a unit acceleration of joint i; moment about its origin
+        moment;  // on the composite body at a unit acceleration of joint i; moment about its origin
     if (joint.kind == AxisKind::revolute) {
       force = axis.cross(body.first_moment);
       moment = body.inertia * axis;

@@ -15,8 +15,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kSingular =
-    1e-9;  ///< least ratio of smallest to largest singular value of a regular coupling
+constexpr double kSingular = 1e-9;  ///< ratio of smallest to largest singular value of a singular coupling
 
 ColumnSpec column_spec(const TomlTable& table) {
   ColumnSpec spec;

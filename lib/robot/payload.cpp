@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kStates = 6;            // random states in which the torques of payloads are compared
 constexpr double kOnePayload = 1e-9;  // 1 - cosine between torques below which two payloads count as one
-constexpr double kUnfelt_Nm =
-    1e-9;  // torque of 1 kg, in all states, below which a payload is not identifiable
+constexpr double kUnfelt_Nm = 1e-9;   // largest torque of 1 kg that is not identifiable
 
 /// Returns the torques that 1 kg at the end of a link takes in kStates states, one state after the other.
 Eigen::VectorXd torques_of_payload(const Chain& chain, int link) {

@@ -53,12 +53,12 @@ struct Robot {
   std::map<std::string, KnownValue> known;
   /// Known mass carried at the tip (kg) during single logs, by the log's file name without folders.
   std::map<std::string, KnownValue> payloads;
-  /// True when every parameter of `chain` has been identified or was given; false for nominal values.
+  /// True if every parameter of `chain` has been identified or was given; false for nominal values.
   bool identified = false;
   /// Identified timing of the torque: over a sample it was tau_k + phi (tau_k+1 - tau_k). 0 is held.
   std::optional<double> torque_phi;
-  /// Identified for each joint: delay from the logged torque to its action, in s, a whole number of samples
-  /// of the identified logs. Empty if there is no delay.
+  /// Identified for each joint: delay from the logged torque to its action, s; a whole number of samples of
+  /// the logs of the identification. Empty if there is no delay.
   std::vector<double> torque_delay_s;
   /// Identified for each joint: ratio of true to logged torque, beside the units of the columns. Empty if all
   /// are 1.

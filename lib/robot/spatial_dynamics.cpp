@@ -134,8 +134,7 @@ void SpatialDynamics::momentum_and_force(const JointVector& q, const JointVector
   const Bodies at = in_base(q, dq);
   momentum.resize(joints_);
   force.resize(joints_);
-  Wrench moves{Vector3d::Zero(), Vector3d::Zero()},
-      weighs = moves;  // momentum and weight of all bodies at or beyond a joint
+  Wrench moves{Vector3d::Zero(), Vector3d::Zero()}, weighs = moves;  // of all bodies at or beyond a joint
   for (int i = joints_ - 1; i >= 0; --i) {
     add(at.body[i] * at.speed[i], moves);
     add({at.body[i].mass * gravity_, at.body[i].first.cross(gravity_)}, weighs);

@@ -10,7 +10,7 @@ namespace faultline {
 
 /// Torque of the drives beyond the commanded, logged one; one number for each joint; empty: none.
 struct DriveSpec {
-  std::vector<double> gain{};                ///< relative error of the torque constant
+  std::vector<double> gain{};                ///< relative excess of the torque: another torque constant
   std::vector<double> offset{};              ///< N m or N
   std::vector<double> roughness{};           ///< standard deviation of a random torque, N m or N
   std::vector<double> roughness_memory_s{};  ///< correlation time of the random torque; empty: 0.03 s

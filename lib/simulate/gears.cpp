@@ -20,7 +20,7 @@ namespace {
 
 double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
 
-constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg; less counts as none: its step would be too short
+constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg; less counts as none, as it needs too short a step
 
 /// Throws Error(usage) if a link behind a spring has no inertia of its own.
 void check_links(const Chain& chain, const Gears& gears) {

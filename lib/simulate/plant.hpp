@@ -82,10 +82,10 @@ class Plant {
   FastDynamics dynamics_;  ///< of the links and of all that is rigidly joined to them
   std::optional<Geared> geared_;
   ExtraFriction extra_friction_;
-  JointVector gain_;          ///< ratio of the acting to the commanded torque
+  JointVector gain_;          ///< factor of acting faults on the torque of the drives
   JointVector external_;      ///< added torque on the links
   JointVector drive_offset_;  ///< added torque of drives with springs
-  bool altered_ = false;      ///< whether a fault acts at present
+  bool altered_ = false;      ///< whether a fault acts, or a work piece is carried
   unsigned locked_ = 0;
   double step_ = 0.001;          ///< sub-step near rest, with stiff friction, s
   double sliding_step_ = 0.001;  ///< sub-step otherwise, s

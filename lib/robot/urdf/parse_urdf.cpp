@@ -20,8 +20,7 @@
 namespace faultline {
 namespace {
 
-constexpr std::uintmax_t kMostBytes =
-    32u << 20;  ///< a URDF has some 100 kB, as its meshes are files of their own
+constexpr std::uintmax_t kMostBytes = 32u << 20;  ///< a URDF has some 100 kB, without the files of its meshes
 constexpr std::size_t kShownLetters = 60;
 
 using Places = std::map<std::string, int>;  ///< index of each link by name

@@ -40,7 +40,7 @@ struct UrdfModel {
   std::optional<std::string> more;  ///< content of <faultline>: what URDF cannot hold
 };
 
-/// Throws Error(input) if the size exceeds that of any plausible URDF.
+/// Throws Error(input) if the file is larger than any plausible URDF (32 MiB).
 void check_urdf_size(std::uintmax_t bytes, const std::string& file);
 
 /// Parses a URDF. Throws Error(input) naming file, line and element if the text is not valid: broken XML,
