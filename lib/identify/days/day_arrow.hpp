@@ -9,29 +9,29 @@
 
 namespace faultline {
 
-/// What one day adds to the normal equations of the robot, its effects eliminated: a block of the arrow that
-/// the normal matrix of all days is.
+/// Contribution of one day to the normal equations of the robot, after elimination of its effects: one block
+/// of the arrow-shaped normal matrix of all days.
 struct DayBlock {
-  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the effects
-  Eigen::MatrixXd cross;               ///< effects x parameters
-  Eigen::VectorXd vector;              ///< of the effects
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< Cholesky factor of the matrix of the effects
+  Eigen::MatrixXd cross;               ///< effects x parameters of the robot
+  Eigen::VectorXd vector;              ///< right-hand side of the effects
   Eigen::MatrixXd robot_matrix;
   Eigen::VectorXd robot_vector;
 
-  /// The day's effects for a robot.
+  /// Returns the effects of the day, given the parameters of the robot.
   Eigen::VectorXd effect(const Eigen::VectorXd& robot) const { return factor.solve(vector - cross * robot); }
 };
 
-/// `day` has the parameters of the robot first, then the effects of the day, whose prior variance is
-/// `between`.
+/// Eliminates the effects of a day. `day` has the parameters of the robot first, then the effects of the day,
+/// whose prior variance is `between`.
 DayBlock day_block(const NormalEquations& day, const Eigen::VectorXd& between);
 
 inline constexpr std::size_t kNoDay = static_cast<std::size_t>(-1);
 
-/// Normal equations of the robot by all days but `left_out`.
+/// Returns the normal equations of the robot from all days but `left_out`.
 NormalEquations robot_sums(const std::vector<DayBlock>& days, std::size_t left_out = kNoDay);
 
-/// Mean and second moments of the effects of all days but `left_out`, their doubt included.
+/// Mean and second moments of the effects of all days but `left_out`, their posterior variance included.
 struct EffectMoments {
   Eigen::VectorXd mean, square;
 

@@ -17,13 +17,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMostDecay = 5.0;     // samples^-1: crossover of the fusion beyond which nothing is averaged
-constexpr double kDelayPrior = 4.0;    // of squared samples, beside rows in N m or N: weak against any motion
+constexpr double kMostDecay = 5.0;   // samples^-1: crossover of the fusion beyond which nothing is averaged
+constexpr double kDelayPrior = 4.0;  // ridge on each delay, beside rows in N m or N: weak against any motion
 constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
 constexpr std::array kLags{-1, 0, 1, 2};                         // samples, tried for RowSetting::torque_lag
 constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
 
-/// Whether the logged velocity is the difference of the positions: then it is no second measurement.
+/// Whether the log has no velocity, or one that is the difference of the positions, so not independent.
 bool holds_no_velocity(const UniformLog& log) {
   if (log.dq.rows() == 0) return true;
   std::vector<double> time(log.rows());
@@ -43,7 +43,7 @@ std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowS
   return out;
 }
 
-/// Sum of squares of joint `j` that `theta` leaves, and the number of rows.
+/// Returns the sum of squared residuals of joint `j` with parameters `theta`, and the number of rows.
 std::pair<double, double> left(const std::vector<BalanceRows>& rows, const VectorXd& theta, int j) {
   double sum = 0.0, count = 0.0;
   for (const BalanceRows& log : rows) {

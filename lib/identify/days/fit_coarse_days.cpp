@@ -25,28 +25,28 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnfelt = 1e-9;         // of the squares of a torque: rounding
+constexpr double kUnfelt = 1e-9;         // of the squared torques of a link: less is rounding
 constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
-constexpr double kFirstDoubt = 0.3;      // of the usual torque, halved each round: a start that is wrong
-constexpr int kDoubtRounds = 7;          // with that doubt: the last one has 0.5 % of the usual torque
-constexpr int kNoiseFrom = 2;  // round from which the noise of the readings and how days differ are learned
-constexpr double kLeastReading = 1e-5;    // rad, m, rad/s or m/s: rounding of what a log holds
-constexpr double kFree = 100.0;           // SI units: prior standard deviation of a parameter's step
-constexpr double kKeptInertia = 0.3;      // of the inertia before: what one step may leave of it
-constexpr int kStepHalvings = 8;          // of a step that leaves less
-constexpr int kInertiaRows = 40;          // of each log that the inertia is looked at in
-constexpr double kDayInertia = 1e-3;      // relative: how much masses differ by day at least
-constexpr double kDayFriction = 0.02;     // relative
-constexpr double kDayForce = 1e-3;        // of the usual torque
-constexpr double kDayGain = 1e-3;         // relative
-constexpr double kNoGain = 1e-5;          // of a slide along gravity: its gain looks like its mass
-constexpr double kCoarseUnseen = 2.0;     // times the variance between the days that were seen
+constexpr double kFirstDoubt = 0.3;      // process noise over torque rms, halved each round: for a poor start
+constexpr int kDoubtRounds = 7;          // with that process noise: the last one has 0.5 % of the torque rms
+constexpr int kNoiseFrom = 2;            // round from which measurement noise and day variance are learned
+constexpr double kLeastReading = 1e-5;   // rad, m, rad/s or m/s: rounding of the values in a log
+constexpr double kFree = 100.0;          // SI units: prior standard deviation of a parameter's step
+constexpr double kKeptInertia = 0.3;     // of the previous inertia: least share that one step may keep
+constexpr int kStepHalvings = 8;         // of a step that keeps less
+constexpr int kInertiaRows = 40;         // of each log, at which the inertia is checked
+constexpr double kDayInertia = 1e-3;     // relative: least difference of masses between days
+constexpr double kDayFriction = 0.02;    // relative
+constexpr double kDayForce = 1e-3;       // of the torque rms
+constexpr double kDayGain = 1e-3;        // relative
+constexpr double kNoGain = 1e-5;         // of a joint along gravity: its gain looks like its mass
+constexpr double kCoarseUnseen = 2.0;    // times the variance between the logged days
 constexpr double kSpeedQuantile = 0.995;  // of a joint's speed: 1 row in 200 exceeds the top speed
 
-constexpr int kStartRows = 300;       // of each log, by whose predictions a start is chosen
+constexpr int kStartRows = 300;       // of each log, whose predictions select the start
 constexpr double kStartRidge = 1e-6;  // of each parameter's own square sum
 
-/// The columns of a space that links have a part in: a rotor's inertia is not told at coarse rates.
+/// Returns the columns that links contribute to: rotor inertia is not identifiable at coarse rates.
 std::vector<int> of_links(const RigidColumns& rigid) {
   std::vector<int> out;
   for (int p = 0; p < rigid.base(); ++p)
@@ -54,7 +54,7 @@ std::vector<int> of_links(const RigidColumns& rigid) {
   return out;
 }
 
-/// Ranges, speeds, torques and repeats of the healthy logs.
+/// Sets ranges, top speeds, torque rms and repeated positions from the healthy logs.
 void take_looks(const std::vector<UniformLog>& logs, OneStepModel& m) {
   const int n = logs.front().joints();
   m.q_low = VectorXd::Constant(n, 1e300);
@@ -85,7 +85,7 @@ void take_looks(const std::vector<UniformLog>& logs, OneStepModel& m) {
   m.torque_rms = (m.torque_rms / rows).cwiseSqrt().cwiseMax(1e-9);
 }
 
-/// Noise of the readings before any robot is known: their fourth differences.
+/// Returns the variance of the measurements before any robot is fitted, from their fourth differences.
 VectorXd first_reading_variance(const std::vector<UniformLog>& logs) {
   const int n = logs.front().joints();
   VectorXd out(2 * n);
@@ -97,7 +97,7 @@ VectorXd first_reading_variance(const std::vector<UniformLog>& logs) {
   return out;
 }
 
-/// Momentum, and the force that is neither motor nor friction, by base parameter: joints x base each.
+/// Momentum, and the force other than motor torque and friction, by base parameter: joints x base each.
 struct Balance {
   MatrixXd momentum, force;
 };
@@ -115,8 +115,8 @@ Balance balance_at(const RigidColumns& rigid, const JointVector& q, const JointV
   return out;
 }
 
-/// Least squares of momentum differences between neighbouring samples, biased by noise, which makes the robot
-/// too light, and by the coarse rate. Each joint counts by its usual torque.
+/// Least squares of momentum differences between neighbouring samples, biased by the coarse rate and by
+/// noise, which makes the robot too light. Each joint is divided by its torque rms.
 VectorXd by_momentum(const std::vector<UniformLog>& logs, const OneStepModel& model) {
   const MotionLayout at = model.layout();
   const RigidColumns& rigid = model.body.rigid();
@@ -154,9 +154,9 @@ VectorXd by_momentum(const std::vector<UniformLog>& logs, const OneStepModel& mo
   return theta;
 }
 
-/// How far one-step predictions by a robot with these numbers miss the readings: mean of log(1 + square / 2),
-/// the square in variances of the readings, so that a few wild predictions do not decide; infinite where the
-/// robot cannot be integrated.
+/// Returns the error of one-step predictions with these parameters: the mean of log(1 + square / 2), square
+/// in variances of the measurements, so that a few wild predictions do not decide; infinite if the robot
+/// cannot be integrated.
 double prediction_miss(const std::vector<UniformLog>& logs, OneStepModel model, const VectorXd& numbers) {
   model.theta = numbers;
   const MotionLaw law(model.body, model.numbers());
@@ -177,8 +177,8 @@ double prediction_miss(const std::vector<UniformLog>& logs, OneStepModel model, 
   return sum / std::max(count, 1);
 }
 
-/// The robot's own numbers (MotionLayout::learned()) to start a fit from: those of momentum differences
-/// between neighbouring samples or the identified ones, whichever predict the readings of these logs better.
+/// Returns the parameters (MotionLayout::learned()) to start from: those of momentum differences between
+/// neighbouring samples or the identified ones, whichever predict the measurements of these logs better.
 VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& model,
                       const VectorXd& identified_base, const std::vector<Friction>& identified_friction) {
   const MotionLayout at = model.layout();
@@ -193,8 +193,8 @@ VectorXd coarse_start(const std::vector<UniformLog>& logs, const OneStepModel& m
                                                                                            : momentum;
 }
 
-/// Whether the inertia matrix keeps at least `kKeptInertia` of what it was in any direction, everywhere the
-/// logs were.
+/// Whether the inertia matrix keeps at least `kKeptInertia` of its previous value in any direction, at all
+/// positions of the logs.
 bool keeps_inertia(const std::vector<UniformLog>& logs, const OneStepModel& m, const VectorXd& theta) {
   const int base = m.layout().base;
   const RigidColumns& rigid = m.body.rigid();
@@ -210,7 +210,7 @@ bool keeps_inertia(const std::vector<UniformLog>& logs, const OneStepModel& m, c
   return true;
 }
 
-/// The robot after a step, shortened until its inertia stays one.
+/// Returns the parameters after a step, shortened until the inertia matrix stays positive definite.
 VectorXd stepped(const std::vector<UniformLog>& logs, const OneStepModel& m, const VectorXd& step) {
   const int friction = 2 * m.joints();
   double share = 1.0;
@@ -222,14 +222,14 @@ VectorXd stepped(const std::vector<UniformLog>& logs, const OneStepModel& m, con
   return m.theta;
 }
 
-/// A healthy log, the trajectory that it is integrated about, and the effects of its day.
+/// A healthy log, the trajectory about which it is linearised, and the effects of its day.
 struct CoarseDay {
   UniformLog log;
   Trajectory about;
   VectorXd effect;
 };
 
-/// What the robot's own numbers change on a day: numbers x numbers of the robot.
+/// Returns the derivative of the numbers of a day by the parameters of the robot: numbers x parameters.
 MatrixXd robot_directions(const OneStepModel& m, const VectorXd& effect) {
   const MotionLayout at = m.layout();
   const StepDayLayout day = m.day_layout();
@@ -240,11 +240,11 @@ MatrixXd robot_directions(const OneStepModel& m, const VectorXd& effect) {
   return out;
 }
 
-/// One log, integrated: steps of the robot's numbers and effects of the day in one regression.
+/// One log, integrated: step of the robot's parameters and effects of the day in one regression.
 struct CoarsePass {
-  NormalEquations sums;  ///< of the step, then of the effects
-  Trajectory about;      ///< smoothed anew
-  VectorXd square;       ///< by reading: what the smoothed trajectory leaves, summed
+  NormalEquations sums;  ///< normal equations of the step, then of the effects
+  Trajectory about;      ///< trajectory smoothed anew
+  VectorXd square;       ///< by measurement: sum of squared residual and variance of that trajectory
 };
 
 CoarsePass passed(const CoarseDay& day, const OneStepModel& m, double doubt) {
@@ -272,7 +272,7 @@ CoarsePass passed(const CoarseDay& day, const OneStepModel& m, double doubt) {
   return out;
 }
 
-/// Variance of the effects of a day at least.
+/// Returns the least variance of the effects of a day.
 VectorXd least_day_variance(const OneStepModel& m) {
   const StepDayLayout day = m.day_layout();
   VectorXd std = VectorXd::Constant(day.count(), kDayInertia);
@@ -284,7 +284,8 @@ VectorXd least_day_variance(const OneStepModel& m) {
   return std.cwiseAbs2();
 }
 
-/// By link, kg at its end that explain best the torque of its joint, or of the last one before that feels it.
+/// Returns, by link, the mass in kg at its end that best explains the torque of its joint, or of the last
+/// joint before it that feels that mass.
 VectorXd carried_masses(const std::vector<UniformLog>& logs, const OneStepModel& m) {
   const int n = m.joints(), base = m.layout().base;
   MatrixXd num = MatrixXd::Zero(n, n), den = MatrixXd::Zero(n, n);  // links x joints
@@ -307,7 +308,7 @@ VectorXd carried_masses(const std::vector<UniformLog>& logs, const OneStepModel&
   return out;
 }
 
-/// The space with the lengths that base parameters and known facts settle: of a payload's place.
+/// Returns the space with the lengths, of a payload's place, that base parameters and known facts determine.
 ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, const std::vector<int>& kept,
                                     const OneStepModel& m, const MatrixXd& covariance) {
   BaseEstimate base;

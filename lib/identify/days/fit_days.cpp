@@ -22,10 +22,10 @@ using Eigen::VectorXd;
 
 // Kernel of the rows, standard deviation: the longer one for sample periods from kHighRate_s on.
 constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
-constexpr double kFinest_s = 0.002;   // between samples: the kernels see no difference to finer ones
+constexpr double kFinest_s = 0.002;   // between samples: the kernels cannot resolve finer ones
 constexpr double kSlackOfRate = 0.1;  // samples: a period is known to some per cent
 constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
-// Rounds of the fit from which something more is looked for: what comes later needs what came before.
+// Rounds of the fit from which another term is tried: later terms need the earlier ones.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
 
@@ -33,30 +33,30 @@ constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
 // Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
 constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
 
-constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not move
-constexpr double kPieceForce = 9.81;                   // N of 1 kg that may be there or not
+constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not excite
+constexpr double kPieceForce = 9.81;                   // N: weight of 1 kg that may be carried or not
 
-constexpr double kUnseenDays = 2.0;  // times the variance between the days that were seen
+constexpr double kUnseenDays = 2.0;  // times the variance between the logged days: prior of an unseen day
 
-/// Standard deviations of the effects, relative but for the offset, which is a share of the joint's torque
-/// rms, and the delay, which is in samples.
+/// Standard deviations of the effects: relative, but the offset as a share of the joint's torque rms and the
+/// delay in samples.
 struct EffectStd {
   double inertia, friction, slope, gain, offset, width, delay;
 };
 
-// First: what robots differ by from day to day. Least: what makes no difference to any judgement. Unseen:
-// what a few days cannot show (friction by the warmth of the gear, inertia and torque constants as drives are
-// made, friction near rest, where healthy logs have few rows).
+// First: differences of robots from day to day. Least: differences that change no decision. Unseen:
+// differences that a few days cannot show (friction by the warmth of the gear, inertia and torque constants
+// by manufacture, friction near rest, where healthy logs have few rows).
 constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1};
 constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01};
 constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.3};
 
-/// Recorded samples that are averaged into one of the rows' samples.
+/// Returns how many recorded samples are averaged into one sample of the rows.
 int samples_averaged(double period_s) {
   return std::max(1, static_cast<int>(kFinest_s / period_s + kSlackOfRate));
 }
 
-/// The model with ranges, speeds, noise and repeated positions of the healthy logs.
+/// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
   const int n = m.joints();
   std::vector<VectorXd> q, dq;
@@ -93,7 +93,7 @@ BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
   return m;
 }
 
-/// Rows, setting and a first fit of the rigid robot.
+/// Returns rows, setting and a first fit of the rigid robot.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
                      const DayFitOptions& options) {
   std::vector<UniformLog> uniform = uniform_logs(logs);
@@ -124,7 +124,7 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   return draft;
 }
 
-/// The draft with what is not linear, as far as this round may look for it, and rows to match.
+/// Returns the draft with the nonlinear terms that this round may try, and with matching rows.
 DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& options) {
   if (round == kWidthsAt[0] || round == kWidthsAt[1]) draft = with_refined_widths(std::move(draft));
   if (round == kRipplesAt && options.ripples) draft = with_ripples(std::move(draft));
@@ -177,7 +177,7 @@ std::vector<DayBlock> day_blocks(const DayDraft& draft, const std::vector<int>& 
   return out;
 }
 
-/// Parameters of the robot by all days but `left_out`.
+/// Estimates the parameters of the robot from all days but `left_out`.
 VectorXd theta_without(const std::vector<DayBlock>& blocks, const DayDraft& draft,
                        const std::vector<int>& free, std::size_t left_out) {
   const ColumnLayout layout = draft.model.layout();
@@ -195,7 +195,7 @@ VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, con
   return out;
 }
 
-/// The draft with the noise of its rows by what robot and days leave unexplained. `order`: of the
+/// Returns the draft with the noise of its rows, from the residual of robot and days. `order`: of the
 /// autoregression.
 DayDraft with_noise(DayDraft draft, int order) {
   BalanceModel& m = draft.model;
@@ -216,10 +216,10 @@ DayDraft with_noise(DayDraft draft, int order) {
   return draft;
 }
 
-/// Robot and effects of all days together: the robot's parameters free, the effects random.
+/// Fit of robot and all days together: the robot's parameters free, the effects random.
 struct MixedEffects {
-  DayDraft draft;           ///< with parameters and effects
-  Eigen::VectorXd moments;  ///< second moments of the effects about their mean, their doubt included
+  DayDraft draft;           ///< with the estimated parameters and effects
+  Eigen::VectorXd moments;  ///< second moments of the effects about their mean, posterior variance included
 };
 
 /// Best linear unbiased prediction (equation (7) of docs/how-it-works.md; Henderson 1950), given the variance
@@ -236,13 +236,13 @@ MixedEffects fit_mixed_effects(DayDraft draft, const VectorXd& between) {
   return {std::move(draft), moments.about_mean()};
 }
 
-/// The robot as all days but one show it, noise and what is not linear as by all.
+/// The robot estimated from all days but one, with noise and nonlinear terms from all days.
 struct RobotWithoutDay {
   Eigen::VectorXd theta;
-  Eigen::VectorXd moments;  ///< as MixedEffects has them
+  Eigen::VectorXd moments;  ///< as in MixedEffects
 };
 
-/// One for each day, from the same normal equations.
+/// Returns one such robot for each day, from the same normal equations.
 std::vector<RobotWithoutDay> fit_without_each_day(const DayDraft& draft, const VectorXd& between) {
   const std::vector<int> free = free_columns(draft);
   const std::vector<DayBlock> blocks = day_blocks(draft, free, between);
@@ -269,7 +269,7 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
   return out;
 }
 
-/// Gain and offset of a slide that gravity pulls along look like a mass: they are no effects of their own.
+/// Excludes gain and offset of a prismatic joint along gravity: they are not separable from a mass.
 Eigen::VectorXd without_doubles(const BalanceModel& model, Eigen::VectorXd variance) {
   const DayLayout day = day_layout(model.rigid);
   for (int j = 0; j < model.joints(); ++j)
@@ -277,18 +277,18 @@ Eigen::VectorXd without_doubles(const BalanceModel& model, Eigen::VectorXd varia
   return variance;
 }
 
-/// Variance of the effects of a day (see DayLayout) before any day was looked at.
+/// Returns the prior variance of the effects of a day (see DayLayout) before any day was fitted.
 Eigen::VectorXd first_day_variance(const BalanceModel& model) {
   return without_doubles(model, variance_of(model, kFirst));
 }
 
-/// Variance between the days from the second moments of their effects: at least what a few days cannot show,
-/// and none where an effect cannot be told from another.
+/// Returns the variance between the days from the second moments of their effects: at least that of kLeast,
+/// and none for an effect that is not distinguishable from another.
 Eigen::VectorXd variance_between_days(const BalanceModel& model, const Eigen::VectorXd& moments) {
   return without_doubles(model, moments.cwiseMax(variance_of(model, kLeast)));
 }
 
-/// Prior of a day that was never seen: twice the variance between the days, and what few days cannot show.
+/// Prior variance of an unseen day: twice the variance between the days, plus that of kUnseen.
 Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd& between) {
   return without_doubles(model, kUnseenDays * between + variance_of(model, kUnseen));
 }

@@ -15,28 +15,28 @@ struct DayFitOptions {
   double kernel_s = 0.0;  ///< 0: 12 ms above 200 Hz, else 16 ms
   double row_s = 0.0;     ///< between two rows; 0: twice the kernel, since finer rows repeat each other
   int filter_order = 3;   ///< of the autoregression of the rows
-  int rounds = 10;        ///< of parameters, days and noise in turn
+  int rounds = 10;        ///< each fits parameters, days and noise in turn
   bool torque_is_held = false;
   bool springs = true, ripples = true, pieces = true;
 };
 
-/// When a work piece was carried in a log.
+/// Times at which a work piece was carried in a log.
 struct PieceTimes {
   Eigen::VectorXd time_s;  ///< of the rows
-  PiecePath path;          ///< level in each; empty without a work piece
+  PiecePath path;          ///< level in each row; empty without a work piece
 };
 
-/// A robot from its healthy logs, and the same by all of them but each one in turn: what a log shows that was
-/// not learned from. Only what is linear is fitted anew: terms, widths and noise stay.
+/// A robot fitted to its healthy logs, and to all of them but each one in turn, so that each log can be
+/// judged as held out. Fits without a log renew only the linear parameters; terms, widths and noise stay.
 struct FittedDays {
   BalanceModel model;
   std::vector<BalanceModel> without;  ///< by log
   std::vector<PieceTimes> pieces;     ///< by log
 };
 
-/// The robot, how it differs from day to day and the noise of its rows, from healthy logs (at least two of
-/// one rate): a regression with mixed effects, the robot's parameters free and each day's effects random
-/// (Laird and Ware 1982). `space` gives base parameters and lengths.
+/// Estimates the robot, its differences from day to day and the noise of its rows from healthy logs (at least
+/// two, of one rate): a regression with mixed effects, in which the parameters of the robot are free and the
+/// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths.
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
                     const DayFitOptions& options = {});
 

@@ -10,7 +10,7 @@
 
 namespace faultline {
 
-/// One healthy log while the robot is fitted.
+/// One healthy log during the fit of the robot.
 struct HealthyDay {
   UniformLog log;
   BalanceRows rows{};
@@ -19,30 +19,30 @@ struct HealthyDay {
   PiecePath path{};                           ///< of the work piece; empty without one
   Eigen::MatrixXd piece{};                    ///< torque of the work piece: rows x joints
   Eigen::VectorXd effect{};                   ///< of the day, see DayLayout
-  Eigen::MatrixXd std{};                      ///< of the rows: rows x joints
+  Eigen::MatrixXd std{};                      ///< standard deviation of the rows: rows x joints
 };
 
-/// What the rounds of the fit hand on: the model so far, its days, which columns of the robot are free.
+/// State that the rounds of the fit hand on: model, days and free columns of the robot.
 struct DayDraft {
   BalanceModel model;
   std::vector<HealthyDay> days;
   std::vector<bool> used;
-  std::vector<bool> refused{};  ///< columns that came out as no robot has them
+  std::vector<bool> refused{};  ///< columns whose estimate was infeasible (a negative rotor inertia)
 };
 
-/// Rows of all days as the setting of the model says.
+/// Computes the rows of all days by the setting of the model.
 DayDraft with_rows(DayDraft draft);
-/// Columns of the effects of the days, and the torque of 1 kg at the tip, by the parameters of the model.
+/// Computes the columns of the day effects, and the torque of 1 kg at the tip, from the model's parameters.
 DayDraft with_day_columns(DayDraft draft);
 
-/// Torque that robot, work piece and effects of the day leave unexplained: rows x joints.
+/// Returns the torque residual after robot, work piece and effects of the day: rows x joints.
 Eigen::MatrixXd left_over(const HealthyDay& day, const Eigen::VectorXd& theta);
-/// Torque of the effects of the day: rows x joints.
+/// Returns the torque of the effects of the day: rows x joints.
 Eigen::MatrixXd effect_torque(const HealthyDay& day);
 
-/// Rows on each side of a change of the work piece that its kernel reaches.
+/// Returns the number of rows on each side of a work piece change that its kernel reaches.
 int reach_of_change(const RowSetting& setting);
-/// Rows of a day that lie so near a change that they say little; empty without a work piece.
+/// Returns, for each row, whether it is within that reach of a change; empty without a work piece.
 std::vector<bool> rows_near_change(const HealthyDay& day, const BalanceModel& model);
 
 }  // namespace faultline

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// What 1 kg at the end of each link adds to the base parameters: base parameters x links.
+/// Returns the change of the base parameters by 1 kg at the end of each link: base parameters x links.
 Eigen::MatrixXd payload_columns(const ParameterSpace& space);
 
 }  // namespace faultline

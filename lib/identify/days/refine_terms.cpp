@@ -16,15 +16,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of a friction width: tried in turn; a parabola through the best and its neighbours gives the width.
+// Factors on a friction width, tried in turn; a parabola through the best and its neighbours gives the width.
 constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
-constexpr double kClearSpring = 20.0;  // nats, of rows that are not quite independent
-constexpr double kWidthRidge = 1e-12;  // for joints that rest
+constexpr double kClearSpring = 20.0;  // nats, from rows that are not quite independent
+constexpr double kWidthRidge = 1e-12;  // for joints at rest
 
-constexpr double kLeastExplained = 0.05;  // of the squares left over: a ripple that explains less is none
-constexpr double kCut = 4.0;              // standard deviations
+constexpr double kLeastExplained = 0.05;  // of the squared residual: a ripple that explains less is rejected
+constexpr double kCut = 4.0;              // standard deviations at which a residual is cut
 
-/// Rows of a day that say what friction there is.
+/// Returns the rows of a day that determine its friction: neither lost nor near a change of the work piece.
 std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) {
   const std::vector<bool> near = rows_near_change(day, m);
   std::vector<int> rows;
@@ -33,8 +33,8 @@ std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) 
   return rows;
 }
 
-/// Squares of joint `j` that remain of a day with the friction width and the spring of `setting`, where level
-/// and slope of the friction are fitted anew.
+/// Returns the squared residual of joint `j` on a day with the friction width and the spring of `setting`,
+/// after a new fit of level and slope of the friction.
 double left_with(const HealthyDay& day, const BalanceModel& m, int j, const RowSetting& setting) {
   const ColumnLayout at = m.layout();
   const MatrixXd& column = day.rows.column[j];
@@ -57,13 +57,13 @@ double left_with(const DayDraft& draft, int j, const RowSetting& setting) {
   return out;
 }
 
-/// Where the parabola through three points, the middle one the lowest, is lowest.
+/// Returns the x at which the parabola through three points, the middle one the lowest, is lowest.
 double lowest_of_parabola(const std::array<double, 3>& x, const std::array<double, 3>& y) {
   const double a = (x[1] - x[0]) * (y[1] - y[2]), b = (x[1] - x[2]) * (y[1] - y[0]);
   return a == b ? x[1] : x[1] - 0.5 * ((x[1] - x[0]) * a - (x[1] - x[2]) * b) / (a - b);
 }
 
-/// What is left of one joint in the rows that count.
+/// Residual of one joint in the rows that count, with position, velocity and torque.
 struct Column {
   std::vector<double> q, dq, torque, left;
 };
@@ -81,7 +81,7 @@ Column column_of(const std::vector<LeftOver>& logs, int j) {
   return out;
 }
 
-/// Mean zero, and no value beyond kCut standard deviations.
+/// Subtracts the mean and cuts each value to kCut standard deviations.
 void centre_and_cut(std::vector<double>& values) {
   Eigen::Map<Eigen::ArrayXd> v(values.data(), static_cast<Eigen::Index>(values.size()));
   v -= v.mean();
@@ -89,7 +89,7 @@ void centre_and_cut(std::vector<double>& values) {
   v = v.max(-most).min(most);
 }
 
-/// Square that a ripple of this rate explains; the kernel weakens fast ones.
+/// Returns the squared residual that a ripple of this rate explains; the kernel weakens fast ones.
 double explained(const Column& c, double rate, double kernel_s) {
   Eigen::Matrix4d a = 1e-6 * Eigen::Matrix4d::Identity();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -103,8 +103,8 @@ double explained(const Column& c, double rate, double kernel_s) {
   return b.dot(a.ldlt().solve(b));
 }
 
-/// Torques that repeat with a joint's position: the rate of each joint whose sine and cosine, alone and times
-/// the torque, explain more than a twentieth of what is left of it. `range` is that of each joint.
+/// Returns, for each joint, the rate whose sine and cosine, alone and times the torque, explain most of its
+/// residual, if that is more than a twentieth. `range` is that of each joint.
 std::vector<RippleRate> find_ripples_in_rows(const std::vector<LeftOver>& logs, const RowSetting& setting,
                                              const Eigen::VectorXd& range) {
   std::vector<RippleRate> out;

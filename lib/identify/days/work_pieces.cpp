@@ -12,26 +12,26 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kPieceRows = 20;       // over which a mass is estimated
-constexpr int kFewestWindows = 6;    // of a day: fewer are too few to tell two groups of masses apart
-constexpr double kPieceShare = 0.1;  // of the carried mass that a work piece has at least
-constexpr double kClearStep = 1.5;   // standard deviations of the masses within a group, between the groups
-constexpr double kAlikeDays = 0.5;   // of the step by which the steps of the days may differ
-constexpr double kWeight = 9.81;     // N of 1 kg
+constexpr int kPieceRows = 20;       // rows over which a mass is estimated
+constexpr int kFewestWindows = 6;    // of a day: fewer cannot show two groups of masses
+constexpr double kPieceShare = 0.1;  // of the carried mass: least mass of a work piece
+constexpr double kClearStep = 1.5;   // least step between the groups, in standard deviations within a group
+constexpr double kAlikeDays = 0.5;   // of the step: largest scatter of the steps between days
+constexpr double kWeight = 9.81;     // N: weight of 1 kg
 // Standard deviation of the rows on a path: rough at first, then by the noise, kLeastPathShare at least.
 constexpr double kRoughShare = 0.25, kLeastPathShare = 0.02,
-                 kNoiseShare = 0.3;        // of the piece's weight, and of what is left
+                 kNoiseShare = 0.3;        // of the work piece's weight, and of the residual
 constexpr double kNormalSpread = 1.4826;   // standard deviation over the median of |x|
 constexpr double kCountsForNothing = 1e9;  // N m or N: standard deviation of joints that carry no weight
-constexpr double kNoSpread = 1e-12;        // kg^2: the ratio stays finite where all masses are alike
+constexpr double kNoSpread = 1e-12;        // kg^2: keeps the ratio finite if all masses are alike
 
-/// Two groups of masses, kg: median of the lighter one, step to the other, and the step over the spread
-/// within.
+/// Two groups of masses, kg: median of the lighter one, step to the other, and the step divided by the spread
+/// within the groups.
 struct Groups {
   double low = 0.0, step = 0.0, ratio = 0.0;
 };
 
-/// Masses at the tip that kPieceRows rows each ask for.
+/// Returns the mass at the tip, kg, that best explains each stretch of kPieceRows rows.
 std::vector<double> masses_of(const HealthyDay& day, const BalanceModel& m) {
   const MatrixXd left = day.rows.torque - torque_of(day.rows, m.theta);
   std::vector<double> out;
@@ -65,7 +65,7 @@ Groups groups_of(std::vector<double> masses) {
   return out;
 }
 
-/// Mass that the joints which gravity pulls along carry, kg.
+/// Returns the mass that the joints along gravity carry, kg.
 double carried_kg(const DayDraft& draft) {
   double product = 0.0, square = 0.0;
   for (const HealthyDay& day : draft.days) {
