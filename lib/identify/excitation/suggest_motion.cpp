@@ -19,24 +19,24 @@
 namespace faultline {
 namespace {
 
-/// What a joint that the logs hardly moved may do, by kind of axis.
+/// Range and speed allowed to a joint that the logs hardly moved, by kind of joint.
 struct Modest {
   double range, speed, least_range, least_speed;
 };
-// rad and rad/s, m and m/s: logs that keep below a least value hardly move the joint.
+// rad and rad/s, m and m/s: below a least value, the logs hardly move the joint.
 constexpr Modest kTurning = {1.0, 1.0, 0.3, 0.2}, kSliding = {0.1, 0.1, 0.03, 0.02};
 
 constexpr std::array<double, 4> kPeriods_s = {5.0, 8.0, 12.0, 20.0};  // each candidate draws one
 constexpr int kFewestHarmonics = 3, kMoreHarmonics = 5;               // each candidate draws 3 to 7
-constexpr double kLeast_s = 20.0;              // of the motion: whole periods, at least so long
-constexpr double kSlowestSample_s = 0.005;     // a log that slow or slower is suggested at this period
-constexpr double kLook_s = 0.01;               // steps at which speed and torque are looked at
-constexpr std::uint64_t kSeedsApart = 100000;  // candidates of one seed are no candidates of the next
+constexpr double kLeast_s = 20.0;              // least duration of the motion, which has whole periods
+constexpr double kSlowestSample_s = 0.005;     // logs this slow or slower get a suggestion with this period
+constexpr double kLook_s = 0.01;               // steps at which speed and torque are evaluated
+constexpr std::uint64_t kSeedsApart = 100000;  // candidates of one seed differ from those of the next
 
 constexpr double kStep_s = 0.02;       // between samples of a motion, whose fastest harmonic lasts 0.7 s
 constexpr double kWindow_s = 0.16;     // as long as the windows that judge the terms of logs (kYardstick_s)
-constexpr int kManyWindows = 1 << 20;  // none is dropped
-constexpr double kRank = 1e-13;        // of the largest eigenvalue
+constexpr int kManyWindows = 1 << 20;  // so many that none is dropped
+constexpr double kRank = 1e-13;        // of the largest eigenvalue: smaller ones are zero
 
 struct Candidate {
   std::uint64_t seed = 0;
@@ -67,7 +67,7 @@ std::vector<SuggestedJoint> allowed_joints(const Identification& id) {
   return joints;
 }
 
-/// The largest speed of each joint over a period.
+/// Returns the largest speed of each joint over a period.
 Eigen::VectorXd fastest_of(const Motion& motion, int joints, double period_s) {
   Eigen::VectorXd fastest = Eigen::VectorXd::Zero(joints);
   Reference at;
@@ -110,7 +110,7 @@ Stretch stretch_of(const Motion& reference, int joints, double duration_s) {
   return s;
 }
 
-/// Row of joint `j` in all linear parameters of the space but the offsets and the timing.
+/// Returns the row of joint `j` in the linear parameters: base, viscous and Coulomb friction, 0 elsewhere.
 Eigen::RowVectorXd row_of(const ParameterSpace& space, const WeakWindow& w, int j) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(space.linear());
   row.head(space.rigid()) = w.base.row(j);
@@ -119,8 +119,8 @@ Eigen::RowVectorXd row_of(const ParameterSpace& space, const WeakWindow& w, int 
   return row;
 }
 
-/// `Excitation::moments` as they would be if the logs were `duration_s` of that reference, in the columns and
-/// scales of `of`.
+/// Returns `Excitation::moments` of a log of `duration_s` along that reference, in the columns and scales of
+/// `of`.
 Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of, const Motion& reference,
                                double duration_s) {
   const Stretch stretch = stretch_of(reference, space.joints(), duration_s);
@@ -136,9 +136,9 @@ Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of
   return moments / static_cast<double>(std::max<std::size_t>(windows.all().size(), 1));
 }
 
-/// Condition number of a motion's regressor, each column counted in its `unit`, so that a column that is
-/// hardly shown counts as badly as one that is hardly told from the others; infinite when one is not told at
-/// all.
+/// Returns the condition number of a motion's regressor, each column divided by its `unit`, so that a weakly
+/// excited column counts as much as one that is hardly separable from the others; infinite if one is not
+/// identifiable.
 double condition_of(const Eigen::MatrixXd& moments, const Eigen::VectorXd& unit) {
   const Eigen::VectorXd scale = unit.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse();
   const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * moments * scale.asDiagonal());
@@ -146,7 +146,7 @@ double condition_of(const Eigen::MatrixXd& moments, const Eigen::VectorXd& unit)
   return least > kRank * most ? std::sqrt(most / least) : std::numeric_limits<double>::infinity();
 }
 
-/// Random harmonics over the allowed ranges, those of a joint that would be too fast made smaller.
+/// Draws random harmonics over the allowed ranges and shrinks those of a joint that would be too fast.
 Candidate draw_candidate(const Identification& id, const std::vector<SuggestedJoint>& joints,
                          const SimulationSpec& common, std::uint64_t seed) {
   Random random(seed);
@@ -171,7 +171,7 @@ Candidate draw_candidate(const Identification& id, const std::vector<SuggestedJo
   return out;
 }
 
-/// Sampling and noise as the logs had them.
+/// Returns sampling and noise as in the logs.
 SimulationSpec common_of(const Identification& id) {
   SimulationSpec spec;
   double period_s = kSlowestSample_s;

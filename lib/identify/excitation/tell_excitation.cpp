@@ -10,12 +10,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kOneWay = 0.98;            // of the moving windows in one direction
-constexpr double kOneSpeed = 0.1;           // standard deviation over mean of the speed
-constexpr double kLeastScale = 0.03;        // of the largest torque scale of the same kind of axis
-constexpr double kNotShown = 1e-9;          // of the torque scale: such a column is zero
-constexpr double kShownMoving = 1e-6;       // of the squared column that moving joints must carry
-constexpr double kWorthNaming = 0.1;        // of the largest weight in the weakest mixture
+constexpr double kOneWay = 0.98;   // of the moving windows in one direction: beyond, the motion is one-way
+constexpr double kOneSpeed = 0.1;  // standard deviation over mean of the speed: below, the speed is constant
+constexpr double kLeastScale = 0.03;   // of the largest torque scale of the same kind of axis
+constexpr double kNotShown = 1e-9;     // of the torque scale: smaller columns are zero
+constexpr double kShownMoving = 1e-6;  // of the squared column: least share from moving joints
+constexpr double kWorthNaming = 0.1;   // of the largest weight: least weight listed in the weakest mixture
 constexpr double kLeastEigenvalue = 1e-14;  // of the scaled moments: rounding; the inverse stays finite
 
 std::string what_lacks(const JointFit& fit, double forward, bool still) {
@@ -54,7 +54,7 @@ JointExcitation of_joint(const JointFit& fit, bool still) {
   return out;
 }
 
-/// Base parameters but rotors that do not pay, and friction of every joint.
+/// Returns the base parameters, with the fitted rotors only, and the friction of every joint.
 std::vector<int> judged_columns(const TorqueFit& torque, const ParameterSpace& space) {
   std::vector<int> columns;
   for (int p = 0; p < space.offset(0); ++p)
@@ -62,7 +62,7 @@ std::vector<int> judged_columns(const TorqueFit& torque, const ParameterSpace& s
   return columns;
 }
 
-/// What the model leaves of each joint's torque, none far smaller than that of another such joint.
+/// Returns the torque residual of each joint, none far smaller than the largest of the same kind of joint.
 Eigen::VectorXd joint_scales(const Identification& id) {
   const int n = id.space.joints();
   const auto kind = [&](int j) { return id.space.chain.geometry[j].kind; };
@@ -83,7 +83,7 @@ Eigen::MatrixXd moments_of(const WeakSystem& s, const std::vector<int>& columns,
   return a.transpose() * a / static_cast<double>(std::max<Eigen::Index>(a.rows() / s.joints, 1));
 }
 
-/// Inverse of the moments of the columns that are shown at all, each scaled to one.
+/// Inverse of the moments of the excited columns, each scaled to one.
 struct Inverse {
   std::vector<int> shown;
   Eigen::MatrixXd inverse;
@@ -104,7 +104,7 @@ Inverse invert(const Eigen::MatrixXd& moments, const std::vector<bool>& at_rest)
   return out;
 }
 
-/// Columns that only joints at rest show: what shows of them is noise.
+/// Marks the columns that only joints at rest excite, which is noise.
 std::vector<bool> shown_at_rest(const WeakSystem& s, const std::vector<int>& columns,
                                 const std::vector<int>& still) {
   std::vector<bool> out;

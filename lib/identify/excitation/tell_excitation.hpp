@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// What the logs' motion tells, joint by joint and parameter by parameter. `still` are the joints that never
-/// move, from 1. Needs `id.joint_fits` and `id.residual_rms`.
+/// Returns what the motion of the logs determines, by joint and by parameter. `still` are the joints that
+/// never move, from 1. Needs `id.joint_fits` and `id.residual_rms`.
 Excitation tell_excitation(const TorqueFit& torque, const std::vector<int>& still, const Identification& id);
 
 }  // namespace faultline
