@@ -20,7 +20,7 @@ bool belong_together(const ExtraTerm& a, const ExtraTerm& b) {
 }
 
 bool is_possible(ExtraKind kind, double value) {
-  constexpr double kMostLoad = 0.5;  // of the carried torque: load friction beyond is taken for a wrong fit
+  constexpr double kMostLoad = 0.5;  // of the carried torque: more load friction is a wrong fit
   if (is_ripple(kind)) return true;
   return value >= 0.0 && (kind != ExtraKind::load_friction || value < kMostLoad);
 }
@@ -47,7 +47,7 @@ std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<doub
 
 namespace {
 
-/// `Place` is double* of a chain that may be changed, const double* of one that may not.
+/// `Place` is double* for a mutable chain, const double* for a const one.
 template <typename Place, typename AnyChain>
 Place place_of(AnyChain& chain, const ExtraTerm& term) {
   const auto index = static_cast<std::size_t>(term.index);

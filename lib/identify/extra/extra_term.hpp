@@ -9,39 +9,39 @@ namespace faultline {
 
 enum class ExtraKind {
   load_friction,    ///< share of the torque carried
-  shared_inertia,   ///< rotor of the chain's shared_drives[index]
-  shared_viscous,   ///< of the chain's shared_drives[index]
-  shared_coulomb,   ///< the same
-  ripple_cosine,    ///< of the chain's ripples[index]
-  ripple_sine,      ///< the same
+  shared_inertia,   ///< rotor inertia of the chain's shared_drives[index]
+  shared_viscous,   ///< viscous friction of the chain's shared_drives[index]
+  shared_coulomb,   ///< Coulomb friction of the same
+  ripple_cosine,    ///< cosine of the chain's ripples[index]
+  ripple_sine,      ///< sine of the same
   gear_compliance,  ///< rad/(N m) or m/N, to first order; the chain's motion is that of a rigid gear
 };
 
-/// A linear parameter that few robots have.
+/// A linear parameter that is optional: most robots do not need it.
 struct ExtraTerm {
   ExtraKind kind = ExtraKind::load_friction;
-  int joint = 0;  ///< from 0: its own, or the first that its drive turns with
-  int index = 0;  ///< where the chain keeps it
+  int joint = 0;  ///< from 0: its joint, or the first that its shared drive turns
+  int index = 0;  ///< index in the list of the chain that holds it
 };
 
 bool is_ripple(ExtraKind kind);
 bool is_of_shared_drive(ExtraKind kind);
-/// Whether they are of the same ripple or drive.
+/// Whether both are of the same ripple or shared drive.
 bool belong_together(const ExtraTerm& a, const ExtraTerm& b);
-/// Whether a robot can have that value: friction never drives, no gear leads or loses half of what it
-/// carries.
+/// Whether the value is physically possible: friction never drives, no gear leads, and load friction takes
+/// less than half of the torque carried.
 bool is_possible(ExtraKind kind, double value);
 
-/// The terms of every load friction, shared drive and ripple that `chain` has, and for every compliance in
-/// `gear_compliance` (by joint; may be empty) that is not 0.
+/// Returns the terms of every load friction, shared drive and ripple that `chain` has, and of every
+/// compliance in `gear_compliance` (by joint; may be empty) that is not 0.
 std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<double>& gear_compliance);
 
-/// Where the chain keeps a term's value; null where it has none, as of compliance.
+/// Returns the place of a term's value in the chain; null if it has none, such as compliance.
 double* extra_value(Chain& chain, const ExtraTerm& term);
 const double* extra_value(const Chain& chain, const ExtraTerm& term);
 
-/// The torque on every joint that a unit of a term is, at one state, where gears carry `carried`.
-/// Compliance has none.
+/// Returns the torque of one unit of a term on every joint, at one state, if the gears carry the torque
+/// `carried`. Zero for compliance.
 JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointVector& q,
                          const JointVector& dq, const JointVector& ddq, const JointVector& carried);
 

@@ -14,17 +14,17 @@ namespace faultline {
 namespace {
 
 constexpr int kRates = 1000;     // of the periodogram, a quarter of a period over the joint's range apart
-constexpr int kMostRipples = 3;  // looked for in one joint
+constexpr int kMostRipples = 3;  // searched in one joint
 constexpr double kLeastPeriods = 3.0;   // over the range of the joint
-constexpr double kLeastTurnRate = 2.5;  // 1/rad: slower is gravity's
-constexpr double kStandsOut = 0.03;     // of the residual's variance, and
-constexpr double kAboveOthers = 10.0;   // times the median of all rates
+constexpr double kLeastTurnRate = 2.5;  // 1/rad: slower ripples look like gravity
+constexpr double kStandsOut = 0.03;     // least share of the residual's variance, and
+constexpr double kAboveOthers = 10.0;   // least ratio to the median of all rates, that a ripple explains
 constexpr int kRefinements = 20;        // steps of the golden section: they leave 7e-5 of the interval
-constexpr int kFewest = 50;             // windows
+constexpr int kFewest = 50;             // least number of windows
 
-/// Residual of one joint's shortest windows with where and how fast the joint was.
+/// Residual of one joint in its shortest windows, with position and travel of the joint.
 struct Samples {
-  std::vector<double> residual, q, turn;  ///< turn: how far the joint goes in the window
+  std::vector<double> residual, q, turn;  ///< turn: travel of the joint in the window
   double square() const {
     double sum = 0.0;
     for (const double r : residual) sum += r * r;
@@ -32,7 +32,7 @@ struct Samples {
   }
 };
 
-/// What a window's weight, 30 u^2 (1 - u)^2 over it, leaves of a wave of `x` rad in the window; it is even.
+/// Attenuation of a wave of `x` rad per window by the window's weight 30 u^2 (1 - u)^2; even in x.
 class WindowShare {
  public:
   WindowShare() {
@@ -50,7 +50,7 @@ class WindowShare {
   }
 
  private:
-  static constexpr int kSize = 500;     // entries, up to 50 rad: the window averages faster waves out
+  static constexpr int kSize = 500;     // entries, up to 50 rad: faster waves average out in a window
   static constexpr double kStep = 0.1;  // rad between two entries
   double share_[kSize] = {};
 };
@@ -102,7 +102,7 @@ std::complex<double> on_circle(double angle) {
   return {cosine, sine};
 }
 
-/// How much of the squared residual each rate first + i step tells.
+/// Returns the squared residual that each rate first + i step explains.
 std::vector<double> periodogram(const Samples& samples, double first, double step, const WindowShare& share) {
   std::vector<Fit> fits(kRates);
   for (std::size_t i = 0; i < samples.q.size(); ++i) {

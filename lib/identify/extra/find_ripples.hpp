@@ -7,10 +7,10 @@
 
 namespace faultline {
 
-/// Ripples that stand out of what a fit leaves of joint `joint` in the shortest windows: the periodogram by
-/// position, each window's position and speed taken into account, strongest first, at most three. Nothing is
-/// said of what repeats less than three times over the range or, on a turning joint, less than 2.5 times a
-/// rad.
+/// Returns the ripples that stand out of the residual of joint `joint` in the shortest windows, strongest
+/// first, at most three: peaks of the periodogram by position, with position and speed of each window taken
+/// into account. Excludes ripples with less than three periods over the range and, of a revolute joint, with
+/// a rate below 2.5 1/rad (2.5 periods a turn).
 std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choice,
                                  const Eigen::VectorXd& parameters, int joint);
 
