@@ -8,17 +8,17 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeastMass = 1e-3;     // kg, where a robot file has none
+constexpr double kLeastMass = 1e-3;     // kg, if the robot file has none
 constexpr double kLeastInertia = 1e-5;  // kg m^2
-constexpr double kLeastSpread = 0.05;   // m: radius of gyration about the centre, where a robot file has none
+constexpr double kLeastSpread = 0.05;   // m: least radius of gyration, if the robot file has none
 
-/// Columns of 11 n numbers that the unknowns of one body stand for, beside its block.
+/// Columns of the inertial numbers by the unknowns of one body, and its block.
 struct Body {
   Eigen::MatrixXd numbers;
   DefiniteBlock block;
 };
 
-/// Second moments, first moment and mass as one matrix.
+/// Returns second moments, first moment and mass as one matrix (4 x 4).
 Eigen::MatrixXd pseudo_inertia(const LinkInertia& link) {
   Eigen::Matrix4d j;
   j.topLeftCorner<3, 3>() = 0.5 * link.inertia.trace() * Eigen::Matrix3d::Identity() - link.inertia;
@@ -46,7 +46,7 @@ Body general_body_of(const LinkInertia& link) {
   return body;
 }
 
-/// Mass, first moment along the link and inertia about every axis across it.
+/// Returns a rod: mass, first moment along the link and inertia about every axis across it.
 Body rod_of(const LinkInertia& link, const Eigen::Vector3d& along) {
   Body body;
   LinkInertia mass, moment, inertia;

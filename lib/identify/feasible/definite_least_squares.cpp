@@ -13,11 +13,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kFall = 0.1;       // of the prior from one stage to the next
-constexpr int kSteps = 60;          // of Newton in a stage
-constexpr int kHalvings = 60;       // of a step
-constexpr double kDecrease = 1e-4;  // of the predicted decrease that a step must bring (Armijo)
-constexpr double kSettled = 1e-10;  // Newton decrement, of cost and prior together, that ends a stage
+constexpr double kFall = 0.1;       // factor of the prior from one stage to the next
+constexpr int kSteps = 60;          // Newton steps in a stage, at most
+constexpr int kHalvings = 60;       // of a step, at most
+constexpr double kDecrease = 1e-4;  // of the predicted decrease: least decrease by a step (Armijo)
+constexpr double kSettled = 1e-10;  // Newton decrement over cost and prior together, ends a stage
 constexpr double kRidge = 1e-14;    // of the scaled Hessian's diagonal
 
 Eigen::MatrixXd value(const DefiniteBlock& block, const Eigen::VectorXd& x) {
@@ -32,7 +32,7 @@ class Problem {
       inverse_nominal_.push_back(block.value(block.nominal).inverse());
   }
 
-  /// Infinite outside.
+  /// Returns the cost; infinite if a block is not positive definite.
   double cost(const Eigen::VectorXd& x, double prior) const {
     double divergence = 0.0;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -71,7 +71,7 @@ class Problem {
   double constant_;
 };
 
-/// H step = -g for unknowns of any scale.
+/// Solves H step = -g for unknowns of any scale.
 Eigen::VectorXd newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient) {
   const Eigen::VectorXd scale = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd h = scale.asDiagonal() * hessian * scale.asDiagonal();
@@ -79,7 +79,7 @@ Eigen::VectorXd newton_step(const Eigen::MatrixXd& hessian, const Eigen::VectorX
   return -scale.cwiseProduct(solve_definite(h, scale.cwiseProduct(gradient)));
 }
 
-/// Newton's method with one prior.
+/// Runs Newton's method with one prior.
 void descend(const Problem& problem, double prior, Eigen::VectorXd& x) {
   double cost = problem.cost(x, prior);
   Eigen::VectorXd gradient;

@@ -16,13 +16,13 @@
 namespace faultline {
 namespace {
 
-constexpr int kProbes = 64;             // configurations at which the inertia matrix is looked at
+constexpr int kProbes = 64;             // positions at which the inertia matrix is checked
 constexpr double kDefinite = 1e-4;      // least eigenvalue of the inertia matrix scaled to a unit diagonal
-constexpr double kFrictionDoubt = 4.0;  // standard deviations below zero that are no doubt any more
-constexpr double kPrior = 0.01;  // worth of the robot's own bodies, against residuals in standard deviations
+constexpr double kFrictionDoubt = 4.0;  // standard deviations: friction farther below zero is infeasible
+constexpr double kPrior = 0.01;  // weight of the robot's own bodies, against residuals in standard deviations
 constexpr double kLeastFriction = 1e-6;       // N m s/rad, N m, N s/m or N
-constexpr double kFeasibleLeastScale = 1e-4;  // of the robot file's bodies: they stay positive
-constexpr double kRounding = 1e-9;            // kg or kg m^2: not negative
+constexpr double kFeasibleLeastScale = 1e-4;  // least scale of the robot file's bodies: they stay positive
+constexpr double kRounding = 1e-9;            // kg or kg m^2: a value this little below 0 is not negative
 
 bool positive_definite(const Chain& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   Random random(11);
@@ -38,10 +38,9 @@ bool positive_definite(const Chain& chain, const Eigen::VectorXd& low, const Eig
   return true;
 }
 
-/// What the unknowns of nearest_feasible stand for: bodies and rotors, then the wanted ones of friction,
-/// offsets and timing.
+/// Unknowns of nearest_feasible: bodies and rotors, then the wanted ones of friction, offsets and timing.
 struct FeasibleUnknowns {
-  int bodies = 0;              ///< unknowns of bodies and rotors
+  int bodies = 0;              ///< number of unknowns of bodies and rotors
   Eigen::MatrixXd parameters;  ///< linear parameters x unknowns
   std::vector<DefiniteBlock> blocks;
 };
@@ -70,7 +69,7 @@ FeasibleUnknowns feasible_unknowns(const ParameterSpace& space, const Robot& rob
   return out;
 }
 
-/// Makes the robot's own bodies heavier or lighter by the one factor that suits the torques best.
+/// Scales the mass of the robot's own bodies by the one factor that fits the torques best.
 void scale_bodies(const Eigen::MatrixXd& a, const Eigen::VectorXd& y, FeasibleUnknowns& unknowns) {
   Eigen::VectorXd nominal = Eigen::VectorXd::Zero(unknowns.bodies);
   for (const DefiniteBlock& block : unknowns.blocks)

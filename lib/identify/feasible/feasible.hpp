@@ -11,17 +11,16 @@
 
 namespace faultline {
 
-/// What is wrong with parameters that no body can have, in words; empty when nothing is: the inertia matrix
-/// is positive definite over the range of the joints, masses and rotors are positive, friction is not clearly
-/// negative.
+/// Returns why the parameters are infeasible, in words, or "": the inertia matrix must be positive definite
+/// over the range of the joints, masses and rotor inertia not negative, and friction not clearly negative.
 std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& parameters,
                           const Eigen::MatrixXd& covariance, const Eigen::VectorXd& q_low,
                           const Eigen::VectorXd& q_high);
 
-/// The parameters nearest to the weighted system that bodies of the robot's shapes can have: masses and
+/// Returns the feasible parameters of the robot's link shapes nearest to the weighted system: masses and
 /// friction positive, inertia that satisfies the triangle inequality (positive definite pseudo-inertia;
-/// Wensing, Kim and Slotine 2018). What the system does not tell stays near `robot`, made heavier or lighter
-/// as a whole.
+/// Wensing, Kim and Slotine 2018). Directions that the system does not determine stay near `robot`, scaled in
+/// mass as a whole.
 Eigen::VectorXd nearest_feasible(const ParameterSpace& space, const Robot& robot, const WeakSystem& system,
                                  const WeakFit& fit, const std::vector<bool>& wanted);
 
