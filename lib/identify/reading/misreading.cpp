@@ -20,15 +20,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 3000;                   // of the beginning of a log
-constexpr std::size_t kLogs = 2;              // looked at
-constexpr double kMisreadingWindow_s = 0.16;  // long enough for any noise
-constexpr int kMisreadingWindows = 2000;      // of one length at most: every reading costs a fit of them
-constexpr double kRight = 0.8;         // share of each joint's torque that the right reading must explain
-constexpr double kSurelyRight = 0.95;  // the same where what is read now fits no robot that can be
-constexpr double kClearlyLess = 0.5;   // of what the reading as it is leaves, by joint in the mean
+constexpr int kRows = 3000;                   // from the beginning of a log
+constexpr std::size_t kLogs = 2;              // used
+constexpr double kMisreadingWindow_s = 0.16;  // long enough to average any noise
+constexpr int kMisreadingWindows = 2000;      // at most: every interpretation costs a fit of them
+constexpr double kRight = 0.8;                // least R2 of each joint under a right interpretation
+constexpr double kSurelyRight = 0.95;         // the same if the present interpretation is infeasible
+constexpr double kClearlyLess = 0.5;          // of the present residual, in the mean over joints
 
-/// Whether a reading makes of a motion one too small to be meant.
+/// Whether an interpretation shrinks the motion of a joint below a plausible one.
 bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& after, const Robot& robot) {
   constexpr double kLeastMove_rad = 0.03, kLeastMove_m = 0.003;  // range of a joint: less is no motion
   const auto range = [](const std::vector<Log>& logs, int j) {
@@ -47,13 +47,13 @@ bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& afte
   return false;
 }
 
-/// How well a reading of the logs is explained.
+/// How well the robot explains the logs under an interpretation.
 struct Explained {
   std::vector<double> r2;  ///< by joint
   bool feasible = false;
 
   double worst() const { return r2.empty() ? -1.0 : *std::min_element(r2.begin(), r2.end()); }
-  /// Mean logarithm of what is left.
+  /// Returns the mean logarithm of the unexplained share.
   double left() const {
     double sum = 0.0;
     for (const double r : r2) sum += elementary::log(std::max(1.0 - r, 1e-9));
@@ -87,7 +87,7 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
       if (!gathered.windows.still[j]) out.r2.push_back(fit.r2[j]);
     out.feasible = infeasibility(id.space, fit.parameters, fit.covariance, m.q_low(), m.q_high()).empty();
   } catch (const Error&) {
-    return {};  // read like this, the logs give nothing to fit
+    return {};  // with this interpretation, the logs do not allow a fit
   }
   return out;
 }
@@ -110,7 +110,7 @@ Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot)
   best.r2_before = now.worst();
   double least = now.left() + elementary::log(kClearlyLess);
   for (const ColumnReading& reading : readings) {
-    if (reading.of_robot && !best.what.empty()) break;  // columns first, they are wrong more often
+    if (reading.of_robot && !best.what.empty()) break;  // columns first: errors in them are more frequent
     std::vector<Log> read = beginnings;
     for (Log& log : read) reading.apply(log);
     if (shrinks_motion(beginnings, read, robot)) continue;

@@ -9,17 +9,17 @@
 
 namespace faultline {
 
-/// A way the columns of the logs may mean something else than the robot file says, under which this robot
-/// would explain their torque.
+/// An interpretation of the columns that differs from the robot file, under which this robot would explain
+/// their torque.
 struct Misreading {
-  std::string what;        ///< in a sentence's words, such as "q2 is in degrees"
-  std::string cure;        ///< what to write where, an order
-  double r2_before = 0.0;  ///< of the joint explained worst, as the logs are read now
-  double r2_after = 0.0;   ///< the same if it was so
+  std::string what;        ///< as part of a sentence, such as "q2 is in degrees"
+  std::string cure;        ///< what to write where, as an instruction
+  double r2_before = 0.0;  ///< of the worst explained joint, with the present interpretation
+  double r2_after = 0.0;   ///< the same with the new interpretation
 };
 
 /// Tries other units, signs, swapped joints, swapped torques and directions of gravity on the beginning of
-/// the logs; `what` is empty when none of them explains the torque clearly better.
+/// the logs; `what` is empty if none of them explains the torque clearly better.
 Misreading find_misreading(std::span<LogSource* const> logs, const Robot& robot);
 
 }  // namespace faultline
