@@ -21,18 +21,18 @@ namespace faultline {
 namespace {
 
 constexpr int kNoiseRows = 1000;       // in the middle of a stretch: enough to estimate a joint's noise
-constexpr double kFewRepeats = 0.005;  // of the rows in motion: less changes nothing
+constexpr double kFewRepeats = 0.005;  // of the rows in motion: fewer repeats change nothing
 constexpr double kCaughtUp = 1.5;      // usual steps after a repeated row: the motion went on meanwhile
 
-constexpr double kSame = 1e-9;        // of the value: the same number
-constexpr double kLimitShare = 0.04;  // of the rows at one value that nothing goes beyond
+constexpr double kSame = 1e-9;        // of the value: closer values are the same number
+constexpr double kLimitShare = 0.04;  // of the rows at an extreme value: more show a torque limit
 
-constexpr double kAlike = 0.9;        // correlation above which both are one quantity
-constexpr double kFactorApart = 1.2;  // factor between them that no noise makes
-constexpr double kNear = 0.05;        // of a known factor, in its logarithm
+constexpr double kAlike = 0.9;        // correlation above which both are the same quantity
+constexpr double kFactorApart = 1.2;  // factor between them that is too large for noise
+constexpr double kNear = 0.05;        // distance from a known factor, in its logarithm
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-/// Steps of q around the rows that repeat the one before, by the joint that moves most there.
+/// Compares the steps of q before and after repeated rows, of the joint that moves most there.
 class RepeatCounter {
  public:
   void add(const RawStretch& s) {
@@ -71,7 +71,7 @@ bool dq_is_difference(const JointMotion& m) {
   return is_difference(span(m.time), span(m.q), span(m.dq));
 }
 
-/// Rows in the middle of a stretch, enough to tell noise from.
+/// Returns rows in the middle of a stretch, enough to estimate noise.
 JointMotion middle_of(const JointMotion& m) {
   const int rows = std::min(m.rows(), kNoiseRows), begin = (m.rows() - rows) / 2;
   JointMotion out;
@@ -99,7 +99,7 @@ void keep_busiest(const RawStretch& s, std::vector<Busiest>& busiest) {
   }
 }
 
-/// Rows that repeat the one before are left out of the survey of noise.
+/// Excludes rows that repeat the row before from the estimate of the noise.
 void leave_out_repeats(JointMotion& m) {
   for (int k = 1; k < m.rows(); ++k)
     if (m.q[k] == m.q[k - 1] && (m.dq.size() == 0 || m.dq[k] == m.dq[k - 1])) {
@@ -128,7 +128,7 @@ DerivativeAgreement velocity_agreement(const JointMotion& motion) {
   return {dm / dd, dm / std::sqrt(dd * mm)};
 }
 
-/// In words, such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees".
+/// Returns words such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees".
 std::string words(const DerivativeAgreement& agreement, int joint) {
   const double factor = agreement.factor;
   std::string guess = "one of them is in another unit";
@@ -151,7 +151,7 @@ bool DerivativeAgreement::disagrees() const {
          (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
 }
 
-/// For the larger of two values; the smaller ones are seen with the other sign.
+/// Updates the maximum; minima are kept as maxima of the negated value.
 void TorqueLimits::Extreme::see(double v) {
   const double margin = kSame * std::max(std::abs(v), std::abs(value));
   if (rows > 0 && v < value - margin) return;

@@ -11,21 +11,21 @@
 
 namespace faultline {
 
-/// How the measured velocity of a joint goes with the derivative of its position.
+/// Relation of the measured velocity of a joint to the derivative of its position.
 struct DerivativeAgreement {
   double factor = 1.0;       ///< measured over derived, by least squares
   double correlation = 1.0;  ///< of both
 
-  /// They are the same quantity in different units or with different signs.
+  /// Whether both are the same quantity in different units or with opposite signs.
   bool disagrees() const;
 };
 
-/// Counts how often each joint's torque stands at its largest and smallest value.
+/// Counts the rows in which each joint's torque is at its largest or smallest value.
 class TorqueLimits {
  public:
   void add(const RawStretch& stretch);
-  /// Joints whose torque never changes, and those that stand at a limit for a good part of the log: what was
-  /// asked for beyond it is not what moved the robot.
+  /// Returns an issue for each joint whose torque never changes or is at a limit in many rows: a command
+  /// beyond the limit is not the torque that moved the robot.
   Issues issues() const;
 
  private:
@@ -38,24 +38,24 @@ class TorqueLimits {
   long rows_ = 0;
 };
 
-/// What has to be known of a log before its motion can be smoothed.
+/// Properties of a log that are needed before its motion can be smoothed.
 struct LogSurvey {
   StretchSummary summary;
   RepeatedRows repeated_rows = RepeatedRows::none;
-  double repeated_share = 0.0;         ///< of the rows in motion that repeat the one before
-  std::vector<char> dq_is_difference;  ///< by joint: its dq is computed from q and tells nothing of its own
+  double repeated_share = 0.0;                ///< share of the rows in motion that repeat the row before
+  std::vector<char> dq_is_difference;         ///< by joint: its dq is computed from q, not measured
   std::vector<DerivativeAgreement> velocity;  ///< by joint
-  std::vector<MotionNoise> noise;             ///< by joint, from where it moves most
+  std::vector<MotionNoise> noise;             ///< by joint, from the stretch in which it moves most
   TorqueLimits torque_limits;
 
-  /// Whether the joint's dq, where recorded, is a measurement of its own.
+  /// Whether the joint's dq, if recorded, is an independent measurement.
   bool measures_velocity(int joint) const { return !dq_is_difference[joint] && !velocity[joint].disagrees(); }
 };
 
-/// Reads a log from its start. Throws Error(input) when it lacks torque or has other joints.
+/// Reads a log from its start. Throws Error(input) if it lacks torque or its joints differ in number.
 LogSurvey survey_log(LogSource& source, int joints);
 
-/// What the survey found that its user should know.
+/// Returns the findings of the survey that the user must see, as issues.
 Issues survey_issues(const LogSurvey& survey);
 
 }  // namespace faultline

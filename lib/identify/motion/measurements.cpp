@@ -8,11 +8,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kStill = 20.0;          // times the noise of q: a joint that does not move
+constexpr double kStill = 20.0;          // times the noise of q: a joint of smaller range does not move
 constexpr double kLeastMotion = 1e-4;    // rad or m
 constexpr double kLeastShare = 1e-7;     // of the range: rounding
 constexpr double kLeastNoise = 1e-9;     // rad, m, rad/s or m/s
-constexpr double kUnknownShare = 0.005;  // of the range, where no log tells the noise
+constexpr double kUnknownShare = 0.005;  // of the range: noise, if no log has an estimate
 
 }  // namespace
 

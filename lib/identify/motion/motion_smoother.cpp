@@ -18,11 +18,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kSettlingRows = 20;         // at the start, whose guess the likelihood leaves out
-constexpr double kFirstBandwidth = 0.05;  // of the sample rate: where the search starts
-constexpr double kFirstStep = 2.0;        // in the logarithm of a level
-constexpr double kLastStep = 0.25;        // an eighth of the noise is near enough
-constexpr double kGain = 1e-3;            // of the log likelihood: less is no progress
+constexpr int kSettlingRows = 20;         // at the start, excluded from the likelihood: its first guess
+constexpr double kFirstBandwidth = 0.05;  // of the sample rate: start of the search
+constexpr double kFirstStep = 2.0;        // in the logarithm of a noise level
+constexpr double kLastStep = 0.25;        // ends the search: an eighth of the noise is accurate enough
+constexpr double kGain = 1e-3;            // of the log likelihood: a smaller increase is no progress
 constexpr int kSmootherMostRounds = 40;   // of the search, which otherwise ends with kLastStep
 constexpr double kRelativeFloor = 1e-9;   // of range and largest value: rounding of a double that was printed
 
@@ -33,7 +33,7 @@ Matrix3d transition(double h) {
   return f;
 }
 
-/// Covariance of what white jerk of density 1 adds over h seconds.
+/// Returns the covariance that white jerk of density 1 adds over h seconds.
 Matrix3d jerk_covariance(double h) {
   const double h2 = h * h, h3 = h2 * h;
   Matrix3d q;
@@ -57,7 +57,7 @@ Belief first_belief(const JointMotion& m, const MotionNoise& noise) {
   return b;
 }
 
-/// Takes one measurement of state component i; returns its log likelihood without constants.
+/// Updates the state by one measurement of component i; returns its log likelihood without constants.
 double update(Belief& b, int i, double measured, double std) {
   const double variance = b.covariance(i, i) + std * std, error = measured - b.mean[i];
   const Vector3d gain = b.covariance.col(i) / variance;
@@ -90,7 +90,7 @@ double log_likelihood(const JointMotion& m, const MotionNoise& noise) {
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
-/// The smallest step between values that differ, as a standard deviation; at least rounding.
+/// Returns the smallest step between different values, as a standard deviation; at least rounding.
 double least_std(const Eigen::VectorXd& y) {
   double step = std::numeric_limits<double>::infinity();
   const double range = y.maxCoeff() - y.minCoeff(),
@@ -103,7 +103,7 @@ double least_std(const Eigen::VectorXd& y) {
   return std::max({std::min(quantised, 0.01 * range), rounding, 1e-12});
 }
 
-/// White noise as third differences show it, whose squares are 20 times as large.
+/// Returns the std of white noise from third differences, whose variance is 20 times as large.
 double rough_std(const Eigen::VectorXd& y) {
   std::vector<double> size;
   for (Eigen::Index k = 3; k < y.size(); ++k)
@@ -111,7 +111,7 @@ double rough_std(const Eigen::VectorXd& y) {
   return size.empty() ? 0.0 : 1.4826 * upper_median_of(size) / std::sqrt(20.0);
 }
 
-/// The same in units of the sample period, in which the numbers of the filter are of one size.
+/// Converts to units of the sample period, in which all quantities of the filter are of similar size.
 struct InPeriods {
   double period;
 
@@ -130,7 +130,7 @@ struct InPeriods {
   }
 };
 
-/// Levels in logarithms: q, jerk, dq.
+/// Returns the noise of these logarithmic levels: q, jerk, dq.
 MotionNoise noise_at(const std::array<double, 3>& level, bool has_dq) {
   return {elementary::exp(level[0]), has_dq ? elementary::exp(level[2]) : 0.0, elementary::exp(level[1])};
 }

@@ -14,10 +14,10 @@ namespace faultline {
 namespace {
 
 constexpr int kSmallestStretch = 4;  // rows: fewer give neither a period nor third differences for the noise
-constexpr double kGap = 1.6;         // periods: in a longer step rows were lost
+constexpr double kGap = 1.6;         // periods: a longer step has lost rows
 constexpr double kBridged = 5.5;     // periods: up to here, and
-constexpr double kBridged_s = 0.05;  // s, lost rows are put in again, without a measurement; longer steps cut
-constexpr double kTooSoon = 0.4;     // periods: a row that comes earlier is left out
+constexpr double kBridged_s = 0.05;  // s, lost rows are restored without a measurement; longer steps cut
+constexpr double kTooSoon = 0.4;     // periods: a row that comes earlier is excluded
 constexpr double kAbsurd = 1e9;      // rad, m, N m: no joint has such values
 
 /// Gathers rows and cuts them into stretches.
@@ -43,14 +43,14 @@ class StretchCutter {
     return finite;
   }
 
-  /// False of a row that was put in for a lost one.
+  /// Whether the row holds a value; false for a row inserted in place of a lost one.
   bool holds_values(const Log& s, int k) const {
     bool any = false;
     for (int j = 0; j < joints_; ++j) any = any || !std::isnan(s.q[j][k]) || !std::isnan(s.tau[j][k]);
     return any;
   }
 
-  /// Whether row k says the same as the row taken last.
+  /// Whether row k has the same values as the last accepted row.
   bool repeats(const Log& s, int k) const {
     if (repeated_ == RepeatedRows::none || time_.empty()) return false;
     const double* last = values_.data() + values_.size() - 3 * static_cast<std::size_t>(joints_);
@@ -80,7 +80,7 @@ class StretchCutter {
     if (static_cast<int>(time_.size()) >= kStretchRows) flush();
   }
 
-  /// The first rows of a log tell its period.
+  /// Estimates the sample period from the first rows of the log.
   void measure_period() {
     std::vector<double> steps;
     for (std::size_t k = 1; k < time_.size(); ++k) steps.push_back(time_[k] - time_[k - 1]);
@@ -95,7 +95,7 @@ class StretchCutter {
     values_.clear();
   }
 
-  /// Rows up to a gap too long to be bridged, without those that come too soon.
+  /// Visits the pieces between gaps that are too long to bridge, without rows that come too soon.
   void visit_pieces() {
     std::vector<int> piece;
     for (int k = 0; k < static_cast<int>(time_.size()); ++k) {
@@ -107,7 +107,7 @@ class StretchCutter {
     visit_piece(piece);
   }
 
-  /// Hands out the rows of a piece, with a stale row for each that was lost in it, and empties it.
+  /// Passes the rows of a piece on, with a stale row for each lost one, and empties the piece.
   void visit_piece(std::vector<int>& piece) {
     if (static_cast<int>(piece.size()) >= kSmallestStretch) {
       RawStretch s = filled(piece);
@@ -149,7 +149,7 @@ class StretchCutter {
     return s;
   }
 
-  /// A straight line over the rows whose torque is old.
+  /// Interpolates the torque of stale rows linearly.
   static void bridge_stale_torque(RawStretch& s) {
     for (int k = 1; k + 1 < s.rows(); ++k) {
       if (!s.stale[k]) continue;

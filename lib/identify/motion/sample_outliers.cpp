@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kOutlier = 20.0;  ///< times the distance that nine samples in ten keep
+constexpr double kOutlier = 20.0;  ///< times the 90 % quantile of the distance from the neighbours' mean
 
-/// A sample far from the middle of its neighbours while these agree with each other.
+/// Marks samples that are far from the mean of their neighbours while these agree with each other.
 void switch_off_outliers(const Eigen::VectorXd& y, Eigen::VectorXi& off) {
   const int n = static_cast<int>(y.size());
   std::vector<double> bends;

@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// The samples of one joint, those that stand off their neighbours and stale rows switched off.
+/// Returns the samples of one joint, with outliers and stale rows marked in `q_off` and `dq_off`.
 JointMotion joint_motion(const RawStretch& stretch, int joint);
 
 }  // namespace faultline

@@ -13,11 +13,11 @@ namespace faultline {
 struct Stretch {
   int log = 0;
   double period_s = 0.0;                ///< usual sample period of the log
-  bool has_dq = false;                  ///< a velocity was measured; else `dq` comes from q
+  bool has_dq = false;                  ///< a velocity was measured; otherwise `dq` is derived from q
   Eigen::VectorXd time;                 ///< s
   Eigen::MatrixXd q, dq, tau;           ///< joints x rows, as recorded
-  Eigen::MatrixXd q_smooth, dq_smooth;  ///< what q and dq were, given all rows
-  /// 2 joints x rows: 1 where q (upper half) or dq says nothing: off its neighbours, stale, or not measured.
+  Eigen::MatrixXd q_smooth, dq_smooth;  ///< smoothed q and dq, from all rows
+  /// 2 joints x rows: 1 if q (upper half) or dq has no weight: outlier, stale or not measured.
   Eigen::MatrixXi outlier;
   Eigen::VectorXd noise;  ///< std of measured q, then dq, by joint
 
@@ -25,8 +25,8 @@ struct Stretch {
   int joints() const { return static_cast<int>(q.rows()); }
 };
 
-/// Reads a log from its start and hands out every `stride`-th of its stretches, smoothed as the survey of
-/// this log says.
+/// Reads a log from its start and passes every `stride`-th of its stretches to `visit`, smoothed with the
+/// noise of the survey of this log.
 void for_each_stretch(LogSource& source, int log, int joints, const LogSurvey& survey, int stride,
                       const std::function<void(const Stretch&)>& visit);
 
