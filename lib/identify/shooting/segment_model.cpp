@@ -11,9 +11,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kDifference = 1e-5;     ///< rad or m, of the slopes with respect to position
-constexpr double kLongestStep_s = 0.01;  ///< of an integration step where no Coulomb friction turns
-constexpr double kTurns = 6.0;           ///< widths of the Coulomb friction: beyond, it is constant
+constexpr double kDifference = 1e-5;     ///< rad or m: step of the derivatives by position
+constexpr double kLongestStep_s = 0.01;  ///< of an integration step while no Coulomb friction changes
+constexpr double kTurns = 6.0;           ///< widths of the Coulomb friction: at higher speed it is constant
 
 Chain direction_chain(const ParameterSpace& space, int base) {
   Chain chain = space.chain;
@@ -27,7 +27,7 @@ Chain direction_chain(const ParameterSpace& space, int base) {
   return chain;
 }
 
-/// In place, by Gauss and Jordan; the matrix is positive definite, so no pivoting.
+/// Inverts in place, by Gauss and Jordan; the matrix is positive definite, so no pivoting.
 void invert(JointMatrix& m) {
   const Eigen::Index n = m.rows();
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -43,7 +43,7 @@ void invert(JointMatrix& m) {
   }
 }
 
-/// out = a b for an `a` of few rows, column after column: Eigen's products are made for larger ones.
+/// Computes out = a b for an `a` of few rows, column by column: Eigen's products are made for larger ones.
 void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b, Eigen::MatrixXd& out) {
   const Eigen::Index inner = b.rows();
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
@@ -57,11 +57,11 @@ void multiply_small(const double* a, Eigen::Index rows, const Eigen::MatrixXd& b
 
 }  // namespace
 
-/// The equations of motion at one state and their slopes there.
+/// The equations of motion at one state and their derivatives there.
 struct SegmentModel::Workspace {
   JointVector q, dq, ddq;
-  JointVector carried;  ///< torque behind all friction
-  JointVector passed;   ///< what of a torque on the drive is carried on: 1 where the load takes none
+  JointVector carried;  ///< torque after all friction
+  JointVector passed;   ///< share of a torque on the drive that is carried on: 1 without load friction
   JointMatrix inverse_inertia;
   Eigen::MatrixXd by_state, by_parameter;  ///< of ddq: n x 2n, n x free
   Eigen::MatrixXd rhs_state, rhs_parameter;
@@ -102,7 +102,7 @@ void SegmentModel::pass_torque(Workspace& w) const {
         1.0 + load_friction(dynamics_.chain().friction[j], w.dq[j], 1.0) * std::copysign(1.0, w.carried[j]);
 }
 
-/// Ripples by position, friction that joints share by velocity.
+/// Adds the derivatives of ripples by position and of shared friction by velocity.
 void SegmentModel::add_extra_slopes(Workspace& w) const {
   const int n = space_.joints();
   for (const Ripple& r : dynamics_.chain().ripples) {
@@ -149,7 +149,7 @@ void SegmentModel::slopes_by_state(Workspace& w) const {
   multiply_small(w.inverse_inertia.data(), n, w.rhs_state, w.by_state);
 }
 
-/// Torque of the `direction`-th free base parameter alone, with its sign turned.
+/// Computes the negative torque of the `direction`-th free base parameter alone.
 void SegmentModel::base_slope(std::size_t direction, const Workspace& w,
                               Eigen::Ref<Eigen::VectorXd> slope) const {
   if (dynamics_.planar()) {
@@ -196,8 +196,8 @@ void SegmentModel::slopes_by_parameter(const JointVector& tau_step, Workspace& w
   multiply_small(w.inverse_inertia.data(), n, w.rhs_parameter, w.by_parameter);
 }
 
-/// Over one step with the slopes of its middle, S' = A S + B is linear with constant coefficients: four terms
-/// of the series of its exponential.
+/// Advances the sensitivity over one step, with the derivatives of its middle: S' = A S + B is linear with
+/// constant coefficients, so four terms of the series of its exponential are used.
 void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
   const int n = space_.joints();
   w.next = w.s;
@@ -214,7 +214,7 @@ void SegmentModel::carry_sensitivity(double h, Workspace& w) const {
 
 void SegmentModel::step(double h, const JointVector& tau, const JointVector& tau_step, bool with_sensitivity,
                         Workspace& w) const {
-  // Runge-Kutta of fourth order: places of its stages in the step, and their weights.
+  // Runge-Kutta of fourth order: positions of its stages in the step, and their weights.
   constexpr double kAt[4] = {0.0, 0.5, 0.5, 1.0}, kShare[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   const int n = space_.joints();
   w.sum = w.x;
@@ -236,7 +236,7 @@ void SegmentModel::step(double h, const JointVector& tau, const JointVector& tau
   w.x = w.sum;
 }
 
-/// By the logged speed, so that the steps are the same for all parameters.
+/// Returns the number of steps by the smoothed speed of the log, so that it is the same for all parameters.
 int SegmentModel::steps(const Excerpt& e, int k) const {
   double longest = kLongestStep_s;
   for (int j = 0; j < space_.joints(); ++j) {

@@ -11,20 +11,20 @@
 
 namespace faultline {
 
-/// Motion of a robot with given parameters from a given state, and how it depends on both.
+/// Motion of a robot with given parameters from a given state, and its derivatives by both.
 struct SegmentMotion {
   Eigen::MatrixXd state;  ///< 2 joints x rows: q over dq
   Eigen::MatrixXd
       sensitivity;  ///< (2 joints rows) x (2 joints + free): of every state to start and parameters
 };
 
-/// Integrates (Runge and Kutta, fourth order) the forward dynamics over an excerpt, torque tau_k + phi
-/// (tau_k+1 - tau_k) over sample k, with the variational equations beside it. One set of parameters, any
-/// number of threads.
+/// Integrates (Runge and Kutta, fourth order) the forward dynamics over an excerpt, with torque tau_k + phi
+/// (tau_k+1 - tau_k) over sample k, together with the variational equations. One set of parameters; run() may
+/// be called from any number of threads.
 class SegmentModel {
  public:
-  /// `free` lists the parameters that sensitivities are wanted of. No step is longer than 10 ms, and where a
-  /// joint is so slow that its Coulomb friction turns none longer than `longest_step_s`.
+  /// `free` lists the parameters of the sensitivities. No step is longer than 10 ms, or than `longest_step_s`
+  /// if some joint is so slow that its Coulomb friction changes.
   SegmentModel(const ParameterSpace& space, const Eigen::VectorXd& parameters, const std::vector<int>& free,
                double longest_step_s);
 
@@ -49,8 +49,8 @@ class SegmentModel {
   std::vector<int> free_;
   double longest_step_s_;
   FastDynamics dynamics_;
-  std::vector<FastDynamics> directions_;  ///< of each free base parameter: its own torque; of parallel axes
-  std::vector<Eigen::SparseVector<double>> shares_;  ///< or what it is of links and rotors; of other chains
+  std::vector<FastDynamics> directions_;             ///< each free base parameter alone; for parallel axes
+  std::vector<Eigen::SparseVector<double>> shares_;  ///< its inertial numbers; for other chains
 };
 
 }  // namespace faultline

@@ -19,11 +19,11 @@ namespace {
 
 constexpr double kShootingSettled = 0.03;  ///< relative change of a noise level below which rounds end
 
-constexpr double kFreeBlocks = 0.5;  // share of the blocks that at least counts as free
+constexpr double kFreeBlocks = 0.5;  // of the blocks: least number that counts as degrees of freedom
 constexpr double kWhite =
-    1.5;  // mean ratio of the sandwich's variances to the white ones: chance, not correlation
+    1.5;  // mean ratio of the sandwich's variances to the white ones: below, it is chance
 
-/// Hands Ceres what the evaluation has prepared.
+/// Passes the prepared residuals and derivatives of an excerpt to Ceres.
 class ExcerptCost : public ceres::CostFunction {
  public:
   ExcerptCost(const ShootingEvaluation& evaluation, int excerpt, int states, int free)
@@ -67,7 +67,7 @@ class PriorCost : public ceres::CostFunction {
   double value_, std_;
 };
 
-/// Adds to `costs` what every excerpt and every prior costs, and the bounds of the parameters.
+/// Adds every excerpt, every prior and the bounds of the parameters to `costs`.
 void add_costs(const ShootingProblem& problem, ShootingEvaluation& evaluation, ceres::Problem& costs) {
   const ParameterSpace& space = problem.space;
   const std::vector<int>& free = problem.free;
@@ -97,7 +97,7 @@ void add_costs(const ShootingProblem& problem, ShootingEvaluation& evaluation, c
 ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evaluation, int max_iterations,
                              bool last) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;  // what is left after the starts is small and full
+  options.linear_solver_type = ceres::DENSE_SCHUR;  // the reduced system is small and dense
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < evaluation.count(); ++i)
     options.linear_solver_ordering->AddElementToGroup(evaluation.state(i), 0);
@@ -107,7 +107,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evalua
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-12;
   options.initial_trust_region_radius = 1e6;
-  options.max_num_line_search_step_size_iterations = 0;  // a step is cut at its bounds, not searched along
+  options.max_num_line_search_step_size_iterations = 0;  // a step is cut at its bounds, without line search
   options.num_threads = 1;  // Ceres adds up in the order of threads; the evaluation is parallel itself
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -115,7 +115,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evalua
   return summary;
 }
 
-/// Weighted std of what is left by channel, counting the starts and parameters that were fitted.
+/// Returns the std of the residual by channel without outliers, corrected for the unknowns fitted.
 Eigen::VectorXd measure_noise(const std::vector<Eigen::MatrixXd>& residuals,
                               const std::vector<Excerpt>& excerpts, const Eigen::VectorXd& old,
                               const Eigen::VectorXd& floor, int free) {
@@ -163,7 +163,7 @@ double total_s(const std::vector<Excerpt>& excerpts) {
   return sum;
 }
 
-/// Covariance of the free parameters when the residuals are white, by Ceres; false when it is singular.
+/// Computes the covariance of the free parameters for white residuals; false if it is singular.
 bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
   ceres::Problem::EvaluateOptions options;
   options.num_threads = 1;
@@ -175,7 +175,7 @@ bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eig
   return trailing_covariance(jacobian, jacobian.num_cols - evaluation.free(), out);
 }
 
-/// Sandwich over blocks of about a second: what the residuals' own correlation says of the spread.
+/// Returns the sandwich covariance over blocks of about a second: it includes correlated residuals.
 Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
                          const Eigen::MatrixXd& white) {
   const Eigen::Index m = white.rows();
@@ -184,8 +184,7 @@ Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector
   Eigen::VectorXd g = Eigen::VectorXd::Zero(m);
   double blocks = 0.0;
   for (std::size_t i = 0; i < excerpts.size(); ++i) {
-    // At the optimum an excerpt's gradient with respect to its own start is zero: what is left is of the
-    // parameters alone.
+    // At the optimum an excerpt's gradient by its own start is zero: what remains is that of the parameters.
     g += evaluation.reduced[i].by_parameter.transpose() * evaluation.reduced[i].residual;
     const bool ends =
         i + 1 == excerpts.size() || excerpts[i + 1].log != excerpts[i].log ||
@@ -199,7 +198,8 @@ Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector
   return correction * white * meat * white;
 }
 
-/// The white covariance with every std at least that of the sandwich; `widened` is the largest factor.
+/// Returns the white covariance with every std at least that of the sandwich, or, if their mean ratio is
+/// below kWhite, all scaled by that ratio; `widened` is the largest factor.
 Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(white.rows());
   const double mean = robust.diagonal().cwiseQuotient(white.diagonal().cwiseMax(1e-300)).mean();
@@ -213,7 +213,7 @@ Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robus
   return factor.asDiagonal() * white * factor.asDiagonal();
 }
 
-/// Covariance of all parameters of the space, zero for those not free.
+/// Computes the covariance of all parameters of the space, zero for those not free; false if it is singular.
 bool measure_covariance(const ShootingProblem& problem, ceres::Problem& costs, ShootingEvaluation& evaluation,
                         ShootingFit& fit) {
   evaluation.PrepareForEvaluation(true, true);

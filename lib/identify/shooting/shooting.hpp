@@ -13,11 +13,11 @@ namespace faultline {
 
 struct ShootingOptions {
   int max_iterations = 40;
-  int max_rounds = 6;  ///< solves with noise and outlier weights measured anew
+  int max_rounds = 6;  ///< solves, each with noise and outlier weights measured anew
   int threads = 1;
 };
 
-/// A Gaussian fact about one parameter.
+/// A Gaussian prior of one parameter.
 struct ParameterPrior {
   int parameter = 0;
   double value = 0.0;
@@ -29,7 +29,7 @@ struct ShootingFit {
   std::string reason;
   Eigen::VectorXd parameters;   ///< all of the space
   Eigen::MatrixXd covariance;   ///< of all; zero rows for those not free
-  Eigen::VectorXd noise;        ///< std of what is left at q (first) and dq, by joint
+  Eigen::VectorXd noise;        ///< std of the residual at q (first) and dq, by joint
   Eigen::VectorXd correlation;  ///< of neighbouring residuals of q and dq by joint: 0 for noise, towards 1
                                 ///< for model error
   double widened = 1.0;         ///< largest factor by which an interval grew over that of white noise
@@ -38,22 +38,22 @@ struct ShootingFit {
   int segments = 0;
 };
 
-/// What is to be fitted. The space and the excerpts are borrowed.
+/// Problem to be fitted. The space and the excerpts are borrowed.
 struct ShootingProblem {
   const ParameterSpace& space;
   const std::vector<Excerpt>& excerpts;
   Eigen::VectorXd start;  ///< all parameters of the space
-  std::vector<int> free;  ///< those that move; the others stay at `start`
+  std::vector<int> free;  ///< free parameters; the others stay at `start`
   std::vector<ParameterPrior> priors;
   Eigen::VectorXd noise;  ///< first guess of the std of q (first) and dq, by joint
-  Eigen::VectorXd floor;  ///< the least they can be: rounding
+  Eigen::VectorXd floor;  ///< least values of `noise`: rounding
 
   Eigen::VectorXd first_noise() const { return noise.cwiseMax(floor); }
 };
 
-/// Output error by multiple shooting: parameters and the start of every excerpt that bring the integrated
-/// motion nearest to the measured one, each channel weighted by its own residual (iterated), samples beyond
-/// four standard deviations weighted down. Ceres, Schur complement over the starts.
+/// Estimates by output error (multiple shooting) the parameters and the start of every excerpt that bring the
+/// integrated motion nearest to the measured one, each channel weighted by its own residual (iterated),
+/// samples beyond four standard deviations weighted down. Ceres, Schur complement over the starts.
 ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& options,
                          const Progress& progress);
 

@@ -14,9 +14,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kDiverged = 1e6;  ///< residual that stands for a motion that diverged
+constexpr double kDiverged = 1e6;  ///< residual that replaces those of a diverged motion
 
-/// Longest step at which the integration follows the friction of `chain` around zero velocity, s.
+/// Returns the longest step at which the integration follows the friction of `chain` around zero velocity, s.
 double stable_step(const Chain& chain, const JointVector& q, const JointVector& torque) {
   const JointMatrix m = inertia_matrix(chain, q);
   const JointMatrix inverse = m.ldlt().solve(JointMatrix::Identity(chain.joints(), chain.joints()));

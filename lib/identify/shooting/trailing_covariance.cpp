@@ -14,10 +14,10 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Rows = std::vector<int>;
 
-/// The rows of J and what is where in them.
+/// Access to the sparse rows of J.
 struct SparseRows {
   const ceres::CRSMatrix& j;
-  int first;  ///< columns from there on are the trailing ones
+  int first;  ///< index of the first trailing column
 
   int begin(int row) const { return j.rows[static_cast<std::size_t>(row)]; }
   int end(int row) const { return begin(row + 1); }
@@ -25,9 +25,9 @@ struct SparseRows {
   double value(int at) const { return j.values[static_cast<std::size_t>(at)]; }
 };
 
-/// Leading columns that rows have in common, and these rows.
+/// Rows that share leading columns, and these columns.
 struct RowGroup {
-  std::map<int, int> place;  ///< of each leading column among those of the group
+  std::map<int, int> place;  ///< position of each leading column among those of the group
   Rows rows;
 };
 
@@ -36,7 +36,7 @@ int root_of(std::vector<int>& parent, int column) {
   return column;
 }
 
-/// Groups without a common leading column; first the rows that have none at all.
+/// Returns groups that share no leading column; first the rows that have none at all.
 std::vector<RowGroup> groups_of(const SparseRows& s) {
   std::vector<int> parent(s.first), of_row(s.j.num_rows, -1);
   std::iota(parent.begin(), parent.end(), 0);
@@ -62,7 +62,7 @@ std::vector<RowGroup> groups_of(const SparseRows& s) {
   return groups;
 }
 
-/// Leading columns of the group first, the trailing ones behind.
+/// Returns the rows of a group as a dense matrix: its leading columns, then the trailing ones.
 Matrix dense_rows(const SparseRows& s, const RowGroup& group) {
   const auto leading = static_cast<Eigen::Index>(group.place.size());
   Matrix out = Matrix::Zero(static_cast<Eigen::Index>(group.rows.size()), leading + s.j.num_cols - s.first);
@@ -75,14 +75,14 @@ Matrix dense_rows(const SparseRows& s, const RowGroup& group) {
   return out;
 }
 
-/// R of J = Q R, at most as many rows as columns.
+/// Returns R of J = Q R, at most as many rows as columns.
 Matrix triangle_of(const Matrix& j) {
   if (j.rows() == 0) return j;
   const Matrix r = Eigen::HouseholderQR<Matrix>(j).matrixQR().triangularView<Eigen::Upper>();
   return r.topRows(std::min(r.rows(), r.cols()));
 }
 
-/// Below it a diagonal entry of R tells that its column depends on those before it.
+/// Returns the value below which a diagonal entry of R shows that its column depends on those before it.
 double tolerance_of(const ceres::CRSMatrix& j) {
   constexpr double kTimes = 20.0;  // times rows and columns, rounding and largest column, as in SuiteSparseQR
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(j.num_cols);
@@ -101,8 +101,7 @@ bool trailing_covariance(const ceres::CRSMatrix& jacobian, int first, Eigen::Mat
   const SparseRows rows{jacobian, first};
   const Eigen::Index trailing = jacobian.num_cols - first;
   const double tolerance = tolerance_of(jacobian);
-  Matrix kept =
-      Matrix::Zero(0, trailing);  // what is left of all rows once the leading columns are eliminated
+  Matrix kept = Matrix::Zero(0, trailing);  // remainder of all rows after elimination of the leading columns
   for (const RowGroup& group : groups_of(rows)) {
     const auto leading = static_cast<Eigen::Index>(group.place.size());
     const Matrix r = triangle_of(dense_rows(rows, group));

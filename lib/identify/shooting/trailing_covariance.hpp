@@ -7,10 +7,9 @@
 
 namespace faultline {
 
-/// The block of (J' J)^-1 that belongs to the columns of J from `first` on, by QR factorisations of the rows
+/// Computes the block of (J' J)^-1 for the columns of J from `first` on, by QR factorisations of the rows
 /// that share columns before `first`, one group after the other. Ceres' own covariance adds up in the order
-/// of threads, and that of SuiteSparse takes its sums from whichever BLAS is installed. False when J has not
-/// full rank.
+/// of threads, and that of SuiteSparse depends on the BLAS installed. Returns false if J has not full rank.
 bool trailing_covariance(const ceres::CRSMatrix& jacobian, int first, Eigen::MatrixXd& out);
 
 }  // namespace faultline
