@@ -12,16 +12,16 @@
 namespace faultline {
 namespace {
 
-constexpr double kShown = 1e-6;          // share of the squared column that moving joints must carry
-constexpr double kFrictionAlone = 0.95;  // of what is explained of a torque: nothing drives that joint
-constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints tell another value,
+constexpr double kShown = 1e-6;          // of the squared column: least share from moving joints
+constexpr double kFrictionAlone = 0.95;  // of the explained torque: more shows that the joint is undriven
+constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints give another value,
 constexpr double kOtherwiseStd = 3;      // by so many standard deviations
 
 bool has(const std::vector<int>& joints, int joint) {
   return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
 }
 
-/// Of the torque that the model explains of each joint, the share that its own friction alone explains.
+/// Returns, of the torque that the model explains of each joint, the share that its own friction explains.
 Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& torque) {
   const WeakSystem& s = torque.system;
   Eigen::VectorXd share = Eigen::VectorXd::Zero(space.joints());

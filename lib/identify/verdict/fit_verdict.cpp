@@ -14,12 +14,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kWellExplained = 0.95;  // of a joint's torque
+constexpr double kWellExplained = 0.95;  // of a joint's torque: less is explained in part only
 constexpr double kLightOfRotor =
-    0.01;  // of the rotor's inertia: a mass that gravity does not feel is taken for rotor
-constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg, of what hangs on a sliding axis
+    0.01;  // of the rotor's inertia: a smaller mass is one on which no gravity acts
+constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg: bounds of a plausible mass on a prismatic joint
 
-/// RowSums over the rows of one joint (and log) that count.
+/// Sums over the rows of one joint (and log) that count.
 struct RowSums {
   double rows = 0.0, left = 0.0, torque = 0.0, square = 0.0;
 
@@ -36,8 +36,8 @@ struct RowSums {
   }
 };
 
-/// How late each joint's torque acts: whole samples go to the robot, with the timing between samples, against
-/// a straight line, to the result.
+/// Stores the torque delays: whole samples in the robot, and, with the timing between samples, relative to a
+/// straight line between them, in the result.
 void tell_delays(const ModelChoice& choice, const Gathered& gathered, Identification& id) {
   double period = 0.0;
   for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
@@ -76,7 +76,7 @@ void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathe
   }
 }
 
-/// Rotor inertia of the joint that a mass is named after, kg; 0 when it has none.
+/// Returns the rotor inertia of the joint that a mass is named after, kg; 0 if it has none.
 double rotor_beside(const Identification& id, int mass) {
   const std::string rotor = "jr" + id.space.name(mass).substr(1);
   for (int p = 0; p < id.space.rigid(); ++p)
@@ -84,7 +84,7 @@ double rotor_beside(const Identification& id, int mass) {
   return 0.0;
 }
 
-/// A mass that no arm of this kind has, and that nobody has said it has.
+/// Sets the status to `unexplained` if a mass is implausible and the robot file gives no mass.
 void find_implausible(Identification& id) {
   for (const auto& [name, fact] : id.robot.known)
     if (name.starts_with("m")) return;
@@ -119,7 +119,7 @@ void find_unexplained(const std::vector<int>& still, Identification& id) {
                            fmt::join(joints, ", "));
 }
 
-/// Torque of moving, driven joints that the model explains in part only, or only where it was fitted.
+/// Finds moving, driven joints whose torque the model explains in part only, or only where it was fitted.
 void find_poorly_explained(const std::vector<int>& exempt, Identification& id) {
   if (id.status != IdentificationStatus::converged) return;
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {

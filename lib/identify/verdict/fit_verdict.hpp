@@ -7,13 +7,13 @@
 
 namespace faultline {
 
-/// Share of a joint's torque that a model must explain to be one of it.
+/// Least share of a joint's torque that a valid model explains.
 inline constexpr double kExplained = 0.5;
 
-/// Fills in how well `id.estimate` explains the torque: by joint, by log and held out, what each term was
-/// worth, how late each torque acts, what is left of it and how it changes from log to log. A joint that is
-/// hardly explained makes the status `unexplained`, one explained in part `poorly_explained`. Joints that
-/// never move (`still`, from 1) are not judged, those with next to no torque (`undriven`) not by their part.
+/// Judges how well `id.estimate` explains the torque, and fills `id`: fit by joint, by log and held out, gain
+/// by each term, torque delays, patterns of the residual and trends from log to log. A joint below kExplained
+/// makes the status `unexplained`, one explained in part `poorly_explained`. Joints that never move (`still`,
+/// from 1) are not judged; those with almost no torque (`undriven`) cannot be `poorly_explained`.
 void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
                const std::vector<int>& still, const std::vector<int>& undriven, Identification& id);
 

@@ -15,13 +15,13 @@
 namespace faultline {
 namespace {
 
-constexpr int kPoses = 200;            // looked at, of each range
-constexpr double kSurelyNegative = 4;  // standard deviations below zero
-constexpr double kRoundedZero = 1e-9;  // of the largest value
+constexpr int kPoses = 200;            // random positions in each range
+constexpr double kSurelyNegative = 4;  // standard deviations below zero: clearly negative
+constexpr double kRoundedZero = 1e-9;  // of the largest eigenvalue: rounding
 
 using Range = std::array<double, 2>;
 
-/// What the windows of the logs show of each joint; empty where they show nothing.
+/// Returns the position range of each joint in the windows of the logs; empty if there are none.
 std::vector<Range> ranges_of(const Identification& id) {
   std::vector<Range> ranges;
   for (const JointFit& fit : id.joint_fits) {
@@ -32,12 +32,12 @@ std::vector<Range> ranges_of(const Identification& id) {
   return ranges;
 }
 
-/// The least value of the inertia matrix in a pose.
+/// The least eigenvalue of the inertia matrix at one position.
 struct LeastInertia {
-  double value = 0.0;  ///< 0 where none is negative
+  double value = 0.0;  ///< 0 if none is negative
   double std = 0.0;
-  int joint = 0;          ///< from 0: the one that moves most in that direction
-  double at_joint = 0.0;  ///< its inertia with the others at rest
+  int joint = 0;          ///< from 0: the joint with the largest part in that direction
+  double at_joint = 0.0;  ///< its inertia while the others are at rest
 };
 
 LeastInertia least_inertia(const ParameterSpace& space, const Identification& id, const JointVector& q) {
@@ -51,7 +51,7 @@ LeastInertia least_inertia(const ParameterSpace& space, const Identification& id
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(id.estimate.size());
   for (int p = 0; p < space.rigid(); ++p) {
     Eigen::VectorXd more = id.estimate;
-    more[p] += 1.0;  // the matrix is linear in it
+    more[p] += 1.0;  // the matrix is linear in this parameter
     const Eigen::MatrixXd other = inertia_matrix(chain_from(space, more), q);
     gradient[p] = direction.dot((other - matrix) * direction);
   }
@@ -64,7 +64,7 @@ LeastInertia least_inertia(const ParameterSpace& space, const Identification& id
   return out;
 }
 
-/// The worst of some poses; `sure`: of those whose value is below zero beyond its deviation.
+/// Returns the worst of some positions; `sure`: only of those with a clearly negative value.
 LeastInertia worst_within(const std::vector<Range>& ranges, bool sure, const Identification& id) {
   Random random(1);
   LeastInertia worst;

@@ -9,9 +9,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kTests = 2;  // of each parameter
+constexpr int kTests = 2;  // tests of each parameter
 constexpr double kScatters =
-    0.05;  // chance below which logs scatter about the line, not by their own std alone
+    0.05;  // probability below which logs scatter about the line beyond their own std
 
 /// Weighted sums over the logs of one parameter.
 struct TrendSums {

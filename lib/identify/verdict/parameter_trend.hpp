@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-/// What one log alone says of a parameter.
+/// Estimate of a parameter from one log alone.
 struct LogValue {
   int log = 0;  ///< from 0
   double value = 0.0;
@@ -15,27 +15,27 @@ struct LogValue {
   std::array<double, 2> ci95 = {0.0, 0.0};
 };
 
-/// One parameter from log to log, and whether it changes beyond chance.
+/// Estimates of one parameter from log to log, and whether they change beyond chance.
 struct ParameterTrend {
   std::string name, unit;
-  std::vector<LogValue> by_log;  ///< those logs that tell it alone, in their order
+  std::vector<LogValue> by_log;  ///< logs that determine it alone, in their order
   double mean = 0.0;             ///< weighted by 1 / variance
-  double chi_square = 0.0;       ///< of all being the same
-  double p_same = 1.0;           ///< chance of so much difference when they are
+  double chi_square = 0.0;       ///< of the hypothesis that all are the same
+  double p_same = 1.0;           ///< probability of so much difference if they are the same
   double slope = 0.0;            ///< change from one log to the next
-  double slope_std = 0.0;        ///< larger where logs scatter about the line more than their own std says
-  double p_level = 1.0;          ///< chance of so large a slope when there is none
-  bool differs = false;          ///< beyond chance, all tests together
-  bool drifts = false;           ///< so does its slope
+  double slope_std = 0.0;        ///< larger if logs scatter about the line more than their own std
+  double p_level = 1.0;          ///< probability of so large a slope if there is none
+  bool differs = false;          ///< they differ beyond chance, all tests together
+  bool drifts = false;           ///< the slope differs from 0 beyond chance
 
   bool flagged() const { return differs || drifts; }
 };
 
-/// Chance, over all parameters together, that logs of an unchanged robot are flagged.
+/// Probability, over all parameters together, that logs of an unchanged robot are flagged.
 inline constexpr double kFalseFlags = 0.01;
 
 /// Tests each parameter for homogeneity (chi-square) and for a slope in the order of logs, each at
-/// kFalseFlags over the number of tests (Bonferroni). Fills in all but names and `by_log`.
+/// kFalseFlags over the number of tests (Bonferroni). Fills all fields except names and `by_log`.
 void test_trends(std::vector<ParameterTrend>& trends);
 
 }  // namespace faultline

@@ -15,22 +15,22 @@
 namespace faultline {
 namespace {
 
-constexpr int kBins = 24;  // of as many windows each (8 at least), by position, speed or torque
-constexpr std::size_t kPatternFewest = 200;  // windows
-constexpr double kHalf_s = 2.0;              // stretches of time that take turns
-constexpr double kSameWindow = 1e-6;         // of a window's length
-constexpr double kLatestWindows = 2.0;       // lengths of a window before which nothing is "previous"
+constexpr int kBins = 24;  // bins of equal count (8 windows at least), by position, speed or torque
+constexpr std::size_t kPatternFewest = 200;  // least number of windows or pairs
+constexpr double kHalf_s = 2.0;              // length of the stretches, alternately fitted and judged
+constexpr double kSameWindow = 1e-6;         // of a window's length: tolerance of its start
+constexpr double kLatestWindows = 2.0;       // window lengths beyond which nothing is "previous"
 
-constexpr std::size_t kSegment = 256;  // windows that one spectrum is made of; each half over the last
-constexpr std::size_t kShortest = 64;  // of a log that has fewer: this many at least
-constexpr double kSpectrumGap = 1.5;   // times the usual step between windows is a gap
+constexpr std::size_t kSegment = 256;  // windows of one spectrum; each overlaps half of the previous one
+constexpr std::size_t kShortest = 64;  // least windows of one spectrum, if the longest log has fewer
+constexpr double kSpectrumGap = 1.5;   // times the usual step between windows: longer is a gap
 
 struct Sample {
   double key = 0.0, value = 0.0;
   int half = 0;
 };
 
-/// Bins of as many samples each, by rank.
+/// Assigns samples to bins of equal count, by rank.
 std::vector<int> bins_by_rank(const std::vector<Sample>& samples) {
   std::vector<std::size_t> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -41,7 +41,7 @@ std::vector<int> bins_by_rank(const std::vector<Sample>& samples) {
   return bin;
 }
 
-/// Share of the values' variance that the means of the other half's bins tell.
+/// Returns the share of the values' variance that the means of the other half's bins explain.
 double share_told(const std::vector<Sample>& samples) {
   const std::vector<int> bin = bins_by_rank(samples);
   std::array<std::array<double, kBins>, 2> sum{}, count{};
@@ -70,7 +70,7 @@ double told_by(const JointFit& fit, const std::vector<double>& key) {
   return samples.size() < kPatternFewest ? std::numeric_limits<double>::quiet_NaN() : share_told(samples);
 }
 
-/// Squared correlation with the value one window earlier in the same log.
+/// Returns the squared correlation with the value one window earlier in the same log.
 double told_by_previous(const JointFit& fit) {
   double xx = 0.0, xy = 0.0, yy = 0.0;
   std::size_t pairs = 0, before = 0;
@@ -90,7 +90,7 @@ double told_by_previous(const JointFit& fit) {
                                                     : xy * xy / (xx * yy);
 }
 
-/// Usual time from one window to the next in the same log.
+/// Returns the median time from one window to the next in the same log.
 double usual_step(const JointFit& fit) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < fit.size(); ++k)
@@ -98,7 +98,7 @@ double usual_step(const JointFit& fit) {
   return steps.empty() ? 0.0 : upper_median(std::move(steps));
 }
 
-/// Begins and ends of windows without a gap.
+/// Returns begin and end of each run of windows without a gap.
 std::vector<std::pair<std::size_t, std::size_t>> runs_of(const JointFit& fit, double step_s) {
   std::vector<std::pair<std::size_t, std::size_t>> runs;
   for (std::size_t begin = 0, k = 1; k <= fit.size(); ++k) {
@@ -111,7 +111,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runs_of(const JointFit& fit, do
   return runs;
 }
 
-/// Adds the power of one segment at every frequency: the square of a sine's rms.
+/// Adds the power of one segment at every frequency: the squared rms of a sine.
 void add_segment(std::span<const double> values, std::vector<double>& power) {
   const std::size_t n = values.size();
   double mean = 0.0, norm = 0.0;
@@ -135,9 +135,9 @@ void add_segment(std::span<const double> values, std::vector<double>& power) {
   }
 }
 
-/// Fills in the spectrum of what is left, up to what windows half over each other can tell: the mean power of
-/// stretches of some seconds under a Hann taper (Welch 1967). Windows average over themselves, so that it
-/// falls off towards 1 / window. Empty when no log is long enough.
+/// Computes the spectrum of the residual, up to the highest frequency that half-overlapping windows show: the
+/// mean power of stretches of some seconds under a Hann taper (Welch 1967). Windows are averages, so it falls
+/// off towards 1 / window. Empty if no log is long enough.
 void add_spectrum(const JointFit& fit, ResidualPattern& pattern) {
   const double step_s = usual_step(fit);
   const auto runs = runs_of(fit, step_s);

@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t kFitsFewestLogs = 3;  // two logs always lie on a line: its scatter needs a third
 
-constexpr double kLongest_s = 1.0;   // over which residuals may be alike
-constexpr double kNoiseGap = 1.5;    // times as long as so many windows should last is a gap
-constexpr double kFullWeight = 0.5;  // of the largest: less is an outlier or a joint at rest
+constexpr double kLongest_s = 1.0;   // over which residuals may be correlated
+constexpr double kNoiseGap = 1.5;    // times the expected time of so many windows: longer is a gap
+constexpr double kFullWeight = 0.5;  // of the largest weight: less is an outlier or a joint at rest
 
-/// Consecutive windows of one joint in one log as its own fit left them.
+/// Consecutive windows of one joint in one log, with the residual of their own fit.
 struct ResidualRun {
   Eigen::MatrixXd a;         ///< windows x fitted parameters
-  Eigen::VectorXd weight;    ///< of each in the fit
+  Eigen::VectorXd weight;    ///< weight of each in the fit
   Eigen::VectorXd residual;  ///< N m or N
   std::vector<double> time_s;
 };
@@ -39,8 +39,8 @@ std::size_t longest_lag(const ResidualRun& run) {
   return static_cast<std::size_t>(std::ceil(kLongest_s / usual_step(run)));
 }
 
-/// Mean product of residuals so many windows apart, from 0 on, over the runs of one joint, tapered to zero
-/// (Newey and West 1987). Windows that a fit weighs down do not count.
+/// Returns the mean product of residuals by distance in windows, from 0 on, over the runs of one joint,
+/// tapered to zero (Newey and West 1987). Windows that a fit weighs down do not count.
 std::vector<double> autocovariance(const std::vector<const ResidualRun*>& runs) {
   std::size_t lags = 0;
   for (const ResidualRun* run : runs) lags = std::max(lags, longest_lag(*run));
@@ -65,7 +65,7 @@ std::vector<double> autocovariance(const std::vector<const ResidualRun*>& runs) 
   return sum;
 }
 
-/// What residuals of that autocovariance add to the covariance of a run's weighted sum a^T W r.
+/// Returns what residuals of that autocovariance add to the covariance of a run's weighted sum a^T W r.
 Eigen::MatrixXd covariance_of_sum(const ResidualRun& run, const std::vector<double>& autocovariance) {
   const double step_s = usual_step(run);
   const Eigen::MatrixXd u = run.weight.asDiagonal() * run.a;
@@ -81,17 +81,17 @@ Eigen::MatrixXd covariance_of_sum(const ResidualRun& run, const std::vector<doub
   return half + half.transpose();
 }
 
-/// One log's rows of the system, where its windows began, and the fit to them.
+/// One log's rows of the system, the start times of its windows, and the fit to them.
 struct SingleLog {
   int log = 0;
   WeakSystem system;
   std::vector<double> time_s;
   WeakFit fit;
-  std::vector<int> columns;       ///< fitted
+  std::vector<int> columns;       ///< fitted parameters
   std::vector<ResidualRun> runs;  ///< by joint
 };
 
-/// When the window of each row of the system began.
+/// Returns the start time of the window of each row of the system.
 std::vector<double> times_of(const Identification& id) {
   std::vector<double> times;
   for (const JointFit& fit : id.joint_fits) times.insert(times.end(), fit.time_s.begin(), fit.time_s.end());
@@ -110,7 +110,7 @@ void take_rows(const WeakSystem& all, const std::vector<int>& rows, WeakSystem& 
   }
 }
 
-/// Blocks of a log on its own may be shorter than those of all.
+/// Numbers the blocks of one log, which may be shorter than those of all logs.
 void number_blocks(SingleLog& s) {
   std::set<long> seconds;
   for (const double t : s.time_s) seconds.insert(static_cast<long>(std::floor(t)));
@@ -156,7 +156,7 @@ std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const Identifica
   return singles;
 }
 
-/// Variances of a log's parameters when its residual is as alike over time as that of all logs is.
+/// Returns the variances of a log's parameters if its residual has the autocovariance `alike` of all logs.
 Eigen::VectorXd pooled_variances(const SingleLog& s, const std::vector<std::vector<double>>& alike) {
   const auto m = static_cast<Eigen::Index>(s.columns.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m, m), sum = normal;

@@ -8,13 +8,13 @@
 
 namespace faultline {
 
-/// What each log alone says of every parameter that was fitted, by the same windows and terms, and whether it
-/// changes from log to log. A log counts for a parameter only when its own motion tells it; a parameter that
-/// fewer than three logs tell is left out. Empty with fewer logs. Needs `id.joint_fits`.
+/// Returns the estimates from each log alone of every fitted parameter, with the same windows and terms, and
+/// whether they change from log to log. A log counts for a parameter only if its own motion determines it; a
+/// parameter with fewer than three such logs is omitted. Empty with fewer logs. Needs `id.joint_fits`.
 ///
-/// A variance is the larger of two: from blocks of one log's residual (sandwich), which feel model error
-/// where it falls, and from the residual's autocorrelation over all logs together, which a short log cannot
-/// tell.
+/// A variance is the larger of two: from blocks of one log's residual (jackknife), which show model error
+/// where it occurs, and from the residual's autocorrelation over all logs together, which a short log cannot
+/// determine.
 std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Identification& id);
 
 }  // namespace faultline
