@@ -12,17 +12,16 @@ namespace faultline {
 /// separable from the stiction. `still` counts joints from 1.
 void doubt_still_joints(const ParameterSpace& space, const std::vector<int>& still, TorqueFit& torque);
 
-/// Returns the joints, from 1, whose torque is negligible beside that of another of their kind, or is smaller
-/// and almost only friction.
+/// Returns the joints, from 1, of negligible torque beside another of their kind, or of smaller, almost pure
+/// friction torque.
 std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque);
 
-/// Marks in `torque.fit.confounded` the base parameters of undriven joints for which the driven joints alone
+/// Marks in `torque.fit.confounded` the base parameters of undriven joints to which the driven joints alone
 /// give a clearly different value: zero mass explains the link of an undriven joint well.
 void doubt_undriven_joints(const ParameterSpace& space, const std::vector<int>& undriven, TorqueFit& torque);
 
 /// Marks in `torque.fit.confounded` a rotor and the masses beside it if a friction offset would be mixed with
-/// them (m, jr and offset of a joint under gravity), but was excluded because another combination explains as
-/// much. Returns those joints, from 1.
+/// them (m, jr and offset of a joint under gravity), but was excluded. Returns those joints, from 1.
 std::vector<int> doubt_beside_offsets(const ParameterSpace& space, const Robot& robot, TorqueFit& torque);
 
 }  // namespace faultline
