@@ -9,14 +9,14 @@
 namespace faultline {
 namespace {
 
-constexpr int kScaleRounds = 4;              // in which the fit and the residual's scales follow each other
-constexpr double kChooserLeastScale = 0.03;  // of the largest of the same unit: no joint is told that well
+constexpr int kScaleRounds = 4;              // in which the fit and the scales of the residual are renewed
+constexpr double kChooserLeastScale = 0.03;  // of the largest of its unit: no joint is explained so well
 
 bool revolute(const ParameterSpace& space, int joint) {
   return space.chain.geometry[joint].kind == AxisKind::revolute;
 }
 
-/// Largest value among the joints of the same kind of axis.
+/// Returns the largest value among the joints of the same kind.
 double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& v, int joint) {
   double largest = 0.0;
   for (int j = 0; j < space.joints(); ++j)
@@ -24,8 +24,8 @@ double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& v, int 
   return largest;
 }
 
-/// The residual's scales, none so small that a joint decides alone: a joint that is hardly driven is
-/// explained best by no mass at all.
+/// Returns the scales of the residual, bounded below so that no joint decides alone: an almost undriven joint
+/// is explained best by zero mass.
 Eigen::VectorXd bounded(const ParameterSpace& space, const Eigen::VectorXd& rms,
                         const Eigen::VectorXd& torque) {
   Eigen::VectorXd out(rms.size());

@@ -7,21 +7,20 @@
 
 namespace faultline {
 
-/// Of the largest torque of joints of the same kind: a joint with less asks for no mass at all.
+/// Of the largest torque of joints of the same kind: zero mass would best explain a joint with less.
 inline constexpr double kUndrivenShare = 0.05;
 
-/// Judges choices of windows, shifts, widths and terms by what they leave of torque, on held-out data and on
-/// all.
+/// Judges choices of windows, shifts, widths and terms by their torque residual, held out and over all folds.
 class Chooser {
  public:
-  /// The three must outlive it; parameters that a fit leaves alone stay at `start`.
+  /// The three must outlive it; parameters that a fit does not estimate stay at `start`.
   Chooser(const WeakMoments& moments, const ParameterSpace& space, const Eigen::VectorXd& start)
       : moments_(moments), space_(space), start_(start) {}
 
-  /// What a fit leaves of every joint, by which residuals are weighed: none so small that a joint decides
-  /// alone, since a joint that is hardly driven is explained best by no mass at all.
+  /// Returns the residual of every joint, N m or N, by which residuals are weighted: bounded below so that no
+  /// joint decides alone, since an almost undriven joint is explained best by zero mass.
   Eigen::VectorXd scale(const WeakChoice& choice, const std::vector<bool>& wanted) const;
-  /// Root mean square torque of every joint in the windows that choices are judged by.
+  /// Returns the rms torque of every joint in the windows that judge choices.
   Eigen::VectorXd torque(const WeakChoice& choice) const;
   Eigen::VectorXd fit(const WeakChoice& choice, const std::vector<bool>& wanted,
                       const Eigen::VectorXd& scale) const;
@@ -29,7 +28,7 @@ class Chooser {
                      const Eigen::VectorXd& scale) const {
     return moments_.held_out(choice, wanted, start_, scale, moments_.yardstick());
   }
-  /// The same judged by the shortest windows: by what is too quick for the others.
+  /// The same, judged by the shortest windows: for terms that are too fast for the others.
   HeldOutError quick_error(const WeakChoice& choice, const std::vector<bool>& wanted,
                            const Eigen::VectorXd& scale) const {
     return moments_.held_out(choice, wanted, start_, scale, 0);
@@ -38,13 +37,13 @@ class Chooser {
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted) const {
     return error(choice, wanted, scale(choice, wanted));
   }
-  /// Whether most logs, each fitted alone, are told better by `with` at joint `j`: what only logs together
-  /// ask for makes up for how they differ. A single log tells nothing of that.
+  /// Whether `with` explains joint `j` better in most logs, each fitted alone: a term that only all logs
+  /// together support may stand for their differences. True if the folds are not single logs.
   bool suits_each(const WeakChoice& without, const WeakChoice& with, const std::vector<bool>& wanted,
                   const Eigen::VectorXd& scale, int j) const;
-  /// Square of what is left of all joints together, each in its scale.
+  /// Returns the summed squared residual of all joints, each in its scale.
   double left(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale) const;
-  /// The shift of joint `j` with which least is left of all joints together.
+  /// Returns the shift of joint `j` with the smallest such sum.
   int best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale, int j,
                  const ShiftRange& shifts) const;
 
@@ -55,21 +54,21 @@ class Chooser {
 };
 
 /// Mean and standard error, over the folds, of the logarithm by which a joint's squared residual shrinks:
-/// folds of gentle and of fast motion count alike.
+/// folds of slow and of fast motion count alike.
 struct Gain {
   double mean = 0.0, error = 0.0;
 };
 
 Gain gain_of(const HeldOutError& without, const HeldOutError& with, int joint);
 
-/// What a term must be worth to be kept.
+/// Least gain by a term that is kept.
 struct Worth {
-  double residual = 0.01;  ///< share of its joint's held-out residual,
-  double torque = 5e-4;    ///< of the joint's torque: less is of no use to anyone,
+  double residual = 0.01;  ///< of its joint's held-out residual,
+  double torque = 5e-4;    ///< of the joint's torque: less is of no practical use,
   double sure = 1.0;       ///< and standard errors over the folds
 };
 
-/// Whether joint `joint`, of torque `torque` rms, is told better by `with` by as much as that.
+/// Whether `with` explains joint `joint`, of torque `torque` rms, better by at least that much.
 bool pays(const HeldOutError& without, const HeldOutError& with, int joint, double torque,
           const Worth& worth);
 

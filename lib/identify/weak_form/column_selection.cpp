@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kDependent = 3e-3;   ///< share of a scaled column that must be its own
-constexpr double kNotExcited = 1e-9;  ///< rms of a column, of the residual's scale: less is rounding
-constexpr double kMixed = 0.03;       ///< share of a column in a dependent one that confounds both
+constexpr double kDependent = 3e-3;   ///< least share of a scaled column that is independent of the others
+constexpr double kNotExcited = 1e-9;  ///< rms of a column, in units of the residual: less is rounding
+constexpr double kMixed = 0.03;  ///< share of a column in a dependent one beyond which both are confounded
 
 double condition(const Eigen::MatrixXd& a) {
   if (a.cols() == 0) return 0.0;
@@ -28,7 +28,7 @@ std::vector<int> excited_columns(const Eigen::MatrixXd& a, const std::vector<boo
   return listed;
 }
 
-/// Those of the `listed` columns, here scaled, that are no mixture of others.
+/// Selects those of the `listed` columns, here scaled, that are no mixture of others.
 void select_independent(const Eigen::MatrixXd& scaled, const std::vector<int>& listed, ColumnSelection& out) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   const Eigen::MatrixXd r = qr.matrixR().topRows(scaled.cols()).triangularView<Eigen::Upper>();
@@ -39,7 +39,7 @@ void select_independent(const Eigen::MatrixXd& scaled, const std::vector<int>& l
     out.columns.push_back(listed[order[i]]);
     out.confounded[listed[order[i]]] = false;
   }
-  if (rank < scaled.cols()) {  // the rest are mixtures of those
+  if (rank < scaled.cols()) {  // the others are mixtures of those
     const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
                                         .triangularView<Eigen::Upper>()
                                         .solve(r.topRightCorner(rank, scaled.cols() - rank));
@@ -49,7 +49,7 @@ void select_independent(const Eigen::MatrixXd& scaled, const std::vector<int>& l
   std::sort(out.columns.begin(), out.columns.end());
 }
 
-/// Those of the `listed` columns that were chosen and lie below `rigid`.
+/// Returns those of the `listed` columns that were chosen and have an index below `rigid`.
 Eigen::MatrixXd base_columns(const Eigen::MatrixXd& scaled, const std::vector<int>& listed,
                              const std::vector<int>& chosen, int rigid) {
   Eigen::MatrixXd base(scaled.rows(), 0);

@@ -14,24 +14,24 @@ namespace {
 
 constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};    // load friction: one column
 constexpr Worth kShared{.residual = 0.2, .torque = 1e-3};  // drives that joints share: three columns
-// Play, and a spring in a neighbour, look a little like it.
+// Play, or a spring in a neighbour, looks similar.
 constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
-// What is quick is judged by the shortest windows, where noise of the velocity is most of the residual.
+// Fast terms are judged by the shortest windows, where noise of the velocity dominates the residual.
 constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
-// A wrong gain is a wrong mass.
+// A wrong gain makes the masses wrong.
 constexpr Worth kChoiceGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
-constexpr double kMostGain = 2.0;     // or half
-constexpr int kGainSteps = 14;        // between the two, at first
-constexpr int kGainRefinements = 12;  // steps of the golden section: they leave 0.06 % of the gain
+constexpr double kMostGain = 2.0;     // largest gain; the smallest is its inverse
+constexpr int kGainSteps = 14;        // steps between the two, at first
+constexpr int kGainRefinements = 12;  // steps of the golden section: they determine the gain to 0.06 %
 
 /// Terms that are tried together.
 struct TermGroup {
   std::vector<int> parameters;
-  std::vector<int> joints;  ///< that they act on
+  std::vector<int> joints;  ///< joints that they act on
   Worth worth{};
   bool quick = false;
-  double promise = 0.0;  ///< gain with nothing else changed
-  int joint = 0;         ///< that gains most
+  double promise = 0.0;  ///< gain by the group alone
+  int joint = 0;         ///< joint that gains most
   HeldOutError without{}, with{};
 };
 
@@ -69,7 +69,7 @@ std::vector<bool> with_group(std::vector<bool> wanted, const TermGroup& group) {
   return wanted;
 }
 
-/// What the group is worth next to the choice as it stands.
+/// Evaluates the gain of the group beside the present choice.
 void judge(const Chooser& chooser, const ModelChoice& c, TermGroup& group) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const auto error = [&](const std::vector<bool>& wanted) {
@@ -83,8 +83,8 @@ void judge(const Chooser& chooser, const ModelChoice& c, TermGroup& group) {
       group.promise = gain, group.joint = j;
 }
 
-/// Whether the fit with a group of a single term makes something of it that a robot can have; parts of others
-/// may vanish.
+/// Whether the fit of a group of a single term is physically possible; of larger groups, single terms may
+/// vanish.
 bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
             const TermGroup& group) {
   if (group.parameters.size() > 1) return true;
@@ -93,7 +93,7 @@ bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoi
   return is_possible(space.extra_at(p).kind, chooser.fit(c.weak, wanted, chooser.scale(c.weak, wanted))[p]);
 }
 
-/// Squared residual of all joints, each in its scale, when joint `j` has that gain.
+/// Returns the squared residual of all joints, each in its scale, if joint `j` has that gain.
 double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
                  double log_gain) {
   WeakChoice tried = c.weak;
@@ -101,7 +101,7 @@ double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::Vect
   return chooser.left(tried, c.wanted, scale);
 }
 
-/// Logarithm of the gain of joint `j` with which least is left.
+/// Returns the logarithm of the gain of joint `j` with the smallest residual.
 double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const double most = elementary::log(kMostGain), step = 2.0 * most / kGainSteps;

@@ -6,14 +6,14 @@
 
 namespace faultline {
 
-/// Takes those extra terms that `asked` allows, and that pay on held-out data, into the choice, those first
-/// that promise most. Cosine and sine of a ripple, viscous and Coulomb friction of a shared drive go
-/// together.
+/// Adds to the choice those extra terms of `asked` that lower the error on held-out data, the most promising
+/// first. Cosine and sine of a ripple, viscous and Coulomb friction of a shared drive go together.
 void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
                   ModelChoice& choice);
 
-/// Finds torques that are logged too large or small by a factor: those of the joints which the others'
-/// torques contradict and a factor mends, against the first joint that counts. `counts` says which joints do.
+/// Finds torques that are logged too large or too small by a factor: those of joints that contradict the
+/// torques of the other joints unless scaled. The first joint of `counts` is the reference. `counts`: joints
+/// to be used.
 void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, ModelChoice& choice);
 
 }  // namespace faultline

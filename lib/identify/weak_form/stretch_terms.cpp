@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kTermsLongestStep_s = 0.012;  ///< longer samples are integrated over by interpolation
+constexpr double kTermsLongestStep_s = 0.012;  ///< longer samples are integrated by interpolation
 
 /// Momentum and force of the base parameters and the friction terms at one state.
 struct StateTerms {
@@ -49,7 +49,7 @@ class StateEvaluation {
   LinkRegressor regressor_;
 };
 
-/// Position and velocity between two samples: cubic through both ends' positions and velocities.
+/// Interpolates position and velocity between two samples by the cubic through both at both ends.
 void interpolate(const Stretch& s, int k, double x, Eigen::VectorXd& q, Eigen::VectorXd& dq) {
   const double h = s.time[k + 1] - s.time[k];
   const auto q0 = s.q_smooth.col(k), q1 = s.q_smooth.col(k + 1), v0 = s.dq_smooth.col(k),
@@ -59,7 +59,7 @@ void interpolate(const Stretch& s, int k, double x, Eigen::VectorXd& q, Eigen::V
   dq = (6 * x2 - 6 * x) / h * (q0 - q1) + (3 * x2 - 4 * x + 1) * v0 + (3 * x2 - 2 * x) * v1;
 }
 
-/// Means over one sample of the terms that are integrated, from those at its ends and, on slow logs, within.
+/// Computes the means of the integrated terms over one sample, from its ends and, on slow logs, within.
 void add_inside(const Stretch& s, int k, StateEvaluation& evaluate, StateTerms& mean) {
   const int pieces = static_cast<int>(std::ceil((s.time[k + 1] - s.time[k]) / kTermsLongestStep_s));
   if (pieces < 2) return;
@@ -80,13 +80,13 @@ bool has(const ParameterSpace& space, ExtraKind kind) {
                      [kind](const ExtraTerm& term) { return term.kind == kind; });
 }
 
-/// A stretch with what the columns of extra terms share.
+/// Columns of the extra terms of a stretch, with what they share.
 class Columns {
  public:
   Columns(const ParameterSpace& space, const Stretch& stretch, const ExtraSetting& setting)
       : space_(space), s_(stretch), setting_(setting), chain_(chain_of(space, setting)), dynamics_(chain_) {}
 
-  /// (joints x terms) x samples.
+  /// Returns all columns: (joints x terms) x samples.
   Eigen::MatrixXd all() const {
     const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n * terms, s_.rows() - 1);
@@ -109,7 +109,7 @@ class Columns {
  private:
   using Rows = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-  /// The chain without extra torques: the setting may know nothing of them.
+  /// Returns the chain without extra torques, whose values the setting may not contain.
   static Chain chain_of(const ParameterSpace& space, const ExtraSetting& setting) {
     ParameterSpace plain = space;
     plain.extra.clear();
@@ -122,7 +122,7 @@ class Columns {
   double logged(int joint, int row) const { return s_.tau(joint, std::clamp(row, 0, s_.rows() - 1)); }
   double step(int k) const { return s_.time[k + 1] - s_.time[k]; }
 
-  /// M ddq + h + G in the middle of each sample: joints x samples.
+  /// Returns M ddq + h + G in the middle of each sample: joints x samples.
   Eigen::MatrixXd carried_torque() const {
     Eigen::MatrixXd out(space_.joints(), s_.rows() - 1);
     for (int k = 0; k < out.cols(); ++k) {
@@ -159,7 +159,7 @@ class Columns {
     }
   }
 
-  /// Integrated over a sample at constant velocity.
+  /// Integrates a ripple over a sample at constant velocity.
   void add_ripple(const ExtraTerm& term, Rows out) const {
     const double rate = space_.chain.ripples[term.index].rate;
     for (int k = 0; k < out.cols(); ++k) {
@@ -172,8 +172,7 @@ class Columns {
     }
   }
 
-  /// Torque in the gear of joint `j` over sample `k`: what the drive's own friction and rotor leave of its
-  /// torque.
+  /// Returns the torque in the gear of joint `j` over sample `k`: the drive's, less its friction and rotor.
   double gear_torque(int j, int k) const {
     const Friction& f = chain_.friction[j];
     const int shift = setting_.shift.empty() ? 0 : setting_.shift[j];
@@ -184,8 +183,8 @@ class Columns {
            chain_.rotor_inertia[j] * (to - from) / step(k);
   }
 
-  /// The link lags its drive by compliance times the torque tau_g in the gear, so that its momentum is less
-  /// by M dtau_g/dt times the compliance.
+  /// Adds the columns of compliance: the link lags its drive by compliance times the torque tau_g in the
+  /// gear, so its momentum is less by M dtau_g/dt times the compliance.
   void add_compliances(Eigen::MatrixXd& out) const {
     const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
     Eigen::MatrixXd before = Eigen::MatrixXd::Zero(n, n), after = before;  // a column for each gear
@@ -212,8 +211,8 @@ class Columns {
   FastDynamics dynamics_;
 };
 
-/// What every sample of a stretch adds to the momentum balance, one column a sample: (joints x extra terms)
-/// rows, term after term. Torques that the shift takes from beyond the stretch are those at its ends.
+/// Returns the contribution of every sample to the momentum balance, one column a sample: (joints x extra
+/// terms) rows, term after term. Shifted torques beyond the stretch are those at its ends.
 Eigen::MatrixXd extra_columns(const ParameterSpace& space, const Stretch& stretch,
                               const ExtraSetting& setting) {
   if (space.extra.empty()) return Eigen::MatrixXd(0, stretch.rows() - 1);
@@ -223,7 +222,7 @@ Eigen::MatrixXd extra_columns(const ParameterSpace& space, const Stretch& stretc
 }  // namespace
 
 double weak_width(const ParameterSpace& space, int joint, int k) {
-  // Of the robot's own width: a quarter of a decade apart near the usual widths, coarser beyond.
+  // Factors on the robot's own width: a quarter of a decade apart near usual widths, coarser beyond.
   constexpr double kFactor[kWidths] = {0.01, 0.1, 0.3, 0.56, 1.0, 1.8, 3.0, 5.6, 10.0, 30.0, 100.0, 300.0};
   return kFactor[k] * space.chain.friction[joint].width;
 }

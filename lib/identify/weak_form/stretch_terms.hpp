@@ -9,22 +9,22 @@
 
 namespace faultline {
 
-/// Friction widths that the weak form can choose from: multiples of the robot's, from sharp to smooth. The
-/// widest serve bent friction alone.
+/// Friction widths of the weak form: multiples of the robot's, from sharp to smooth. The widest serve bent
+/// friction alone.
 inline constexpr int kWidths = 12;
 inline constexpr int kCoulombWidths = 9;  ///< of Coulomb friction: the first, up to 10 times the robot's own
 inline constexpr int kOwnWidth = 4;       ///< the robot's own
 double weak_width(const ParameterSpace& space, int joint, int k);
 
-/// What the columns of extra terms are worked out with: what is known of the robot before they are fitted.
+/// Setting for the columns of extra terms: properties of the robot that are known before they are fitted.
 struct ExtraSetting {
   std::vector<int> shift;      ///< by joint: samples by which its torque acts later than logged; empty: 0
   double phi = 0.5;            ///< of the torque between samples
   Eigen::VectorXd parameters;  ///< of the space, whatever its extra terms; empty: those of its chain
 };
 
-/// What every sample of a stretch adds to the momentum balance of a window that holds it, one column a sample
-/// (from row k to row k + 1), joint after joint within a group of rows.
+/// Contribution of every sample of a stretch to the momentum balance of a window that holds it, one column a
+/// sample (from row k to row k + 1), joint after joint within a group of rows.
 struct StretchTerms {
   Eigen::MatrixXd base;  ///< (base parameters x joints) rows, base after base: p_k+1 - p_k - dt (dT/dq - G)
   Eigen::MatrixXd viscous;  ///< joints rows: q_k+1 - q_k

@@ -15,17 +15,17 @@ namespace {
 
 constexpr Worth kTerm;                                     // rotors and friction offsets
 constexpr Worth kShift{.residual = 0.005};                 // of all joints
-constexpr Worth kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs are late by one and the same
-constexpr Worth kWidth{.residual = 0.02};                  // for friction smoother than the windows can tell
-// Friction that bends or differs by direction mimics much else, such as a width between two of the bank.
+constexpr Worth kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs have one delay for all joints
+constexpr Worth kWidth{.residual = 0.02};                  // for a wider friction than the sharpest
+// Friction that bends or differs by direction resembles other errors, such as an untried friction width.
 constexpr Worth kRare{.residual = 0.1, .torque = 1e-3};
-constexpr double kWindowWorthIt = 0.01;  // less of the residual does not ask for a longer window
-constexpr double kWidthsApart = 1.0;  // standard errors by which held-out data tell two friction widths apart
-constexpr double kFarWidth = 4.0;     // times wider or sharper than the best is not in doubt
-constexpr int kShiftSweeps = 3;       // over the joints at most, each with the delays of the others
-constexpr double kBendsApart = 10.0;  // times the width of the Coulomb friction
+constexpr double kWindowWorthIt = 0.01;  // of the residual: a smaller gain does not justify a longer window
+constexpr double kWidthsApart = 1.0;     // standard errors between two widths that held-out data distinguish
+constexpr double kFarWidth = 4.0;        // times wider or sharper than the best: not plausible any more
+constexpr int kShiftSweeps = 3;          // over the joints at most, each with the delays of the others
+constexpr double kBendsApart = 10.0;     // times the width of the Coulomb friction, at least
 
-/// The shift that suits all joints together best: most logs are late by one and the same.
+/// Returns the best common shift of all joints: most logs have one delay for all.
 WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int joints,
                         const std::vector<bool>& wanted, WeakChoice choice) {
   choice.shift.assign(joints, 0);
@@ -40,8 +40,8 @@ WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int jo
   return best;
 }
 
-/// Shifts that the other choices ask for: one for all joints where it pays for any and harms none, then those
-/// of single joints that pay for them.
+/// Chooses the shifts with the other choices given: one for all joints if it lowers the error of any and
+/// raises that of none, then those of single joints that lower their error.
 void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
                    const std::vector<bool>& wanted, ModelChoice& c) {
   const Eigen::VectorXd torque = chooser.torque(c.weak);
@@ -78,13 +78,13 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
   }
 }
 
-/// Without friction that is bent or lopsided: nothing else is chosen with it.
+/// Excludes friction that is bent or differs by direction: the first shifts are chosen without it.
 std::vector<bool> plain(const ParameterSpace& space, std::vector<bool> wanted) {
   std::fill(wanted.begin() + space.bend(0), wanted.begin() + space.extra_begin(), false);
   return wanted;
 }
 
-/// Bent friction of the width that leaves least of its joint, where it pays.
+/// Adds bent friction, of the width with the smallest residual of its joint, if it lowers the held-out error.
 void choose_bends(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
                   ModelChoice& c) {
   for (int j = 0; j < space.joints(); ++j) {
@@ -124,8 +124,8 @@ void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
   }
 }
 
-/// How far the parameters go when a joint's friction has another width that held-out data cannot tell from
-/// the chosen one: mean square over those widths.
+/// Returns the covariance of the parameters from friction widths that held-out data do not distinguish from
+/// the chosen one: mean square of the change of the fit over those widths.
 Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
                             const Eigen::VectorXd& scale) {
   Eigen::MatrixXd doubt = Eigen::MatrixXd::Zero(space.count(), space.count());
@@ -164,14 +164,14 @@ void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std
   }
 }
 
-/// Whether joint `j` is left with more by the one choice than by the other, by as much as a window is worth.
+/// Whether the first choice leaves joint `j` more residual, by more than a window is worth and noise.
 bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
   const Gain loss = gain_of(with, against, j);
   return loss.mean > std::max(loss.error, 2.0 * kWindowWorthIt);
 }
 
-/// Joints share parameters: windows too short for what one joint's velocity is worth spoil the fit of the
-/// others. The shortest are made longer until no joint is worse off than with windows alike.
+/// Joints share parameters: windows too short for the velocity noise of one joint spoil the fit of the
+/// others. Lengthens the shortest ones until no joint is worse than with equal windows.
 void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
                       ModelChoice& c) {
   for (;;) {
@@ -186,7 +186,7 @@ void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldO
   c.weak.set.assign(joints, alike);
 }
 
-/// Joints count alike; one that stands still leaves nothing.
+/// Returns the sum of the logarithms of the residuals, so that joints count alike; a still joint has none.
 double left_in_all(const HeldOutError& error) {
   constexpr double kNothing = 1e-12;  // N m or N: far below any residual; the logarithm stays finite
   return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();

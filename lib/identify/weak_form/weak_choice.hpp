@@ -8,20 +8,20 @@
 
 namespace faultline {
 
-/// The model that explains windows it was not fitted to best, and the simplest of those that do it alike.
+/// The model with the least error on held-out windows, and the simplest of those that are equally good.
 struct ModelChoice {
   WeakChoice weak;
   std::vector<bool> wanted;         ///< parameters of the space
-  std::vector<ModelTerm> terms;     ///< what was tried, in this order
-  HeldOutError held_out;            ///< what the other folds' fit leaves of every fold
+  std::vector<ModelTerm> terms;     ///< terms that were tried, in this order
+  HeldOutError held_out;            ///< residual of every fold with the fit to the other folds
   std::vector<double> held_out_r2;  ///< by joint
-  Eigen::MatrixXd width_doubt;      ///< covariance of the parameters for not knowing the friction widths
-  Eigen::MatrixXd spread;  ///< parameters x folds: each fold fitted alone; empty where folds are no logs
+  Eigen::MatrixXd width_doubt;      ///< covariance of the parameters due to unknown friction widths
+  Eigen::MatrixXd spread;  ///< parameters x folds: each fold fitted alone; empty if folds are not logs
 };
 
-/// Chooses by cross-validation, joint by joint: the torque's shift, friction width, friction offset and rotor
-/// inertia, then the shortest window within one standard error of the best (Breiman et al. 1984).
-/// `asked` says which parameters may be free, `optional` which of them must pay for it.
+/// Chooses by cross-validation, joint by joint: the torque's shift, friction width, friction offset, rotor
+/// inertia and rarer terms, then the shortest window within one standard error of the best (Breiman et al.
+/// 1984). `asked`: parameters that may be free; `optional`: those that must lower the error.
 ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space,
                          const Eigen::VectorXd& start, const std::vector<bool>& asked,
                          const std::vector<bool>& optional, const ShiftRange& shifts, int sets);

@@ -12,11 +12,11 @@
 namespace faultline {
 namespace {
 
-constexpr int kRounds = 8;             // of fits with new weights, at most
+constexpr int kRounds = 8;             // fits with new weights, at most
 constexpr double kOutlierStd = 8.0;    // robust standard deviations up to which a row has its full weight
 constexpr double kFormSettled = 1e-9;  // relative change of the residual's scales below which rounds end
 
-/// 1.4826 times the median absolute value of a joint's used rows; at least 1e-12 and rounding of its torque.
+/// Returns 1.4826 times the median |residual| of a joint's used rows; at least 1e-12 and torque rounding.
 Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
   std::vector<std::vector<double>> size(s.joints);
   Eigen::VectorXd least = Eigen::VectorXd::Constant(s.joints, 1e-12);
@@ -36,14 +36,14 @@ Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) 
   return out;
 }
 
-/// Full weight for all that a model a little wrong may leave; beyond, falling with the square.
+/// Returns 1 up to the residuals of a slightly wrong model; beyond, the weight falls with the square.
 double outlier_weight(double r) {
   const double u = std::abs(r) / kOutlierStd;
   return u > 1.0 ? 1.0 / (u * u) : 1.0;
 }
 
-/// Jackknife over the blocks: how far the fit goes when one is left out, squared and summed. Unlike the usual
-/// sandwich it is not too narrow where blocks are few (Bell and McCaffrey 2002).
+/// Returns the jackknife covariance over the blocks: the change of the fit without one of them, squared and
+/// summed. Unlike the usual sandwich it is not too narrow if blocks are few (Bell and McCaffrey 2002).
 Eigen::MatrixXd jackknife(const WeakSystem& s, const Eigen::MatrixXd& a, const Eigen::VectorXd& weight,
                           const Eigen::VectorXd& r) {
   const Eigen::Index m = a.cols();

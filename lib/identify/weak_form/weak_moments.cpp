@@ -12,15 +12,15 @@
 namespace faultline {
 namespace {
 
-constexpr int kFolds = 5;              // parts of the logs' time, where there are too few logs
+constexpr int kFolds = 5;              // parts of the logs' time, if there are too few logs
 constexpr int kLogsForFolds = 3;       // with as many, whole logs are held out,
-constexpr int kMostFolds = 10;         // each on its own up to here
-constexpr double kFoldBlock_s = 2.0;   // else blocks of a log in turn,
-constexpr int kBlocksAFold = 4;        // shorter ones where there would be fewer in a fold,
+constexpr int kMostFolds = 10;         // each alone up to this number,
+constexpr double kFoldBlock_s = 2.0;   // otherwise blocks of a log in turn,
+constexpr int kBlocksAFold = 4;        // shorter ones if a fold would have fewer,
 constexpr double kLeastBlock_s = 0.2;  // but not shorter than this
-constexpr double kYardstick_s = 0.16;  // the window length nearest to it judges
-constexpr int kOthers = 3;             // columns behind the base: viscous, offset, skew
-constexpr double kMomentsRank = 1e-8;  // of the largest eigenvalue of the scaled moments
+constexpr double kYardstick_s = 0.16;  // the window length nearest to it judges choices
+constexpr int kOthers = 3;             // columns after the base: viscous, offset, skew
+constexpr double kMomentsRank = 1e-8;  // of the largest eigenvalue of the scaled moments: smaller are zero
 
 int log_count(const WeakWindows& windows) {
   int count = 0;
@@ -28,7 +28,7 @@ int log_count(const WeakWindows& windows) {
   return count;
 }
 
-/// Length of the blocks of time that make folds.
+/// Returns the length of the blocks of time that make folds, s.
 double fold_block_s(const WeakWindows& windows) {
   std::map<int, std::pair<double, double>> spans;
   for (const WeakWindow& w : windows.all()) {
@@ -41,7 +41,7 @@ double fold_block_s(const WeakWindows& windows) {
   return std::clamp(seconds / (kFolds * kBlocksAFold), kLeastBlock_s, kFoldBlock_s);
 }
 
-/// Which fold a window belongs to: one of `logs` folds of logs, or blocks of time in turn when that is 0.
+/// Returns the fold of a window: one of `logs` folds of logs, or blocks of time in turn if that is 0.
 int fold_of(const WeakWindow& w, int logs, double block_s) {
   return logs > 0 ? w.log % logs : static_cast<int>(std::floor(w.time_s / block_s)) % kFolds;
 }
@@ -55,7 +55,7 @@ int nearest_set(const std::vector<WeakWindows>& sets, double length_s) {
   return best;
 }
 
-/// Solves n x = r for columns of any scale, without the directions that the data do not tell.
+/// Solves n x = r for columns of any scale, without the directions that the data do not determine.
 Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r) {
   if (r.size() == 0) return r;
   const Eigen::VectorXd scale = n.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
@@ -67,7 +67,7 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& n, const Eigen::VectorXd& r)
   return scale.cwiseProduct(eigen.vectors * part);
 }
 
-/// By joint, the extra terms that its balances depend on.
+/// Returns, by joint, the extra terms that its balances depend on.
 std::vector<std::vector<int>> extra_by_joint(const ParameterSpace& space) {
   std::vector<std::vector<int>> out(space.joints());
   for (int j = 0; j < space.joints(); ++j)
@@ -128,12 +128,12 @@ WeakMoments::WeakMoments(const WeakSets& windows, double phi)
   for (Moments& m : moments_) m.sum.triangularView<Eigen::StrictlyUpper>() = m.sum.transpose();
 }
 
-/// First of the columns of a joint's torque.
+/// Returns the first of the columns of a joint's torque.
 int WeakMoments::torque_begin(int j) const {
   return space_.rigid() + kOthers + kWidths + static_cast<int>(extra_[j].size());
 }
 
-/// Columns of a joint's moments in the order of its parameters, then its torque.
+/// Returns the columns of a joint's moments in the order of its parameters, then its torque.
 std::vector<int> WeakMoments::columns(const WeakChoice& choice, int j) const {
   const int rigid = space_.rigid();
   std::vector<int> out;
@@ -148,7 +148,7 @@ std::vector<int> WeakMoments::columns(const WeakChoice& choice, int j) const {
   return out;
 }
 
-/// Parameters that a joint's rows depend on: base, viscous, Coulomb, offset, bend, skew, extra terms.
+/// Returns the parameters of a joint's rows: base, viscous, Coulomb, offset, bend, skew, extra terms.
 std::vector<int> WeakMoments::parameters_of(int j) const {
   std::vector<int> out;
   for (int p = 0; p < space_.rigid(); ++p) out.push_back(p);

@@ -8,43 +8,43 @@
 
 namespace faultline {
 
-/// Mean square of what is left of every joint's torque in each fold, by a fit to the other folds.
+/// Mean squared torque residual of every joint in each fold, with a fit to the other folds.
 struct HeldOutError {
   Eigen::MatrixXd square;  ///< folds x joints, (N m)^2 or N^2
-  Eigen::MatrixXd rows;    ///< folds x joints: how many windows it is a mean of
+  Eigen::MatrixXd rows;    ///< folds x joints: number of windows in the mean
   Eigen::MatrixXd torque;  ///< folds x joints: mean square torque in them
   Eigen::VectorXd rms() const;
 };
 
-/// Second moments of the windows' balances by fold, from which a fit for any choice of windows, torque shift,
-/// friction width and parameters is a matter of solving, not of going through the windows again.
+/// Second moments of the windows' balances by fold. A fit for any choice of windows, torque shift, friction
+/// width and parameters then needs one solution, without the windows.
 class WeakMoments {
  public:
-  /// `phi` is how the torque is taken to run between samples while shifts are compared.
+  /// `phi` is the torque timing between samples while shifts are compared.
   WeakMoments(const WeakSets& windows, double phi);
 
   int folds() const { return folds_; }
   /// Whether every fold is one log, in their order.
   bool folds_are_logs() const { return folds_are_logs_; }
-  /// Set whose windows choices are usually measured on.
+  /// Returns the set of windows that usually judges choices.
   int yardstick() const { return yardstick_; }
 
-  /// Fit to all folds; joint j weighs 1 / scale_j^2.
+  /// Returns the fit to all folds; joint j weighs 1 / scale_j^2.
   Eigen::VectorXd fit(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& start,
                       const Eigen::VectorXd& scale) const;
-  /// Fit to one fold alone.
+  /// Returns the fit to one fold alone.
   Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
                           const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold) const;
-  /// Square of what a fit to one fold alone leaves of a joint's torque in it.
+  /// Returns the summed squared torque residual of a joint in one fold, with a fit to that fold alone.
   double left_alone(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& start,
                     const Eigen::VectorXd& scale, int fold, int joint) const;
-  /// Root mean square of what `parameters` leave of every joint's torque in the chosen windows, all folds.
+  /// Returns the rms torque residual of every joint with `parameters` in the chosen windows, all folds.
   Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
-  /// Root mean square torque of every joint.
+  /// Returns the rms torque of every joint.
   Eigen::VectorXd torque_rms(const WeakChoice& choice) const;
-  /// Standard deviation of every joint's torque.
+  /// Returns the standard deviation of every joint's torque.
   Eigen::VectorXd torque_std(const WeakChoice& choice) const;
-  /// What fits to the other folds leave of each fold, on the windows of set `judge`.
+  /// Returns the residual of each fold with fits to the other folds, on the windows of set `judge`.
   HeldOutError held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
                         const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int judge) const;
 

@@ -13,9 +13,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kResting = 0.03;  // of a joint's fastest window
+constexpr double kResting = 0.03;  // of the speed of a joint's fastest window: below, the joint rests
 
-/// Seconds of the logs in which a window begins.
+/// Returns the number of seconds of the logs in which a window begins.
 double seconds_covered(const WeakWindows& windows) {
   std::set<std::pair<int, long>> seconds;
   for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));

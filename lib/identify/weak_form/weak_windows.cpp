@@ -8,18 +8,18 @@ namespace faultline {
 namespace {
 
 constexpr int kLengths = 4;               // each twice the one before
-constexpr int kMostShifts = 24;           // samples, but no more than
+constexpr int kMostShifts = 24;           // samples, at most
 constexpr double kLongestShift_s = 0.25;  // by which the torque may act earlier or later
 constexpr double kWindowsSlow_s = 0.02;   // at longer periods only the neighbouring samples are tried
-constexpr int kShapedSteps = 4;           // fewer samples are weighted alike
+constexpr int kShapedSteps = 4;           // fewer samples have equal weights
 
-/// Smooth bump over (0, 1), zero with its slope at both ends.
+/// Returns a smooth bump over (0, 1), zero with its slope at both ends.
 double bump(double x) {
   const double arch = 4.0 * x * (1.0 - x);
   return arch * arch;
 }
 
-/// Weights of a window's samples, whose mean over its time is 1.
+/// Returns the weights of a window's samples, whose mean over its time is 1.
 Eigen::VectorXd weights(const Eigen::Ref<const Eigen::VectorXd>& step_s) {
   const Eigen::Index steps = step_s.size();
   Eigen::VectorXd w = Eigen::VectorXd::Ones(steps);

@@ -22,34 +22,34 @@ struct ShiftRange {
 /// One window: the momentum balance of every joint, weighted over the window so that no acceleration is
 /// needed,
 ///   sum w (p_k+1 - p_k) = sum w dt (tau - F + dT/dq - G),   sum w dt = 1.
-/// Row j reads base * beta + viscous fv_j + coulomb fc_j + offset_j + another column of coulomb fb_j + skew
-/// fs_j + extra terms = torque.
+/// Row j is base * beta + viscous fv_j + coulomb fc_j + offset_j + another column of coulomb fb_j + skew fs_j
+/// + extra terms = torque.
 struct WeakWindow {
   int log = 0;
-  double time_s = 0.0;      ///< its start
+  double time_s = 0.0;      ///< start of the window
   Eigen::MatrixXd base;     ///< joints x base parameters
-  Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column a friction width
+  Eigen::MatrixXd coulomb;  ///< joints x kWidths, one column per friction width
   Eigen::MatrixXd extra;    ///< joints x extra terms
   Eigen::VectorXd viscous, skew;
   Eigen::MatrixXd torque;  ///< joints x shifts: the mean of tau_k-shift; less the momentum of known rotors
-  Eigen::VectorXd q, dq;   ///< in the middle of it, by joint
-  Eigen::VectorXd speed;   ///< mean |dq| of each joint in it, rad/s or m/s
+  Eigen::VectorXd q, dq;   ///< in the middle of the window, by joint
+  Eigen::VectorXd speed;   ///< mean |dq| of each joint in the window, rad/s or m/s
 };
 
-/// Windows of one length over all logs, bounded in number: when there are too many, every other one goes and
-/// from then on only every other one comes.
+/// Windows of one length over all logs, bounded in number: above the bound, every other one is dropped, and
+/// from then on only every other one is added.
 class WeakWindows {
  public:
   WeakWindows(double length_s, int max_windows)
       : length_s_(length_s), max_windows_(static_cast<std::size_t>(max_windows)) {}
 
-  /// Windows of a stretch, each half over the last. Those that hold more empty than measured rows are left
-  /// out.
+  /// Adds the windows of a stretch, each overlapping half of the previous one, except those in which more
+  /// than half of the positions of a joint are outliers or not measured.
   void add(const Stretch& stretch, const StretchTerms& terms, const ShiftRange& shifts);
 
-  /// No windows, to be filled again.
+  /// Returns an empty set of the same kind, to be filled again.
   WeakWindows emptied() const { return WeakWindows(length_s_, static_cast<int>(max_windows_)); }
-  /// Keeps those extra terms.
+  /// Keeps only those extra terms.
   void keep_extra(const std::vector<int>& terms);
 
   /// Drops the windows of those logs.
@@ -74,16 +74,16 @@ struct WeakSets {
   ParameterSpace space;
   ShiftRange shifts;
   std::vector<WeakWindows> sets;
-  ExtraSetting extra;  ///< what the extra terms of `space` are worked out with
-  /// By joint: it never moves, so stiction may hold any torque and its balances do not count. Empty: none.
+  ExtraSetting extra;  ///< setting of the columns of the extra terms of `space`
+  /// By joint: it never moves, so stiction may carry any torque and its balances do not count. Empty: none.
   std::vector<bool> still;
 
   void add(const Stretch& stretch);
 };
 
-/// Window lengths to choose from, s; on slow logs those that differ in samples.
+/// Returns the window lengths to choose from, s; on slow logs those that differ in samples.
 std::vector<double> window_lengths(double shortest_s, double period_s);
-/// What torque shifts can be told at a sample period.
+/// Returns the torque shifts to try at a sample period.
 ShiftRange shift_range(double period_s);
 
 }  // namespace faultline
