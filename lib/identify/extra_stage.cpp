@@ -12,13 +12,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kLooked = 0.005;     // of a joint's torque left over: less is not looked at
-constexpr double kSharedR2 = 0.998;   // of a joint that might share its drive with its neighbour
-constexpr double kLeastAlong = 1e-9;  // of a drive's motion: less is another joint's
-constexpr int kSettlingRounds = 2;    // of columns that depend on the robot
-constexpr double kSlow_s = 0.02;      // rows farther apart show no spring
+constexpr double kLooked = 0.005;     // of a joint's torque: a smaller residual needs no extra terms
+constexpr double kSharedR2 = 0.998;   // held-out R2 of joints above which no shared drive is tried
+constexpr double kLeastAlong = 1e-9;  // of a drive's motion: less belongs to another joint
+constexpr int kSettlingRounds = 2;    // renewals of columns that depend on the robot
+constexpr double kSlow_s = 0.02;      // samples farther apart show no spring
 
-/// Joints that move and of whose torque something is left to be explained.
+/// Marks moving joints with significant unexplained torque.
 std::vector<bool> joints_to_look_at(const Gathered& gathered, const ModelChoice& choice) {
   std::vector<bool> out;
   for (std::size_t j = 0; j < choice.held_out_r2.size(); ++j)
@@ -32,7 +32,7 @@ void add_shared(const Eigen::VectorXd& along, double width, ParameterSpace& spac
   space.chain.shared_drives.push_back({along, 0.0, 0.0, width});
 }
 
-/// Drives that the log's columns say are coupled, and drives of neighbouring joints whose torque is poorly
+/// Adds drives that the robot file couples, and drives of neighbouring joints whose torque is poorly
 /// explained: wrists often turn the last motor with the joint before.
 void add_shared_drives(const Robot& robot, const ModelChoice& choice, const std::vector<bool>& look,
                        ParameterSpace& space) {
@@ -53,7 +53,7 @@ void add_shared_drives(const Robot& robot, const ModelChoice& choice, const std:
   }
 }
 
-/// The space with everything that may be tried.
+/// Returns the space with all extra terms to be tried.
 ParameterSpace with_candidates(const Gathered& gathered, const ModelDraft& draft,
                                const std::vector<bool>& look, const Identification& id) {
   ParameterSpace space = id.space;
@@ -76,8 +76,7 @@ ParameterSpace with_candidates(const Gathered& gathered, const ModelDraft& draft
   return space;
 }
 
-/// A vector over the parameters of one space as one over those of another with other extra terms, which get
-/// `value`.
+/// Maps a vector over the parameters of one space to another space with other extra terms, which get `value`.
 template <typename Vector, typename Value>
 Vector with_extra(const ParameterSpace& from, const ParameterSpace& to, const Vector& v, Value value) {
   Vector out(to.count());
@@ -86,7 +85,7 @@ Vector with_extra(const ParameterSpace& from, const ParameterSpace& to, const Ve
   return out;
 }
 
-/// The space with only those of its extra terms that `stay`, by parameter; `kept` lists them.
+/// Returns the space with only those of its extra terms that `stay`, by parameter; `kept` lists them.
 ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay, std::vector<int>& kept) {
   ParameterSpace out = space;
   out.extra.clear();
@@ -112,13 +111,13 @@ ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay
   return out;
 }
 
-/// What was tried, less what nobody asked for: drives and ripples that do not pay are many.
+/// Lists the terms tried, except rejected drives, ripples and gains: these are many.
 void tell_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
   for (const ModelTerm& term : tried)
     if (term.kept || term.name.starts_with("fl_") || term.name.starts_with("gc_")) terms.push_back(term);
 }
 
-/// Load friction that is given stays as it is.
+/// Keeps load friction that the robot file gives.
 void hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft& draft) {
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const ExtraTerm& term = space.extra_at(p);
@@ -129,7 +128,7 @@ void hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft
   }
 }
 
-/// Everything in `draft` over the parameters of another space; extra terms are asked for as `asked` says.
+/// Maps the vectors of `draft` to the parameters of another space; all extra terms get `asked`.
 void move_to(const ParameterSpace& from, const ParameterSpace& to, bool asked, const Robot& robot,
              ModelDraft& draft) {
   draft.nominal = with_extra(from, to, draft.nominal, 0.0);
@@ -139,18 +138,19 @@ void move_to(const ParameterSpace& from, const ParameterSpace& to, bool asked, c
   hold_known_load(to, robot, draft);
 }
 
-/// What of the candidates pays.
+/// Result of trying extra terms.
 struct Tried {
   std::vector<bool> stay;        ///< by parameter
   std::vector<double> gain;      ///< by joint
-  std::vector<ModelTerm> terms;  ///< in the order in which they were tried
+  std::vector<ModelTerm> terms;  ///< in the order of the trials
 
   bool scales() const {
     return std::any_of(gain.begin(), gain.end(), [](double g) { return g != 1.0; });
   }
 };
 
-/// Logs with other payloads are fitted apart, and their torques must be read alike: then no gains are tried.
+/// Tries the extra terms. No gains are tried if logs have payloads: these logs are fitted apart and must use
+/// the same gains.
 Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDraft& draft) {
   const ParameterSpace& space = gathered.windows.space;
   const WeakMoments moments(gathered.windows, nominal_timing(robot));
@@ -168,8 +168,8 @@ Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDr
   return out;
 }
 
-/// The columns of load friction and springs were worked out with a robot that had neither, and other gains:
-/// they are worked out again with the robot as it is now, and the torque is fitted again.
+/// Renews the columns of load friction and springs with the robot as fitted, since they were computed without
+/// both and with other gains, and fits the torque again.
 void settle_columns(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
                     ModelDraft& draft) {
   const bool depend = std::any_of(id.space.extra.begin(), id.space.extra.end(), [](const ExtraTerm& term) {

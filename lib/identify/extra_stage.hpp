@@ -13,7 +13,7 @@
 
 namespace faultline {
 
-/// A model on its way: what the torque is fitted with.
+/// State of a model while it is chosen and its torque is fitted.
 struct ModelDraft {
   WantedParameters wanted;
   Eigen::VectorXd nominal;  ///< values of parameters that are not fitted
@@ -21,14 +21,14 @@ struct ModelDraft {
   TorqueFit torque;
 };
 
-/// What few robots have and the torque left over of a first model asks for: friction that grows with the
-/// load, friction of a drive that several joints turn, ripples, gears that give way, torques logged too large
-/// or too small. Where something of it pays on held-out data, the model is chosen and fitted again with it;
-/// its parameters join those of `id.space`. A model that leaves next to nothing is not looked at.
+/// Tries rare terms that the residual of a first model suggests: friction that grows with the load, friction
+/// of a drive that several joints turn, ripples, gear compliance, torques logged too large or too small. If
+/// any of them lowers the error on held-out data, the model is chosen and fitted again with it; its
+/// parameters join those of `id.space`. Does nothing if the residual is negligible.
 void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
                       ModelDraft& draft);
 
-/// How torque is taken to run between samples where the robot does not say it.
+/// Returns the torque timing phi to start from: 0 if held, else that of `robot`, else 0.5.
 double nominal_timing(const Robot& robot);
 
 }  // namespace faultline

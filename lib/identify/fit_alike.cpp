@@ -24,11 +24,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kGood = 0.97;           // of a joint's torque explained: below, columns are questioned
-constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion has nothing to add
+constexpr double kGood = 0.97;  // least explained share of a joint's torque: below, other columns are tried
+constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion is not fitted
 
-constexpr int kFewestLogs = 3;      // of two that disagree neither is the odd one
-constexpr double kOdd = 4.0;        // times what other logs leave of their torque, in rms and as a share,
+constexpr int kFewestLogs = 3;      // if two logs disagree, neither is the odd one
+constexpr double kOdd = 4.0;        // times the residual of the other logs, in rms and as a share,
 constexpr double kOddShare = 0.01;  // and at least this share of its mean square: days of a robot differ too
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
@@ -56,7 +56,7 @@ void take_shooting(const ShootingFit& shot, const Gathered& gathered, Identifica
   take_noise(shot.noise, gathered.measurements.has_dq(), id);
 }
 
-/// Sharp friction serves the regression; a robot that is to be simulated keeps the width of its file.
+/// Widens friction to the width of the robot file: sharp friction suits the regression, not simulation.
 void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eigen::VectorXd& parameters) {
   for (int j = 0; j < space.joints(); ++j) {
     double& width = parameters[space.log_width(j)];
@@ -66,8 +66,8 @@ void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eige
   }
 }
 
-/// Logs (from 0) that a fit to the others leaves far more unexplained than it leaves the others: another
-/// robot, another load, or a fault. Never half of them or more; none where folds are not logs.
+/// Returns the logs, from 0, whose residual with a fit to the others is far larger than that of the others:
+/// another robot, another load, or a fault. Never half of them or more; none if folds are not logs.
 std::vector<int> odd_logs(const ModelChoice& choice) {
   std::vector<int> odd;
   const HeldOutError& e = choice.held_out;
@@ -93,7 +93,7 @@ std::vector<int> odd_logs(const ModelChoice& choice) {
   return odd;
 }
 
-/// Logs, from 0, that are another by its bytes; they are marked as left out and named in `id.issues`.
+/// Returns the logs, from 0, that repeat another byte for byte; marks them as left out, with an issue.
 std::vector<int> repeated_logs(Identification& id) {
   std::vector<int> repeated;
   for (std::size_t i = 0; i < id.logs.size(); ++i)
@@ -110,7 +110,7 @@ std::vector<int> repeated_logs(Identification& id) {
   return repeated;
 }
 
-/// Tells how far logs differ: the standard deviation between fits to single logs, by parameter.
+/// Computes how much logs differ: the standard deviation between fits to single logs, by parameter.
 void tell_spread(const ModelChoice& choice, Identification& id) {
   id.between_logs_std.assign(id.space.count(), std::numeric_limits<double>::quiet_NaN());
   std::vector<int> used;
@@ -139,7 +139,7 @@ void name_odd_logs(const std::vector<int>& odd, bool kept, Identification& id) {
   }
 }
 
-/// Looks for another meaning of the columns when the robot cannot be what the logs say.
+/// Searches another interpretation of the columns if the robot explains the logs poorly or is infeasible.
 void question_columns(std::span<LogSource* const> logs, const std::vector<int>& still, bool infeasible,
                       Identification& id) {
   bool poor = false;
@@ -173,12 +173,13 @@ bool gives_way(const ParameterSpace& space, const TorqueFit& torque) {
   return false;
 }
 
-/// The motion's fit where it helps, else the torque balance's.
+/// Takes the fit of the motion if it is accepted or asked for, else that of the torque balance.
 void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, TorqueFit& torque,
                    const Eigen::VectorXd& nominal, const IdentifyOptions& options, const Progress& progress,
                    Identification& id) {
   const std::vector<bool>& still = gathered.windows.still;
-  const bool moves = std::count(still.begin(), still.end(), true) == 0;  // all joints do: else M is not told
+  const bool moves =
+      std::count(still.begin(), still.end(), true) == 0;  // all joints do: else M is not identifiable
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
     if (!still[j]) worst = std::min(worst, torque.fit.r2[j]);
@@ -210,7 +211,7 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
   take_torque_fit(torque, gathered, id);
 }
 
-/// What the last fit left of the terms that were chosen.
+/// Marks the chosen terms that the last fit dropped.
 void settle_terms(const ParameterSpace& space, ModelDraft& draft) {
   const auto left = [&](int p) {
     bool any = draft.torque.wanted[p];
@@ -225,7 +226,7 @@ void settle_terms(const ParameterSpace& space, ModelDraft& draft) {
   }
 }
 
-/// The model that the logs ask for: chosen, and its torque fitted.
+/// Chooses the model from the logs and fits its torque.
 ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, const std::vector<int>& still,
                        const IdentifyOptions& options, Identification& id) {
   ModelDraft draft;
@@ -260,7 +261,7 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   return draft;
 }
 
-/// What is no part of the equations of motion: how the drives' torque is logged, how their gears give way.
+/// Stores what is not in the equations of motion: the torque gains of the log and the compliance of gears.
 void tell_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Identification& id) {
   const int n = id.space.joints();
   if (!gathered.torque_gain.empty()) {

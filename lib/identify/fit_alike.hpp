@@ -11,10 +11,10 @@
 
 namespace faultline {
 
-/// All but masses and lengths, of logs that carry the same payload.
+/// Identification without masses and lengths, from logs that carry the same payload.
 struct AlikeFit {
   Identification id;
-  std::vector<bool> usable;  ///< by base parameter
+  std::vector<bool> usable;  ///< by base parameter: the logs determine it
 };
 
 AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,

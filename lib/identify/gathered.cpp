@@ -11,18 +11,18 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kWindows = 10;                     // fewer tell nothing
-constexpr double kLeastTurn = 2e-3, kLeastWay_m = 2e-4;  // rad, m: less is stiction giving way
-constexpr std::int64_t kMostRows = 400'000;              // of longer logs every n-th stretch is used
+constexpr std::size_t kWindows = 10;                     // fewer are not sufficient
+constexpr double kLeastTurn = 2e-3, kLeastWay_m = 2e-4;  // rad, m: a smaller range is stiction giving way
+constexpr std::int64_t kMostRows = 400'000;  // rows: of longer logs, only every n-th stretch is used
 
-/// Every how many stretches one is used, so that long logs cost no more than is worth it.
+/// Returns n such that every n-th stretch is used: more rows of long logs would gain little.
 int stretch_stride(const std::vector<LogSurvey>& surveys) {
   std::int64_t rows = 0;
   for (const LogSurvey& survey : surveys) rows += survey.summary.rows;
   return static_cast<int>(1 + rows / kMostRows);
 }
 
-/// Hands out the stretches of all logs, torques with their gains.
+/// Passes the stretches of all logs to `visit`, torques multiplied by their gains.
 void visit_stretches(std::span<LogSource* const> logs, const Gathered& gathered,
                      const std::function<void(const Stretch&)>& visit) {
   const int stride = stretch_stride(gathered.surveys), joints = gathered.windows.space.joints();
@@ -41,7 +41,7 @@ void visit_stretches(std::span<LogSource* const> logs, const Gathered& gathered,
   }
 }
 
-/// The torque of joint j in row k is that logged `shift` rows before; rows without it go.
+/// Returns the stretch with the torque of joint j delayed by `shift` rows; rows without one are dropped.
 Stretch shifted(const Stretch& s, const std::vector<int>& shift) {
   const int first = std::max(0, *std::max_element(shift.begin(), shift.end()));
   const int last = s.rows() + std::min(0, *std::min_element(shift.begin(), shift.end()));

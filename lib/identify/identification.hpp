@@ -21,14 +21,14 @@ enum class IdentificationStatus {
   not_run,
   converged,
   not_converged,     ///< values are the best found, not an optimum
-  poorly_excited,    ///< converged, but some parameters could not be told from the motion and were kept
-  poorly_explained,  ///< the model leaves more than a twentieth of some joint's torque: its values are rough
-  unexplained,       ///< the model does not explain the torque of some joint: its values mean nothing
+  poorly_excited,    ///< converged, but some parameters are not identifiable from the motion and were kept
+  poorly_explained,  ///< more than a twentieth of some joint's torque is unexplained: values are rough
+  unexplained,       ///< the model does not explain the torque of some joint: values are meaningless
 };
 
 const char* to_string(IdentificationStatus status);
 
-/// Which estimator the values come from.
+/// Estimator of the values.
 enum class IdentifyMethod {
   automatic,     ///< output error, unless model error dominates its residual: then weak form
   weak_form,     ///< momentum balance over short windows, least squares
@@ -40,71 +40,71 @@ const char* to_string(IdentifyMethod method);
 struct ParameterEstimate {
   std::string name;
   double value = 0.0;
-  double std = 0.0;  ///< NaN when not identifiable
+  double std = 0.0;  ///< NaN if not identifiable
   std::array<double, 2> ci95 = {0.0, 0.0};
   std::string unit;
   bool identifiable = false;
   std::string why_not;  ///< names the missing datum; empty when identifiable
-  std::string meaning;  ///< of a base parameter: what it adds up
+  std::string meaning;  ///< of a base parameter: its sum of masses and inertias
 };
 
 struct IdentifiedLog {
   std::string path;
   std::string sha256;
-  std::int64_t rows = 0;       ///< read
-  std::int64_t rows_used = 0;  ///< in the windows of the weak form
+  std::int64_t rows = 0;       ///< rows read
+  std::int64_t rows_used = 0;  ///< rows in the windows of the weak form
   double sample_period_s = 0.0;
   double payload_kg = 0.0;
   std::vector<double> fit_r2;  ///< share of the torque's variance explained in this log, by joint
-  bool left_out = false;       ///< it disagrees with the others
+  bool left_out = false;       ///< excluded: it repeats another log or disagrees with the others
 };
 
-/// One thing the model may have, and what it is worth on data it was not fitted to.
+/// An optional term of the model, and its gain on held-out data.
 struct ModelTerm {
   std::string name;  ///< of the parameter, such as "jr2", or "delay_1"
-  int joint = 0;     ///< from 0: whose torque it is judged by
+  int joint = 0;     ///< from 0: the joint whose torque judges it
   bool kept = false;
   double error_before = 0.0;  ///< held-out residual of that joint without it, N m or N rms
   double error_after = 0.0;   ///< with it
 };
 
-/// What healthy logs tell about a robot.
+/// Robot identified from healthy logs.
 struct Identification {
   IdentificationStatus status = IdentificationStatus::not_run;
   std::string reason;                                 ///< why it stopped, in a sentence
   IdentifyMethod method = IdentifyMethod::automatic;  ///< the estimator used
-  /// The input robot with what was identified in it: `chain` moves as the logs did (its single masses and
-  /// lengths are real only where physical_parameters say identifiable), `torque_phi`, friction.
+  /// The input robot with the identified values: `chain` moves as the logs did (its single masses and lengths
+  /// are real only if physical_parameters are identifiable), `torque_phi`, friction.
   Robot robot;
-  std::vector<ParameterEstimate> base_parameters;      ///< then fv_j, fc_j, offset_j, phi, width_j
+  /// Base parameters, then fv_j, fc_j, offset_j, fb_j, fs_j and extra terms unless 0, phi, width_j.
+  std::vector<ParameterEstimate> base_parameters;
   std::vector<ParameterEstimate> physical_parameters;  ///< m_j, l_j
-  std::vector<double> q_noise;       ///< std of measured positions, by joint; at least the floor of rounding
-  std::vector<double> dq_noise;      ///< std of measured velocities; empty when no log has them
-  double condition_number = 0.0;     ///< of the base parameters' regressor, columns scaled to length 1
-  std::vector<double> residual_rms;  ///< torque the model does not explain over windows, by joint, N m or N
-  std::vector<double> fit_r2;        ///< share of the windowed torque's variance explained, by joint
-  std::vector<double> held_out_r2;   ///< the same of windows that were not fitted to
-  std::vector<ModelTerm> terms;      ///< what the model was offered beyond its base, and whether it paid
-  std::vector<double> between_logs_std;  ///< of `estimate`, fitted to each log alone; NaN where not known
-  std::vector<double> torque_delay_s;  ///< how late each joint's torque acts, against a straight line between
-                                       ///< samples
+  std::vector<double> q_noise;           ///< std of measured positions, by joint; at least that of rounding
+  std::vector<double> dq_noise;          ///< std of measured velocities; empty if no log has them
+  double condition_number = 0.0;         ///< of the base parameters' regressor, columns scaled to length 1
+  std::vector<double> residual_rms;      ///< torque residual over windows, by joint, N m or N rms
+  std::vector<double> fit_r2;            ///< share of the windowed torque's variance explained, by joint
+  std::vector<double> held_out_r2;       ///< the same for held-out windows
+  std::vector<ModelTerm> terms;          ///< optional terms that were tried, and whether they were kept
+  std::vector<double> between_logs_std;  ///< std of `estimate` over fits to single logs; NaN if unknown
+  std::vector<double> torque_delay_s;    ///< delay of each joint, relative to a straight line between samples
   std::vector<IdentifiedLog> logs;
   Issues issues;
   std::vector<JointFit> joint_fits;                ///< by joint; not kept in JSON
   std::vector<ResidualPattern> residual_patterns;  ///< by joint
   Excitation excitation;
-  std::vector<ParameterTrend> trends;  ///< with three logs or more, by the torque balance of each alone
+  std::vector<ParameterTrend> trends;  ///< with three logs or more, from the torque balance of each log alone
 
   ParameterSpace space;
   Eigen::VectorXd estimate;    ///< all parameters of `space`
   Eigen::MatrixXd covariance;  ///< of `estimate`; zero rows for parameters that were kept
 };
 
-/// The identified robot with parameters drawn from their joint normal distribution; masses and friction stay
-/// positive.
+/// Returns the identified robot with parameters drawn from their joint normal distribution; masses and
+/// friction stay positive.
 Robot draw(const Identification& identification, Random& random);
 
-/// `robot` with the parameters of `space` in its chain and its torque timing.
+/// Returns `robot` with the parameters of `space` in its chain and its torque timing.
 Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters);
 
 }  // namespace faultline

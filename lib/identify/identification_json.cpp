@@ -211,14 +211,14 @@ ParameterTrend trend_from(const Json& j) {
   return t;
 }
 
-/// Adds what the residual repeats with, what the motion excites and the trends of the parameters.
+/// Adds the patterns of the residual, the excitation and the trends of the parameters.
 void add_verdicts(const Identification& id, Json& document) {
   document["residual_repeats_with"] = list_of<Json>(id.residual_patterns, pattern_json);
   document["excitation"] = excitation_json(id.excitation);
   document["trend"] = list_of<Json>(id.trends, trend_json);
 }
 
-/// Reads them back; documents of older versions have none.
+/// Reads them; documents of older versions have none.
 void read_verdicts(const Json& document, Identification& id) {
   if (!document.contains("excitation")) return;
   for (const Json& p : document.at("residual_repeats_with")) id.residual_patterns.push_back(pattern_from(p));
@@ -261,7 +261,7 @@ Identification read_summary(const Json& j, const std::string& where) {
   return id;
 }
 
-/// What was identified before friction could bend: zeros in its place.
+/// Inserts zeros for bent and skew friction into the state of an older version without them.
 void add_bends(const ParameterSpace& space, std::vector<double>& estimate, std::vector<double>& covariance) {
   const Eigen::Index at = space.bend(0), more = 2 * space.joints(), rest = space.count() - at - more;
   const auto old = static_cast<Eigen::Index>(estimate.size());

@@ -24,13 +24,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kContradicts = 5.0;   // standard errors
-constexpr int kMostRounds = 3;         // of fitting at the lengths that the fit before found
-constexpr double kOtherGuess = 0.05;   // of a length that is a guess
+constexpr double kContradicts = 5.0;   // standard errors beyond which facts contradict the base parameters
+constexpr int kMostRounds = 3;         // fits, each at the lengths that the previous fit found
+constexpr double kOtherGuess = 0.05;   // relative change of a guessed length that needs another fit
 constexpr double kSameRate = 0.02;     // relative, between the sample periods of two logs
-constexpr double kOtherLength = 1e-3;  // of a length: less changes no torque that could be told
+constexpr double kOtherLength = 1e-3;  // relative change of a length: less changes no torque measurably
 
-/// Whether the same base parameters mean other torques at other lengths.
+/// Whether the same base parameters give other torques at other lengths.
 bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
   const Eigen::VectorXd ones = Eigen::VectorXd::LinSpaced(a.count(), 1.0, 2.0);
   const Eigen::VectorXd same = parameters_of(b, chain_from(a, ones), 0.0);
@@ -62,8 +62,8 @@ void add_guess(const PhysicalFit& physical, Identification& id) {
           fmt::join(physical.guessed_lengths, ", "))));
 }
 
-/// Masses and lengths; the chain is rebuilt on the lengths. Returns them where the base parameters mean other
-/// torques on them, so that only another fit can take them.
+/// Computes masses and lengths and rebuilds the chain on the lengths. Returns the lengths if the base
+/// parameters give other torques with them, so that another fit is needed.
 std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate> estimates,
                                                    Identification& id) {
   const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
@@ -78,7 +78,7 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   sized.chain.length = physical.lengths;
   ParameterSpace space = parameter_space(sized);
   space.extra = id.space.extra;
-  space.chain.friction = id.space.chain.friction;  // its shape, which base parameters do not hold
+  space.chain.friction = id.space.chain.friction;  // its shape is not in the base parameters
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
   const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);
@@ -94,7 +94,7 @@ struct PayloadGroup {
   std::vector<std::size_t> index;  ///< of each log among all
 };
 
-/// By robot.payloads, the logs without payload first. Throws Error(input) when every log carries one.
+/// Groups logs by robot.payloads, those without payload first. Throws Error(input) if every log carries one.
 std::vector<PayloadGroup> group_by_payload(std::span<LogSource* const> logs, const Robot& robot) {
   std::map<std::pair<double, double>, PayloadGroup> groups;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -122,7 +122,7 @@ void take_logs(const Identification& from, const PayloadGroup& group, Identifica
   }
 }
 
-/// Curves and trends name logs in the order of all of them, not of their payload's.
+/// Renumbers the logs of curves and trends by the order of all logs, not of their payload group.
 void number_logs(const PayloadGroup& group, Identification& id) {
   const auto number = [&](int& log) { log = static_cast<int>(group.index[log]); };
   for (JointFit& fit : id.joint_fits)
@@ -137,7 +137,7 @@ Issue payload_issue(const Identification& loaded, double payload) {
                                 to_string(loaded.status), loaded.reason));
 }
 
-/// A model has one sample period. Logs at another period make its noise that of neither.
+/// Adds an issue if logs differ in sample period: the noise of the model then belongs to neither rate.
 void add_rates(Identification& id) {
   const auto [shortest, longest] = std::minmax_element(
       id.logs.begin(), id.logs.end(),
@@ -153,7 +153,7 @@ void add_rates(Identification& id) {
           shortest->sample_period_s, shortest->path, longest->sample_period_s, longest->path)));
 }
 
-/// An identification, and the lengths to fit again at, if any.
+/// An identification, and the lengths to fit again with, if any.
 struct Round {
   Identification id;
   std::optional<std::vector<double>> lengths;
@@ -182,8 +182,8 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
   return {std::move(id), std::move(lengths)};
 }
 
-/// Keeps what the solver's library writes about singular systems off the terminal: the result says it in its
-/// own words. Errors that end the program are still written. May be called any number of times.
+/// Keeps messages of the solver's library about singular systems off the terminal, since the result reports
+/// them. Errors that end the program are still written. May be called any number of times.
 void quiet_solver() {
   static const bool done = [] {
     FLAGS_minloglevel = google::GLOG_FATAL;

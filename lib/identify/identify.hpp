@@ -17,11 +17,10 @@ struct IdentifyOptions {
   int max_rows = 40000;         ///< rows that shooting uses, spread over all logs
   int max_windows = 6000;       ///< windows that the weak form keeps, spread over all logs
   int max_iterations = 40;      ///< of each least-squares solve
-  bool estimate_offset = true;  ///< friction offset of a joint, kept only where the data ask for it
-  bool estimate_width =
-      true;               ///< friction width, with the robot file's as a prior within a factor of about 3
-  bool keep_all = false;  ///< also logs that disagree with the others
-  int threads = 0;        ///< 0 = one a core; the result does not depend on it
+  bool estimate_offset = true;  ///< friction offset of a joint, kept only if it lowers the held-out error
+  bool estimate_width = true;   ///< friction width; prior: that of the robot file within a factor of about 3
+  bool keep_all = false;        ///< keeps logs that disagree with the others
+  int threads = 0;              ///< 0: one per core; the result does not depend on it
 
   /// Throws Error(usage) naming the field, its value and its bound.
   void check() const;
@@ -29,8 +28,8 @@ struct IdentifyOptions {
 
 /// Identifies `robot` from logs of healthy runs (docs/how-it-works.md): a weak-form regression for a start,
 /// then output error by multiple shooting. Facts in robot.known are kept. Logs whose file name is in
-/// robot.payloads carry that mass: they settle masses and lengths, the identified robot is that without
-/// payload. Each log is read from its start, more than once. Throws Error(input) when the logs have too few
+/// robot.payloads carry that mass: they determine masses and lengths, and the identified robot is without
+/// payload. Each log is read from its start, more than once. Throws Error(input) if the logs have too few
 /// rows, every log carries a payload, or a log has other joints than the robot.
 Identification identify(std::span<LogSource* const> logs, const Robot& robot,
                         const IdentifyOptions& options = {}, const Progress& progress = {});

@@ -15,10 +15,10 @@ namespace faultline {
 namespace {
 
 constexpr double kSpaceRounding = 1e-12;  // kg m^2 or kg
-constexpr int kSpaceProbes = 40;          // random states: rows that far outnumber the 11 columns a joint
-constexpr double kIndependent = 1e-7;     ///< share of a column that the columns before it must leave
+constexpr int kSpaceProbes = 40;          // random states: far more rows than the 11 columns per joint
+constexpr double kIndependent = 1e-7;     ///< least share of a column independent of those before it
 
-/// A way the links' inertial numbers may change.
+/// A direction in which the links' inertial numbers may change.
 struct BaseCandidate {
   BaseParameter parameter;
   Eigen::VectorXd direction;  ///< 11 n: the links' numbers, then the rotors' inertia
@@ -34,7 +34,7 @@ LinkVector rod_inertia(const Eigen::Vector3d& direction) {
   return to_vector(link);
 }
 
-/// The inertial numbers of link i that its shape leaves free, the ones that carry most first.
+/// Adds the inertial numbers of link i that its shape leaves free, those that carry most first.
 void add_link_candidates(const Robot& robot, int i, std::vector<BaseCandidate>& out) {
   const int n = robot.joints(), at = i * kLinkParameters;
   const auto add = [&](const std::string& name, const std::string& unit, const LinkVector& v) {
@@ -60,7 +60,7 @@ void add_link_candidates(const Robot& robot, int i, std::vector<BaseCandidate>& 
   out.back().parameter.is_mass = true;
 }
 
-/// What turns with the motor: felt by its own joint alone.
+/// Adds the rotor of joint i, which acts on its own joint alone.
 void add_rotor_candidate(const Robot& robot, int i, std::vector<BaseCandidate>& out) {
   const bool turns = robot.chain.geometry[i].kind == AxisKind::revolute;
   BaseCandidate c = candidate("jr" + std::to_string(i + 1), turns ? "kg m^2" : "kg", robot.joints());
@@ -70,7 +70,7 @@ void add_rotor_candidate(const Robot& robot, int i, std::vector<BaseCandidate>& 
   out.push_back(std::move(c));
 }
 
-/// a, b, c, m3 of physics of the SCARA: each direction changes that one number of M and G and no other.
+/// Returns a, b, c, m3 of the SCARA: each direction changes that one number of M and G and no other.
 std::vector<BaseCandidate> scara_candidates(const Robot& robot) {
   const int n = robot.joints();
   const double l1 = robot.chain.length[0], l2 = robot.chain.length[1];
@@ -96,8 +96,8 @@ std::vector<BaseCandidate> scara_candidates(const Robot& robot) {
 /// Whether the robot's base parameters are a, b, c and m3 of the SCARA.
 bool is_scara(const Robot& robot) { return robot.axes == "RRP" || robot.axes == "RRPR"; }
 
-/// Every change the robot's link shapes allow, the ones to be kept first: those whose torques depend on
-/// the torques of earlier ones are no base parameters.
+/// Returns every change that the robot's link shapes allow, the preferred ones first: those whose torques
+/// depend on the torques of earlier ones are no base parameters.
 std::vector<BaseCandidate> base_candidates(const Robot& robot) {
   std::vector<BaseCandidate> out;
   if (is_scara(robot) && robot.chain.length[0] > 0.0 && robot.chain.length[1] > 0.0)
@@ -114,7 +114,7 @@ JointVector draw(Random& random, int n, double scale) {
   return v;
 }
 
-/// Torque of every inertial number and rotor at random states: (probes n) x (11 n).
+/// Returns the torque of every inertial number and rotor at random states: (probes n) x (11 n).
 Eigen::MatrixXd probe(const Chain& chain) {
   const int n = chain.joints();
   Random random(20260101);
@@ -129,7 +129,7 @@ Eigen::MatrixXd probe(const Chain& chain) {
   return all;
 }
 
-/// Coefficients of `column` on the columns kept so far, and the share of it they leave.
+/// Computes the coefficients of `column` on the columns kept so far; returns the share of it that is left.
 double project(const Eigen::MatrixXd& kept, const Eigen::VectorXd& column, Eigen::VectorXd& coefficients) {
   coefficients.resize(kept.cols());
   if (kept.cols() == 0) return 1.0;
@@ -146,7 +146,7 @@ void explain(ParameterSpace& space, const Eigen::VectorXd& coefficients, const s
   }
 }
 
-/// Such as "rc_1_100": the cosine of joint 1's ripple of 100 a rad.
+/// Returns a name such as "rc_1_100": the cosine of joint 1's ripple of rate 100 1/rad.
 std::string extra_name(const ParameterSpace& space, const ExtraTerm& term) {
   const int joint = term.joint + 1;
   const auto shared = [&](const char* what) {
@@ -289,7 +289,7 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, d
   }
   const Eigen::VectorXd torque = probe(chain) * numbers;
   p.head(space.rigid()) = least_squares(probe(space.chain) * space.lift, torque);
-  for (int k = 0; k < space.rigid(); ++k)  // solved for, so zero comes out as rounding
+  for (int k = 0; k < space.rigid(); ++k)  // a least-squares solution, so zero comes out as rounding
     if (space.base[k].is_rotor && std::abs(p[k]) < kSpaceRounding) p[k] = 0.0;
   for (int i = 0; i < n; ++i) {
     p[space.viscous(i)] = chain.friction[i].viscous;

@@ -11,14 +11,14 @@
 
 namespace faultline {
 
-/// One combination of masses, first moments and inertias that torques can tell from the others.
+/// A combination of masses, first moments and inertias that torques determine apart from the others.
 struct BaseParameter {
   std::string
       name;  ///< a, b, c, m3 of a SCARA; else the inertial number it is gathered in, such as "I1", "mx2"
   std::string unit;       ///< kg m^2, kg m or kg
-  std::string meaning;    ///< what it adds up, such as "I2 + 0.09 m3" at the lengths of `chain`
-  bool is_mass = false;   ///< the mass that a vertical prismatic axis carries: one that gravity weighs
-  bool is_rotor = false;  ///< what turns faster than the joint and that nothing else feels
+  std::string meaning;    ///< its sum, such as "I2 + 0.09 m3" at the lengths of `chain`
+  bool is_mass = false;   ///< the mass of a link, as m3 of a SCARA
+  bool is_rotor = false;  ///< inertia of a rotor, which acts on its own joint alone
   int joint = 0;          ///< of a rotor, from 0
 };
 
@@ -26,9 +26,9 @@ struct BaseParameter {
 /// joint fv, fc, offset, bend, skew, then the extra terms, phi (torque timing) and ln(friction width) of
 /// every joint. Torques are linear in all but the widths.
 struct ParameterSpace {
-  Chain chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter, the width of
-                ///< bent friction, the rates of ripples, the drives of shared friction and its width;
-                ///< its links and other friction do not count
+  Chain chain;  ///< geometry, lengths, gravity, rotor inertia that is no base parameter, the width of bent
+                ///< friction, the rates of ripples, the drives of shared friction and its width; its links
+                ///< and other friction do not count
   std::vector<BaseParameter> base;
   /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
   /// parameters.
@@ -46,15 +46,15 @@ struct ParameterSpace {
   int timing() const { return extra_begin() + static_cast<int>(extra.size()); }
   int log_width(int joint) const { return timing() + 1 + joint; }
   int count() const { return timing() + 1 + joints(); }
-  /// Those in which torques are linear: all before the widths.
+  /// Number of parameters in which torques are linear: all before the widths.
   int linear() const { return timing() + 1; }
 
-  /// The joint that a parameter belongs to, from 0: of a base parameter and of the timing the first.
+  /// Returns the joint of a parameter, from 0; 0 for the timing and base parameters other than rotors.
   int joint_of(int parameter) const;
   bool is_extra(int parameter) const { return parameter >= extra_begin() && parameter < timing(); }
-  /// Of a parameter that is_extra().
+  /// Returns the extra term of a parameter that is_extra().
   const ExtraTerm& extra_at(int parameter) const { return extra[parameter - extra_begin()]; }
-  /// Whether a parameter is of what moves, not of what brakes: base parameters and rotors.
+  /// Whether a parameter is an inertia and not friction: base parameters and rotors of shared drives.
   bool is_inertial(int parameter) const {
     return parameter < rigid() ||
            (is_extra(parameter) && extra_at(parameter).kind == ExtraKind::shared_inertia);
@@ -63,20 +63,20 @@ struct ParameterSpace {
   std::string unit(int parameter) const;
 };
 
-/// Base parameters by rank over random states, so that every torque the robot's link shapes allow can be
-/// formed: a, b, c, m3 for SCARA orders, else the inertial numbers themselves, base first, then the rotors
-/// that are felt apart from the links (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
+/// Returns the base parameters by rank over random states, so that every torque that the robot's link shapes
+/// allow can be formed: a, b, c, m3 for SCARA orders, else the inertial numbers themselves, base first, then
+/// the rotors that act apart from the links (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
 ParameterSpace parameter_space(const Robot& robot);
 
-/// The chain that moves as the parameters say. Its masses and first moments stand for the base parameters and
-/// need not be those of the real links.
+/// Returns the chain that moves as the parameters say. Its masses and first moments represent the base
+/// parameters and need not be those of the real links.
 Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters);
 
-/// The parameters of `robot` in `space`: the base parameters whose torques come nearest to its own, its
-/// friction, `phi`.
+/// Returns the parameters of `robot` in `space`: the base parameters whose torques are nearest to its own,
+/// its friction, `phi`.
 Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, double phi);
 
-/// The base parameters that arbitrary links and rotors act like: base x (11 n).
+/// Returns the map from the numbers of links and rotors to base parameters: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);
 
 }  // namespace faultline

@@ -22,7 +22,7 @@ bool is_given(const Identification& id, int p) {
   return p >= id.space.rigid() && it != id.robot.known.end() && it->second.std == 0.0;
 }
 
-/// Still joints that matter to a parameter: its own for friction, all for what they carry together.
+/// Returns the still joints that affect a parameter: its own for friction, all for other parameters.
 std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
   if (p < id.space.rigid() || p == id.space.timing()) return still;
   const int joint = id.space.joint_of(p) + 1;

@@ -9,29 +9,29 @@
 
 namespace faultline {
 
-/// Logs at least this fast show the velocities where friction bends, and its offset.
+/// Sample period, s, below which a log shows the velocities at which friction bends, and its offset.
 inline constexpr double kShowsFriction_s = 0.03;
 
-/// Why parameters were left out of the estimate.
+/// Facts that explain why parameters were not estimated.
 struct TableFacts {
-  std::vector<bool> asked;    ///< by parameter: the weak form was to estimate it
+  std::vector<bool> asked;    ///< by parameter: the weak form should estimate it
   std::vector<int> still;     ///< joints that never move, from 1
-  std::vector<int> undriven;  ///< joints with next to no torque, from 1
-  std::vector<int> leaning;   ///< joints whose mass and rotor lean on no friction offset, from 1
-  bool fast = true;           ///< some log is faster than kShowsFriction_s
+  std::vector<int> undriven;  ///< joints of negligible torque, from 1
+  std::vector<int> leaning;   ///< joints whose mass and rotor assume no friction offset, from 1
+  bool fast = true;           ///< some log has a shorter period than kShowsFriction_s
 };
 
-/// What to record so that the motion tells a parameter.
+/// Returns what to record so that the motion determines a parameter.
 std::string not_excited(const std::vector<int>& still);
-/// The same where joints may be still, hardly driven or lean on there being no friction offset, all from 1.
+/// The same, if joints may be still, hardly driven or assumed without friction offset, all from 1.
 std::string why_not_told(const std::vector<int>& still, const std::vector<int>& undriven,
                          const std::vector<int>& leaning);
 
-/// Fills id.base_parameters from id.estimate and id.covariance: every parameter of the space, those that
-/// were not identified with the reason.
+/// Fills id.base_parameters from id.estimate and id.covariance: the parameters of the space, except bent,
+/// skew and extra terms of value 0; those that were not identified with the reason.
 void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id);
 
-/// Whether the logs tell every mass, inertia and friction that they should.
+/// Whether every base parameter but rotors, and all viscous and Coulomb friction, are identifiable.
 bool all_told(const Identification& id);
 
 }  // namespace faultline

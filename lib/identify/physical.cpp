@@ -22,11 +22,11 @@ namespace {
 
 constexpr double kPhysicalRank = 1e-7;  ///< of the largest singular value of the relative Jacobian
 constexpr double kMoves = 1e-4;         ///< part of a parameter in a direction that changes no torque
-constexpr double kShortest_m = 0.02, kLongest_m = 10.0;  // of a link: beyond, a guess is no length
-constexpr int kStarts = 12;       // at most, random but for the first: the cost may have several minima
+constexpr double kShortest_m = 0.02, kLongest_m = 10.0;  // of a link: a guess outside is no plausible length
+constexpr int kStarts = 12;       // at most, random except the first: the cost may have several minima
 constexpr int kIterations = 200;  // of Levenberg and Marquardt from one start, at most
 
-/// Levenberg and Marquardt from one start; returns the cost.
+/// Minimises by Levenberg and Marquardt from one start; returns the cost.
 double descend(const PhysicalEquations& equations, Eigen::VectorXd& x) {
   Eigen::VectorXd r;
   Eigen::MatrixXd j;
@@ -67,14 +67,14 @@ Eigen::VectorXd solve(const PhysicalEquations& equations) {
                            : (u.kind == 'm' ? scale : -0.7) + (s > 0 ? random.uniform(-1.5, 1.5) : 0.0);
     }
     const double cost = descend(equations, x);
-    if (best.size() == 0) best = x;  // no cost is finite where the covariance is no covariance
+    if (best.size() == 0) best = x;  // no cost is finite if the covariance is invalid
     if (cost < 0.5 * best_cost) best = x, best_cost = cost;
     if (best_cost < 1.0) break;
   }
   return best;
 }
 
-/// How far each open unknown can move without changing what `rows` says (relative slopes).
+/// Returns the part of each open unknown in directions that leave all `rows` (relative slopes) unchanged.
 Eigen::VectorXd freedom(const Eigen::MatrixXd& rows) {
   const Eigen::Index n = rows.cols();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
@@ -99,7 +99,7 @@ std::string join_or(const std::vector<std::string>& words) {
   return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
-/// The facts any one of which would determine unknown `p`.
+/// Returns the facts any one of which would determine unknown `p`, as a sentence.
 std::string missing_datum(const PhysicalEquations& equations, const Eigen::MatrixXd& rows,
                           const Eigen::MatrixXd& loaded, Eigen::Index p) {
   std::vector<std::string> facts;
@@ -122,10 +122,10 @@ std::string missing_datum(const PhysicalEquations& equations, const Eigen::Matri
                      payload_helps ? ", or a second log with a known payload" : "");
 }
 
-/// The solution and what is determined at it.
+/// The solution, and which unknowns it determines.
 struct Solution {
   Eigen::VectorXd log_value, spread, freedom;  ///< of the open unknowns; spread is relative
-  Eigen::MatrixXd rows, loaded;                ///< relative slopes, as they are and of a log with 1 kg
+  Eigen::MatrixXd rows, loaded;                ///< relative slopes, as they are and for a log with 1 kg
   double contradiction = 1.0;                  ///< PhysicalFit::contradiction
 };
 
@@ -183,7 +183,7 @@ ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnkno
   return e;
 }
 
-/// Nothing is made of a guess that is no length of a robot.
+/// Uses a guessed length if it is plausible.
 void guess_length(const PhysicalUnknown& u, double length, PhysicalFit& fit) {
   if (!(length > kShortest_m && length < kLongest_m)) return;
   fit.lengths[u.index] = length;

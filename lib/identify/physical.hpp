@@ -12,17 +12,17 @@ namespace faultline {
 /// Masses and lengths of the links, as far as base parameters and the robot file's facts determine them.
 struct PhysicalFit {
   std::vector<ParameterEstimate> parameters;  ///< m1.., then l1..; NaN where not identifiable
-  /// How far base parameters and facts contradict each other, in their standard errors, where they are more
-  /// than masses and lengths; about 1 where the links are what they are taken for. Intervals are wider by it.
+  /// Contradiction of base parameters and facts, in standard errors, if they exceed masses and lengths in
+  /// number; about 1 if the links are as assumed. Intervals are widened by it.
   double contradiction = 1.0;
-  std::vector<std::string> hardly_told;  ///< those whose interval would reach zero
-  /// Of all links. Where one is neither known nor identified, what positive masses make likely: of a SCARA
-  /// whose l1 is known, b / c bounds l2 to +-20 %.
+  std::vector<std::string> hardly_told;  ///< names of those whose interval would reach zero
+  /// Of all links. If one is neither known nor identified, a guess from positive masses: of a SCARA whose l1
+  /// is known, b / c bounds l2 to +-20 %.
   std::vector<double> lengths;
-  std::vector<std::string> guessed_lengths;  ///< those, such as "l2 (some 0.25 m)"
+  std::vector<std::string> guessed_lengths;  ///< names of the guessed ones, such as "l2 (some 0.25 m)"
 };
 
-/// Base parameters as logs with the same payload give them.
+/// Base parameters from logs with the same payload.
 struct BaseEstimate {
   Eigen::VectorXd estimate;    ///< all parameters of the space
   Eigen::MatrixXd covariance;  ///< of `estimate`
@@ -31,8 +31,8 @@ struct BaseEstimate {
 };
 
 /// Solves the base parameters (weighted by their covariance) and the facts in robot.known for the masses and
-/// lengths of rods and points. The first of `estimates` is the robot without payload; others add what they
-/// carry. What stays open names the facts that would close it.
+/// lengths of rods and points. The first of `estimates` is the robot without payload; others add their
+/// payload. Unknowns that are not determined name the missing facts.
 PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
                                 std::span<const BaseEstimate> estimates);
 

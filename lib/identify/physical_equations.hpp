@@ -10,14 +10,14 @@
 
 namespace faultline {
 
-/// A mass, a length or a carried payload that the equations are solved for.
+/// A mass, a length or a payload of the equations.
 struct PhysicalUnknown {
   std::string name;
   char kind = 'm';  ///< m, l, or p for the payload of group `index`
   int index = 0;    ///< of the link or group
   double value = 1.0;
-  double std = 0.0;    ///< of the fact about it; 0 = none
-  bool exact = false;  ///< given, not to be solved for
+  double std = 0.0;    ///< of the known fact; 0 = none
+  bool exact = false;  ///< given exactly, so not solved for
 };
 
 /// beta(masses, lengths, payload) = estimate for every group of logs with its own payload, in the logarithms
@@ -29,16 +29,16 @@ class PhysicalEquations {
 
   const std::vector<PhysicalUnknown>& unknowns() const { return unknowns_; }
   int open() const;
-  /// Base parameters that can be used, over all groups.
+  /// Number of usable base parameters, over all groups.
   int rows() const;
-  /// Largest absolute value of a base parameter.
+  /// Returns the largest absolute value of a base parameter.
   double scale() const;
 
-  /// Share by which each base parameter of each group changes with each open unknown's logarithm.
+  /// Returns the relative change of each base parameter of each group by each open unknown's logarithm.
   Eigen::MatrixXd relative_slopes(const Eigen::VectorXd& log_open) const;
-  /// The same for the first group alone if it carried `payload` kg more.
+  /// The same for the first group alone with a further payload of `payload` kg.
   Eigen::MatrixXd relative_slopes_loaded(const Eigen::VectorXd& log_open, double payload) const;
-  /// Whitened residual and, when wanted, slopes; facts with doubt below the base parameters.
+  /// Computes the whitened residual and, if `j` is not null, its slopes; uncertain facts come last.
   void evaluate(const Eigen::VectorXd& log_open, Eigen::VectorXd& r, Eigen::MatrixXd* j) const;
 
  private:

@@ -14,17 +14,17 @@ namespace faultline {
 namespace {
 
 constexpr double kWidthDoubt = 1.15;        // of ln(width): a factor of about 3
-constexpr std::size_t kTrialExcerpts = 40;  // looked at first, and fewer than twice as many
-constexpr int kTrialRounds = 2;             // with the noise measured anew: enough to show a regular error
+constexpr std::size_t kTrialExcerpts = 40;  // of the trial, and fewer than twice as many
+constexpr int kTrialRounds = 2;             // with the noise measured anew: enough to show a systematic error
 constexpr int kTrialIterations = 12;        // at most, of a solve in the trial
-constexpr double kRegular = 0.7;            // correlation of neighbouring residuals that is no noise
-constexpr double kFarAboveNoise = 3.0;      // times the log's noise: then what is regular is model error
-constexpr double kWorseTorque = 1.15;       // torque residual against that of the torque fit, and
-constexpr double kTorqueLost = 2e-4;        // of the mean square torque: less is not worth a word
-constexpr double kWork = 4e7;               // rows x joints^2 x (2 joints + free): some seconds
-constexpr int kFewestRows = 4000;           // of the excerpts, however many joints there are
+constexpr double kRegular = 0.7;            // correlation of neighbouring residuals: more is not noise
+constexpr double kFarAboveNoise = 3.0;  // times the log's noise: beyond, a correlated residual is model error
+constexpr double kWorseTorque = 1.15;   // torque residual over that of the torque fit, and
+constexpr double kTorqueLost = 2e-4;    // of the mean square torque: a smaller loss is accepted
+constexpr double kWork = 4e7;           // rows x joints^2 x (2 joints + free): some seconds
+constexpr int kFewestRows = 4000;       // of the excerpts, however many joints there are
 
-/// Facts with doubt about parameters of the space, and a wide one about every friction width.
+/// Returns the uncertain facts about parameters of the space, and a wide prior of every friction width.
 std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& robot) {
   std::vector<ParameterPrior> priors;
   for (int p = 0; p < space.timing(); ++p) {
@@ -51,13 +51,13 @@ std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
   return free;
 }
 
-/// Rows that shooting can afford: the work grows with the cube of the joints.
+/// Returns the number of rows that shooting can afford: the work grows with the cube of the joints.
 int affordable_rows(const ParameterSpace& space, std::size_t free, int most) {
   const double n = space.joints(), each = n * n * (2.0 * n + static_cast<double>(free));
   return std::clamp(static_cast<int>(kWork / each), kFewestRows, std::max(most, kFewestRows));
 }
 
-/// What is left after shooting is motion the model lacks, not noise: neighbours alike and far above it.
+/// Whether the residual of shooting is unmodelled motion, not noise: neighbours alike and far above noise.
 bool model_error_dominates(const ShootingFit& shot, const Eigen::VectorXd& noise) {
   for (Eigen::Index c = 0; c < noise.size(); ++c)
     if (shot.correlation[c] > kRegular && shot.noise[c] > kFarAboveNoise * noise[c]) return true;
@@ -71,8 +71,8 @@ std::vector<Excerpt> some_of(const std::vector<Excerpt>& all) {
   return out;
 }
 
-/// How much more of some joint's torque `parameters` leave than the torque fit does: the share of its mean
-/// square by which they are worse, where they are clearly worse.
+/// Returns the largest increase of a joint's torque residual by `parameters` over the torque fit, as a share
+/// of its mean square torque; 0 without a clear increase.
 double torque_lost(const TorqueFit& torque, const ParameterSpace& space, const Eigen::VectorXd& parameters) {
   const Eigen::VectorXd left = torque.system.y - torque.system.a * parameters.head(space.linear());
   Eigen::VectorXd with = Eigen::VectorXd::Zero(space.joints()), without = with, all = with;
@@ -94,11 +94,11 @@ std::string refusal(const ShootingFit& shot, const Gathered& gathered, const Tor
   const Measurements& m = gathered.measurements;
   if (model_error_dominates(shot, m.noise()))
     return "the motion keeps a regular error that no parameters of this model remove";
-  // On slow logs a fit that was only stopped early is still nearer than windows of a few samples.
+  // On slow logs a fit that was only stopped early is still more accurate than windows of few samples.
   if (!shot.converged && has_fast_log(id)) return "the fit of the motion did not converge";
   const std::string wrong = infeasibility(id.space, shot.parameters, shot.covariance, m.q_low(), m.q_high());
   if (!wrong.empty()) return "in the fit of the motion " + wrong;
-  if (!has_fast_log(id)) return "";  // windows of so few samples know the torque no better
+  if (!has_fast_log(id)) return "";  // windows of so few samples do not determine the torque better
   const double lost = torque_lost(torque, id.space, shot.parameters);
   if (lost > kTorqueLost)
     return fmt::format("the fit of the motion explains {:.2g} % less of some joint's torque", 100.0 * lost);

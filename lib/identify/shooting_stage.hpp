@@ -12,15 +12,15 @@
 
 namespace faultline {
 
-/// Output error by shooting, and why it does not stand when it does not.
+/// Output error by shooting, and the reason if its fit is refused.
 struct ShootingOutcome {
   ShootingFit fit;
-  std::string refused;  ///< empty: the fit stands
+  std::string refused;  ///< empty: the fit is accepted
 };
 
-/// Shoots from the torque fit, first over a few excerpts: where these already show a regular error that no
-/// parameters remove, the rest is spared. The outcome stands when it converged, is a robot that can be, and
-/// explains the torque about as well as the torque fit itself.
+/// Shoots from the torque fit, first over a few excerpts: if these already show a systematic error that no
+/// parameters remove, the rest is skipped. The fit is accepted if it converged, is feasible and explains the
+/// torque about as well as the torque fit.
 ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered, const TorqueFit& torque,
                       const Identification& id, const IdentifyOptions& options, const Progress& progress);
 

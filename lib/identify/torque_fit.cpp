@@ -13,18 +13,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kSmallRotor = 0.02;      // of the inertia its joint moves
-constexpr double kClearlyThere = 4.0;     // standard deviations above zero that rotors and extra terms have
-constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are no doubt any more
-constexpr int kTimingRounds = 3;          // at most, in which the timing gives whole samples to the delay
-constexpr double kTimingSlack = 0.05;     // samples by which a timing beyond is taken for noise
+constexpr double kSmallRotor = 0.02;   // of the inertia that its joint moves: a smaller rotor is negligible
+constexpr double kClearlyThere = 4.0;  // standard deviations above zero that rotors and extra terms need
+constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are clearly negative
+constexpr int kTimingRounds = 3;  // rounds, at most, that move whole samples from the timing to the delay
+constexpr double kTimingSlack = 0.05;  // samples by which noise may move the timing out of its range
 
-/// Whether no robot has this parameter below zero.
+/// Whether the parameter cannot be below zero.
 bool is_not_negative(const ParameterSpace& space, int p) {
   return p < space.rigid() ? space.base[p].is_rotor : p < space.offset(0);
 }
 
-/// An inertia that next to that of its joint nobody would miss.
+/// Returns an inertia that is negligible beside that of its joint.
 double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) {
   const Chain chain = chain_from(space, torque.fit.parameters);
   const int joint = space.base[p].joint;
@@ -32,8 +32,8 @@ double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) 
          std::abs(inertia_matrix(chain, JointVector::Zero(space.joints()).eval())(joint, joint));
 }
 
-/// Friction and rotors that come out a little below zero are none, and so are rotors that are not told from
-/// zero: they are held there and the rest is fitted again.
+/// Holds at zero friction and rotors that are slightly negative, and rotors that do not differ clearly from
+/// zero, and fits the other parameters again.
 void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit& torque) {
   std::vector<bool> moving = torque.wanted;
   std::vector<std::pair<int, double>> held;
@@ -64,8 +64,8 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
   }
 }
 
-/// Extra terms of which the fit makes what no robot has, or what it does not tell from zero: the one least
-/// told first. A ripple's cosine may well be zero.
+/// Removes extra terms that are impossible or do not differ clearly from zero, the least certain first. A
+/// ripple's cosine may well be zero.
 void drop_doubtful_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
   for (;;) {
     int worst = -1;
@@ -82,8 +82,8 @@ void drop_doubtful_extra(const ParameterSpace& space, const Eigen::VectorXd& sta
   }
 }
 
-/// Friction that drives its joint is none: bends that outdo the Coulomb friction and skews that outdo the
-/// viscous go.
+/// Removes friction that would drive its joint: bends beyond the Coulomb friction and skews beyond the
+/// viscous friction.
 void drop_driving_friction(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
   for (int j = 0; j < space.joints(); ++j) {
     const Eigen::VectorXd& p = torque.fit.parameters;
@@ -101,7 +101,7 @@ std::string what_is_wrong(const TorqueFit& torque, const Gathered& gathered, con
   return infeasibility(space, torque.fit.parameters, torque.fit.covariance, m.q_low(), m.q_high());
 }
 
-/// The same fit with every rotor the robot may have: links without them can come out lighter than nothing.
+/// Returns the same fit with every rotor that the robot may have: without them, links can get negative mass.
 TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, const Robot& robot,
                       const Eigen::VectorXd& nominal) {
   TorqueFit out = torque;
@@ -112,14 +112,14 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
   return out;
 }
 
-/// What is free is as doubtful as the friction widths make it.
+/// Adds the covariance of unknown friction widths to that of the free parameters.
 void add_doubt(const Eigen::MatrixXd& doubt, WeakFit& fit) {
   for (Eigen::Index i = 0; i < doubt.rows(); ++i)
     for (Eigen::Index k = 0; k < doubt.cols(); ++k)
       if (fit.covariance(i, i) > 0.0 && fit.covariance(k, k) > 0.0) fit.covariance(i, k) += doubt(i, k);
 }
 
-/// The fit with every joint's torque `later` samples more; as it was where that is beyond what windows hold.
+/// Fits with every torque delayed by `later` more samples, within the windows; false if no shift changes.
 bool delay_all(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                int later, WeakChoice& choice, TorqueFit& torque) {
   const int earliest = windows.shifts.first + 1, latest = windows.shifts.last;
@@ -132,9 +132,8 @@ bool delay_all(const WeakSets& windows, const ParameterSpace& space, const Eigen
   return true;
 }
 
-/// Torque that runs between samples lies between two of them: what the timing says beyond is whole samples of
-/// delay, of all joints. A torque held over its sample would be as right with a sample of delay and held
-/// backwards; that is said without the delay.
+/// Limits the timing to 0 ... 1: beyond, it becomes whole samples of delay of all joints. A torque held over
+/// its sample fits as well with a sample of delay and timing 1; the form without the delay is used.
 void settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                    WeakChoice choice, TorqueFit& torque) {
   const auto phi = [&] { return torque.fit.parameters[space.timing()]; };
@@ -148,8 +147,8 @@ void settle_timing(const WeakSets& windows, const ParameterSpace& space, const E
     delay_all(windows, space, nominal, -1, choice, torque);
 }
 
-/// A delay of its own was chosen with the torque's timing not yet known: half a sample looks like one. A
-/// joint keeps it only where none of the others' delays explains its torque as well.
+/// Removes delays of single joints, which were chosen before the torque's timing was fitted: half a sample
+/// resembles one. A joint keeps its own only if no delay of another joint explains its torque as well.
 void drop_own_delays(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                      WeakChoice choice, TorqueFit& torque) {
   choice.shift = torque.shift;

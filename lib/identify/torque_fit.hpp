@@ -11,17 +11,17 @@
 
 namespace faultline {
 
-/// What the torque balance says.
+/// Result of the torque balance.
 struct TorqueFit {
   WeakSystem system;
   WeakFit fit;
   std::vector<bool> wanted;
   std::vector<int> shift;   ///< by joint, samples
-  std::string not_a_robot;  ///< why what fits best is none, so that the nearest one was taken; else ""
+  std::string not_a_robot;  ///< why the optimum is infeasible (the nearest feasible one was taken); else ""
 };
 
-/// The fit of the torque balance of the chosen windows and terms, brought to a robot that can be. Parameters
-/// that are not wanted stay at `nominal`. Bent friction of `space` gets the widths chosen.
+/// Fits the torque balance of the chosen windows and terms, and makes the result feasible. Parameters that
+/// are not wanted stay at `nominal`. Bent friction of `space` gets the widths chosen.
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
                      const Robot& robot, ParameterSpace& space);
 

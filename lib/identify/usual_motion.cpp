@@ -13,15 +13,15 @@ namespace faultline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kFewestUsualRows = 50;  // of all logs: fewer say nothing of the usual motion
-// Usual sizes, as shares of what the healthy logs show.
+constexpr int kFewestUsualRows = 50;  // of all logs: fewer do not show the usual motion
+// Usual sizes, as shares of quantities of the healthy logs.
 constexpr double kBiasShare = 0.02;         // of the joint's range: some degrees
 constexpr double kDriftShare = 0.02;        // of the joint's range, in a second
-constexpr double kFrictionShare = 0.05;     // of the joint's usual torque: added friction at least
-constexpr double kExternalShare = 0.5;      // of the joint's largest torque: a push
+constexpr double kFrictionShare = 0.05;     // of the joint's rms torque: added friction at least
+constexpr double kExternalShare = 0.5;      // of the joint's largest torque: a collision
 constexpr double kPayloadShare = 0.5;       // of the mass that the robot carries
-constexpr double kUsualCollision_s = 0.05;  // duration of a push, whose largest torque makes the impulse
-// Guards against division by zero, where a robot has no length or a joint never moved.
+constexpr double kUsualCollision_s = 0.05;  // of a collision: times the largest torque, the usual impulse
+// Avoid division by zero, if a robot has no length or a joint never moved.
 constexpr double kLeastReach_m2 = 1e-6;
 constexpr double kLeastVelocity = 1e-6;  // rad/s or m/s
 
@@ -80,8 +80,8 @@ std::vector<JointSums> sums_of(std::span<LogSource* const> logs, int joints) {
   return sums;
 }
 
-/// A mass that a payload is compared with: what a prismatic joint carries, else what the first joint turns,
-/// both in the middle of the range.
+/// Returns the mass that a payload is compared with: that of a prismatic joint, else that which the first
+/// joint turns, both in the middle of the range.
 double carried_mass(const UsualMotion& usual, const Chain& chain) {
   JointVector middle(usual.joints());
   for (int j = 0; j < usual.joints(); ++j) middle[j] = 0.5 * (usual.q_low[j] + usual.q_high[j]);

@@ -164,7 +164,7 @@ void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std
   }
 }
 
-/// Whether the first choice leaves joint `j` more residual, by more than a window is worth and noise.
+/// Whether the first choice leaves joint `j` more residual, beyond noise and kWindowWorthIt.
 bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
   const Gain loss = gain_of(with, against, j);
   return loss.mean > std::max(loss.error, 2.0 * kWindowWorthIt);
