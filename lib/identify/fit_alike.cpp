@@ -178,8 +178,7 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
                    const Eigen::VectorXd& nominal, const IdentifyOptions& options, const Progress& progress,
                    Identification& id) {
   const std::vector<bool>& still = gathered.windows.still;
-  const bool moves =
-      std::count(still.begin(), still.end(), true) == 0;  // all joints do: else M is not identifiable
+  const bool moves = std::count(still.begin(), still.end(), true) == 0;  // all joints move, else M is unknown
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
     if (!still[j]) worst = std::min(worst, torque.fit.r2[j]);

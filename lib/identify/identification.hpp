@@ -44,7 +44,7 @@ struct ParameterEstimate {
   std::array<double, 2> ci95 = {0.0, 0.0};
   std::string unit;
   bool identifiable = false;
-  std::string why_not;  ///< names the missing datum; empty when identifiable
+  std::string why_not;  ///< names the missing datum; empty if identifiable
   std::string meaning;  ///< of a base parameter: its sum of masses and inertias
 };
 

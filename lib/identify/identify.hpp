@@ -17,7 +17,7 @@ struct IdentifyOptions {
   int max_rows = 40000;         ///< rows that shooting uses, spread over all logs
   int max_windows = 6000;       ///< windows that the weak form keeps, spread over all logs
   int max_iterations = 40;      ///< of each least-squares solve
-  bool estimate_offset = true;  ///< friction offset of a joint, kept only if it lowers the held-out error
+  bool estimate_offset = true;  ///< friction offset, bend and skew, if they lower the held-out error
   bool estimate_width = true;   ///< friction width; prior: that of the robot file within a factor of about 3
   bool keep_all = false;        ///< keeps logs that disagree with the others
   int threads = 0;              ///< 0: one per core; the result does not depend on it

@@ -30,7 +30,7 @@ struct ParameterSpace {
                 ///< friction, the rates of ripples, the drives of shared friction and its width; its links
                 ///< and other friction do not count
   std::vector<BaseParameter> base;
-  /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that stand for the base
+  /// (11 n) x base: the links' inertial numbers, then the rotors' inertia, that represent the base
   /// parameters.
   Eigen::MatrixXd lift;
   std::vector<ExtraTerm> extra;
@@ -68,8 +68,8 @@ struct ParameterSpace {
 /// the rotors that act apart from the links (Gautier and Khalil 1990; Atkeson, An and Hollerbach 1986).
 ParameterSpace parameter_space(const Robot& robot);
 
-/// Returns the chain that moves as the parameters say. Its masses and first moments represent the base
-/// parameters and need not be those of the real links.
+/// Returns the chain with these parameters. Its masses and first moments represent the base parameters and
+/// need not be those of the real links.
 Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters);
 
 /// Returns the parameters of `robot` in `space`: the base parameters whose torques are nearest to its own,

@@ -11,7 +11,7 @@ namespace faultline {
 
 /// Masses and lengths of the links, as far as base parameters and the robot file's facts determine them.
 struct PhysicalFit {
-  std::vector<ParameterEstimate> parameters;  ///< m1.., then l1..; NaN where not identifiable
+  std::vector<ParameterEstimate> parameters;  ///< m1.., then l1..; NaN if not identifiable
   /// Contradiction of base parameters and facts, in standard errors, if they exceed masses and lengths in
   /// number; about 1 if the links are as assumed. Intervals are widened by it.
   double contradiction = 1.0;

@@ -27,7 +27,7 @@ struct PieceTimes {
 };
 
 /// A robot fitted to its healthy logs, and to all of them but each one in turn, so that each log can be
-/// judged as held out. Fits without a log renew only the linear parameters; terms, widths and noise stay.
+/// judged as held out. Fits without a log renew only linear parameters and day variance, not terms or noise.
 struct FittedDays {
   BalanceModel model;
   std::vector<BalanceModel> without;  ///< by log

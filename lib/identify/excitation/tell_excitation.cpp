@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kOneWay = 0.98;   // of the moving windows in one direction: beyond, the motion is one-way
 constexpr double kOneSpeed = 0.1;  // standard deviation over mean of the speed: below, the speed is constant
-constexpr double kLeastScale = 0.03;   // of the largest torque scale of the same kind of axis
+constexpr double kLeastScale = 0.03;   // of the largest torque scale of the same kind of joint
 constexpr double kNotShown = 1e-9;     // of the torque scale: smaller columns are zero
 constexpr double kShownMoving = 1e-6;  // of the squared column: least share from moving joints
 constexpr double kWorthNaming = 0.1;   // of the largest weight: least weight listed in the weakest mixture

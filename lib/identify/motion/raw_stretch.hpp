@@ -19,7 +19,7 @@ enum class RepeatedRows {
 /// Consecutive rows of a log without gap or missing value, as recorded. Columns are rows of the log.
 struct RawStretch {
   Eigen::VectorXd time;
-  Eigen::MatrixXd q, dq, tau;  ///< joints x rows; dq is empty when it was not recorded
+  Eigen::MatrixXd q, dq, tau;  ///< joints x rows; dq is empty if it was not recorded
   Eigen::VectorXi stale;       ///< 1: the row repeats the one before; its torque is interpolated
 
   int rows() const { return static_cast<int>(time.size()); }

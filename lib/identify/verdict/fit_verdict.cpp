@@ -119,7 +119,7 @@ void find_unexplained(const std::vector<int>& still, Identification& id) {
                            fmt::join(joints, ", "));
 }
 
-/// Finds moving, driven joints whose torque the model explains in part only, or only where it was fitted.
+/// Finds moving, driven joints whose torque is explained in part only, or not in held-out windows.
 void find_poorly_explained(const std::vector<int>& exempt, Identification& id) {
   if (id.status != IdentificationStatus::converged) return;
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {
