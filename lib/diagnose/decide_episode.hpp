@@ -8,9 +8,9 @@
 
 namespace faultline {
 
-/// Names what an episode is: evidence by label -> features -> the opinions of MLP and RBFN -> votes of
-/// similar cases -> the decision, and only then all that is said about it. Its label is FaultKind::none where
-/// nothing was found that stands up to its own likelihood.
+/// Decides which fault an episode is: evidence by label -> features -> the opinions of MLP and RBFN -> votes
+/// of similar cases -> the decision, from which the texts of the finding follow. If networks and votes decide
+/// nothing, the label is that of the likeliest fault.
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases);
 
 }  // namespace faultline

@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// An episode with its decision: what a finding is written from. Views of what outlives it.
+/// An episode with its decision, from which a finding is made. What it refers to outlives it.
 struct DecidedEpisode {
   const MonitoredEpisode& observed;
   const DecisionBasis& basis;

@@ -8,15 +8,15 @@
 
 namespace faultline {
 
-/// All that a decision on an episode is made from.
+/// The input of a decision on an episode.
 struct DecisionBasis {
-  /// The fault that explains the log best; FaultKind::unknown where a change of any form explains much more.
+  /// The fault that explains the log best; FaultKind::unknown if the free form explains it much better.
   FaultLabel likeliest;
   std::vector<FaultLabel> as_likely;    ///< explain the log almost as well
   std::vector<LabelEvidence> evidence;  ///< of each label
   Episode episode;                      ///< features, and the opinions of both networks
   Votes votes;                          ///< of similar cases
-  double limit = 0.0;                   ///< nats that the evidence had to pass
+  double limit = 0.0;                   ///< limit of the evidence, nats
 };
 
 }  // namespace faultline

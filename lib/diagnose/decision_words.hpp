@@ -8,10 +8,10 @@
 
 namespace faultline {
 
-/// Why it was decided so, one sentence for a person.
+/// Returns the reason for a decision, in one sentence.
 std::string reason_in_words(const Decision& decision, const DecisionBasis& basis);
 
-/// What similar cases hold against the decision, a sentence each.
+/// Lists what contradicts the decision among similar cases, a sentence each.
 std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes,
                                            const DecisionOptions& options = {});
 

@@ -10,10 +10,10 @@
 
 namespace faultline {
 
-/// What the model makes of an episode before anything is decided.
+/// An episode in the terms of a decision, before it is made.
 struct DescribedEpisode {
   std::vector<LabelEvidence> evidence;  ///< of each label
-  Episode episode;  ///< as the case base compares it; no opinions while the networks are not trained
+  Episode episode;  ///< as the case base compares it; without opinions if the networks are not trained
 };
 
 DescribedEpisode describe_episode(const MonitoredEpisode& observed, const Model& model);

@@ -7,9 +7,9 @@
 
 namespace faultline {
 
-/// How faults are told.
+/// How faults are found and named.
 enum class ClassifyMode {
-  evidence,  ///< the regression finds episodes, both networks classify their evidence, cases settle
+  evidence,  ///< the regression finds episodes, both networks classify their evidence, cases decide
   samples,   ///< the paper's: both networks over the residuals of each sample, and the fault criterion
 };
 inline constexpr std::array kClassifyModes{ClassifyMode::evidence, ClassifyMode::samples};

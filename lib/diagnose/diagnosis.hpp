@@ -23,18 +23,18 @@ enum class Verdict {
   not_run,
   healthy,
   faulty,
-  inconclusive,  ///< too little of the log could be judged; `verdict_reason` says why
+  inconclusive,  ///< neither faulty nor surely healthy; `verdict_reason` gives the reason
 };
 const char* to_string(Verdict verdict);
 
-/// One thing in which a case and an episode agree or differ.
+/// A feature in which a case and an episode agree or differ.
 struct PrecedentFeature {
   std::string name;  ///< of the feature, as in EpisodeFacts
   std::string what;  ///< in words
   std::string unit;
   double here = std::numeric_limits<double>::quiet_NaN();   ///< in the episode
   double there = std::numeric_limits<double>::quiet_NaN();  ///< in the case
-  double difference = 0.0;  ///< in units of what cases of the same fault commonly differ by
+  double difference = 0.0;  ///< in units of the usual difference between cases of the same fault
 };
 
 /// A case of the case base that resembles an episode.
@@ -44,13 +44,13 @@ struct Precedent {
   double similarity = 0.0;  ///< 0 to 1
   std::string what_was_done{};
   CaseOrigin origin = CaseOrigin::simulated;
-  std::string origin_text{};  ///< in words; who says what it was, and when
-  std::string log{};          ///< that it was seen in; empty where that is not known, as the next three
+  std::string origin_text{};  ///< in words, with who labelled it, and when
+  std::string log{};          ///< in which it occurred; empty if not known, as the next three
   std::string robot{};
   std::string person{};
   std::string date{};
   bool voted = true;                      ///< false: too far behind for a vote, but near and not simulated
-  std::vector<PrecedentFeature> alike{};  ///< a few, those that tell most first
+  std::vector<PrecedentFeature> alike{};  ///< a few, the most significant first
   std::vector<PrecedentFeature> unlike{};
 };
 
@@ -59,7 +59,7 @@ struct Alternative {
   std::string why;
 };
 
-/// A number that speaks for a finding.
+/// A number or a remark in support of a finding, or a warning against it.
 struct EvidenceItem {
   std::string name;  ///< stable identifier, such as "log_likelihood_ratio"
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -67,19 +67,19 @@ struct EvidenceItem {
   std::string text;  ///< one line for a person
 };
 
-/// What the case base compares, so that a finding can be added to it as a case later.
+/// The features that the case base compares, so that a finding can be added to it as a case later.
 struct EpisodeFacts {
   double evidence = std::numeric_limits<double>::quiet_NaN();  ///< log likelihood ratio (Episode::evidence)
   std::vector<std::pair<std::string, double>> features;  ///< by CaseBase::feature_names(); NaN = not measured
 };
 
-/// How large a fault is, by the size that describes its kind.
+/// The size of a fault, in the measure of its kind.
 struct FaultExtent {
   double size = std::numeric_limits<double>::quiet_NaN();
   double least_size = std::numeric_limits<double>::quiet_NaN();  ///< from which on it is reported as a fault
   std::string unit;                                              ///< "1" for a share of the torque
-  /// Every size of the kind over the least one of it, the largest of them: below 1 it is too small to act on.
-  /// NaN where no size is known.
+  /// The largest ratio of a size of the kind to its least size: below 1 the fault is too small to act on. NaN
+  /// if no size is known.
   double times_least = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -91,8 +91,8 @@ struct FaultFinding {
   double alarm_s =
       std::numeric_limits<double>::quiet_NaN();  ///< earliest sample that would have raised the alarm
   double end_s = std::numeric_limits<double>::quiet_NaN();  ///< last sample that shows it
-  int run = 0;                  ///< of a log with several, from 1: the one it began in; 0 where there is one
-  double clock_offset_s = 0.0;  ///< of that run: its own clock shows so much less
+  int run = 0;                  ///< in which it began, from 1; 0 for a log with a single run
+  double clock_offset_s = 0.0;  ///< of that run: time in the log minus time of its own clock
   double confidence = 0.0;      ///< 0 to 1
   Opinion mlp;
   Opinion rbfn;
@@ -102,10 +102,10 @@ struct FaultFinding {
   std::vector<EvidenceItem> evidence;
   std::string next_check;  ///< what a technician should look at next
   EpisodeFacts episode;
-  EvidenceTrace trace;  ///< empty where no hypotheses were followed
+  EvidenceTrace trace;  ///< empty for a finding that is not from the regression
 };
 
-/// Code of the severe issue of a log that is not what the model takes it for.
+/// Code of the severe issue of a log that contradicts the model (wrong unit, sign, columns, clock or robot).
 inline constexpr const char* kMisreadLog = "misread_log";
 
 /// A stretch of a log in which a joint could not be judged for longer than a moment (judged_moment_s()), at
@@ -116,11 +116,11 @@ struct UnjudgedStretch {
   double end_s = 0.0;    ///< first row after it that was judged, or the last row
   bool lacks_position = false, lacks_torque = false;
   bool is_last = false;  ///< it lasts to the end of its run
-  double share = 1.0;    ///< of it that was not judged: less where it was judged now and then
+  double share = 1.0;    ///< of it that was not judged: below 1 if some rows in it were judged
 };
 
 struct LogFacts {
-  std::string path;  ///< as given, without leading folders that name a machine
+  std::string path;  ///< as given if it is relative, else the file name, so that it names no machine
   std::string sha256;
   std::string format;
   std::int64_t rows_read = 0;
@@ -131,12 +131,12 @@ struct LogFacts {
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
   bool has_velocity = false;
-  bool is_tracked = false;                ///< without torque: held against references only
-  std::vector<LogRun> runs;               ///< of its clock; one where it never restarts, or none for no file
+  bool is_tracked = false;                ///< without torque: compared with references only
+  std::vector<LogRun> runs;               ///< of its clock; one if it never restarts, none without a file
   std::vector<UnjudgedStretch> unjudged;  ///< by start
-  std::vector<int> resting;               ///< joints, from 1, that hardly moved beside the healthy logs
-  std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
-  bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
+  std::vector<int> resting;        ///< joints, from 1, that hardly moved compared with the healthy logs
+  std::int64_t rows_unjudged = 0;  ///< of the joint log: without a position or torque, or left out
+  bool is_whole = true;            ///< every row is used and judged, and none is missing within the log
   Issues issues;
 };
 
@@ -144,7 +144,7 @@ struct ModelFacts {
   std::string name;
   std::string sha256;
   std::string cases_sha256;
-  std::vector<std::string> notes{};         ///< what its reader must know of the model, a sentence each
+  std::vector<std::string> notes{};         ///< remarks on the model for the reader, a sentence each
   std::vector<std::string> grave_doubts{};  ///< Model::grave_doubts
 };
 
@@ -157,10 +157,11 @@ struct Diagnosis {
   std::vector<JointResidual> residuals;     ///< of the MLP over the whole log, a joint each
   std::vector<FaultFinding> faults;         ///< by onset
   std::vector<FaultFinding> small_changes;  ///< below the least size of their kind: no faults, by onset
-  std::vector<ConditionItem> condition;     ///< what differs from day to day; empty where it was not followed
-  /// By joint: torque that the model misses, times that in the learned logs; empty where that is as usual.
+  std::vector<ConditionItem> condition;     ///< effects of the day; empty if they were not estimated
+  /// By joint: noise level of the rows (torque that the model misses) over that of the learned logs, in the
+  /// noisiest window; empty if it was not estimated.
   std::vector<double> roughness;
-  double judged_share = 1.0;  ///< of the log, whose rows the regression could use; 1 where it has no part
+  double judged_share = 1.0;  ///< share of the log that the regression could use; 1 if it was not used
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
 };

@@ -12,7 +12,7 @@
 
 namespace faultline {
 
-/// A finding as an event of a log: what an index of many logs and a golden log hold of it.
+/// A finding as an event of a log, as an index of many logs and a golden log store it.
 struct FaultEvent {
   FaultLabel label;
   double onset_s = std::numeric_limits<double>::quiet_NaN();
@@ -23,8 +23,8 @@ struct FaultEvent {
   double clock_offset_s = 0.0;  ///< as FaultFinding::clock_offset_s
 };
 
-/// A time of a fault: "12.345 s", of a log with several runs "12.345 s (1.234 s on its clock)". `Fault` is a
-/// FaultEvent or a FaultFinding.
+/// Formats a time of a fault: "12.345 s", in a log with several runs "12.345 s (1.234 s on its clock)".
+/// `Fault` is a FaultEvent or a FaultFinding.
 template <typename Fault>
 std::string clock_words(const Fault& fault, double time_s, double sample_period_s) {
   const std::string time = time_text(time_s, sample_period_s);
@@ -32,8 +32,8 @@ std::string clock_words(const Fault& fault, double time_s, double sample_period_
   return time + " (" + time_text(time_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
 }
 
-/// "12.345 s", of a log with several runs "12.345 s (run 2, 1.234 s on its clock)". `Fault` is a FaultEvent
-/// or a FaultFinding.
+/// Formats the onset: "12.345 s", in a log with several runs "12.345 s (run 2, 1.234 s on its clock)".
+/// `Fault` is a FaultEvent or a FaultFinding.
 template <typename Fault>
 std::string onset_words(const Fault& fault, double sample_period_s) {
   const std::string onset = time_text(fault.onset_s, sample_period_s);
@@ -43,12 +43,13 @@ std::string onset_words(const Fault& fault, double sample_period_s) {
 }
 
 FaultEvent event_of(const FaultFinding& finding);
-/// In the order of the findings.
+/// Converts each finding, in the same order.
 std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings);
 
-/// With null for a number that is not finite and for the joint of a fault that belongs to none.
+/// Writes an event, with null for a number that is not finite and for the joint of a fault without a joint.
 nlohmann::ordered_json to_json(const FaultEvent& event);
-/// Throws nlohmann::json::exception when a key is missing or of another type, Error for an unknown kind.
+/// Reads an event. Throws nlohmann::json::exception when a key is missing or of another type, Error for an
+/// unknown kind.
 FaultEvent fault_event_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace faultline

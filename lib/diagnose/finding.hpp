@@ -9,14 +9,14 @@
 
 namespace faultline {
 
-/// All that is said about an episode once the decision stands, but for similar cases (precedents_of()): what
-/// it could also be, what speaks for it, and what to check next.
+/// Makes the finding of a decided episode, without similar cases (precedents_of()): label, times and size,
+/// alternatives, evidence, and what to check next.
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model);
 
-/// Friction that is far beyond that of healthy days from the first row of a log on.
+/// Makes the finding of a friction that is far beyond that of healthy days from the first row of a log on.
 FaultFinding finding_of(const LastingFriction& fault, const Chain& chain);
 
-/// What the paper's criterion found, with the other words of single networks as alternatives.
+/// Makes the finding of an alarm of the paper's criterion; other labels of single networks are alternatives.
 FaultFinding finding_of(const SampleAlarm& alarm);
 
 }  // namespace faultline

@@ -8,12 +8,12 @@
 
 namespace faultline {
 
-/// A stretch of a log that the healthy robot does not explain, as monitoring leaves it: all that a decision
-/// is made from.
+/// A stretch of a log that the healthy robot does not explain, as found by monitoring and before the
+/// decision.
 struct MonitoredEpisode {
   ExplainedFault fault;
   double end_s = 0.0;                      ///< when the fault ended, or the last sample that was judged
-  std::vector<JointResidual> residuals{};  ///< of the MLP, a joint each, over some seconds from the onset on
+  std::vector<JointResidual> residuals{};  ///< of the MLP, by joint, over kEpisodeResiduals_s from the onset
 
   double onset_s() const { return fault.claim.onset_s; }
   double alarm_s() const { return fault.alarm_s; }

@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// The cases that a report shows beside an episode: those that voted, and near ones that were not simulated;
-/// first what was confirmed in the field, then labelled logs, diagnosed and simulated cases, of each the most
-/// similar first. Says of each what agrees and what does not.
+/// Returns the cases that a report shows beside an episode: those that voted, and near ones that were not
+/// simulated; first those confirmed in the field, then labelled, diagnosed and simulated cases, of each
+/// origin the most similar first. Each lists features that agree and features that differ.
 std::vector<Precedent> precedents_of(const DecisionBasis& basis, const CaseBase& cases, const Model& model);
 
 }  // namespace faultline

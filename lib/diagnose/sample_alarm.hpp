@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// A stretch of a log that the paper's fault criterion calls faulty, with what each network alone says of it.
+/// A stretch of a log that the paper's fault criterion calls faulty, with the opinion of each network alone.
 struct SampleAlarm {
   SampleEpisode episode;
   Opinions opinions;

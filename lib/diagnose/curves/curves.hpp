@@ -19,11 +19,11 @@ struct JointCurves {
   Envelope q,
       q_predicted;  ///< rad or m; predicted one step ahead by the residual generator, or its reference
   Envelope dq, dq_predicted;    ///< rad/s or m/s
-  Envelope tau, tau_required;   ///< N m or N; required of the healthy robot by the motion that was measured
+  Envelope tau, tau_required;   ///< N m or N; tau_required: of the healthy robot for the measured motion
   std::vector<float> residual;  ///< one a bin: largest magnitude of the normalised velocity residual
 };
 
-/// What the paper's networks say of each sample about one label: near 1 when it is there.
+/// Outputs of the paper's networks for one label, sample by sample: near 1 if the label applies.
 struct NetworkCurves {
   FaultLabel label;
   Envelope mlp, rbfn;
@@ -43,13 +43,13 @@ struct CurveWindow {
   }
 };
 
-/// The course of a run, small enough to look at however long it was.
+/// The course of a run, in a number of bins that does not grow with its length.
 struct RunCurves {
   CurveWindow whole;
   std::vector<CurveWindow> details;      ///< around the first faults, by onset
   std::vector<double> healthy_residual;  ///< largest normalised velocity residual when healthy, a joint each
   std::vector<char> turns;               ///< 1 for a revolute joint
-  bool by_reference = false;  ///< what is called predicted is the reference: the log was only tracked
+  bool by_reference = false;             ///< the predicted curves are references: the log was only tracked
   TorqueMeaning torque = TorqueMeaning::measured;  ///< what `tau` is
   double alarm_ratio = 0.0;                        ///< least log likelihood ratio that raises an alarm
 

@@ -14,7 +14,7 @@ class EnvelopeBuilder {
  public:
   explicit EnvelopeBuilder(int bins = 0) : bins_(static_cast<std::size_t>(bins)) {}
 
-  /// A number that is not finite was not measured: it leaves a gap.
+  /// Adds a sample to a bin. A value that is not finite was not measured: it leaves a gap.
   void add(int bin, double value) {
     Bin& b = bins_[static_cast<std::size_t>(bin)];
     const auto v = static_cast<float>(value);
@@ -31,7 +31,7 @@ class EnvelopeBuilder {
     }
   }
 
-  /// A single bin between two samples of a jittering clock holds the value before it.
+  /// Returns the envelope. A single bin that the samples of a jittering clock skip holds the value before it.
   Envelope envelope() const {
     Envelope out;
     if (!any_) return out;

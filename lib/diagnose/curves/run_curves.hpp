@@ -19,8 +19,8 @@ struct RunCurvesOptions {
   double tail_samples = 80;
 };
 
-/// The curves of a log that was diagnosed, by a second pass over it from its first row. Memory does not grow
-/// with the log, and where segments end changes nothing. Empty for a log without a span of time.
+/// Returns the curves of a diagnosed log, by a second pass over it from its first row. Memory does not grow
+/// with the log, and the result does not depend on segment borders. Empty for a log without duration.
 RunCurves run_curves(LogSource& log, const Model& model, const Diagnosis& diagnosis,
                      const RunCurvesOptions& options = {});
 

@@ -12,15 +12,15 @@
 
 namespace faultline {
 
-/// Gathers the curves of one stretch of a log as segments stream by, in order; where segments end changes
-/// nothing.
+/// Gathers the curves of one stretch of a log as segments stream by, in order; the result does not depend on
+/// segment borders.
 class WindowCurves {
  public:
-  /// `labels`: what the networks are asked about in this window; none for a window that does not show them.
+  /// `labels`: those whose network outputs the window shows; empty for a window without outputs.
   WindowCurves(const CurveWindow& window, const Model& model, const std::vector<FaultLabel>& labels);
 
-  /// The rows of `segment`, the predictions that end in it, and the torque required at its rows (empty where
-  /// none is known).
+  /// Adds the rows of `segment`, the predictions that end in it, and the torque required at its rows (may be
+  /// empty).
   void take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque);
   CurveWindow curves() const;
 
@@ -34,7 +34,7 @@ class WindowCurves {
     EnvelopeBuilder mlp, rbfn;
   };
 
-  /// Where predictions were put last. One stands for the bins since the one before it, too.
+  /// The last bin that predictions filled. A prediction also fills the empty bins since the one before it.
   struct Reached {
     int bin = -1;
     double time_s = 0.0;

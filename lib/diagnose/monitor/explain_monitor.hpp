@@ -14,13 +14,13 @@
 
 namespace faultline {
 
-/// From an onset on, over which the residuals of an episode are told.
+/// Length from the onset on over which the residuals of an episode are summed up.
 inline constexpr double kEpisodeResiduals_s = 3.0;
 
 /// Gathers the rows of a log in windows (ExplainModel::window_s) and explains each of them. Windows overlap,
 /// so that an onset has rows before and behind it; a gap or a restart of the clock ends a window. A fault
-/// that lasts is known to the next window. Where segments end changes nothing, and memory does not grow with
-/// the log.
+/// that lasts is handed on to the next window. The result does not depend on segment borders, and memory does
+/// not grow with the log.
 class ExplainMonitor {
  public:
   /// The model outlives this. `signals` are the stretches of the log in which its other signals contradict
@@ -28,20 +28,20 @@ class ExplainMonitor {
   explicit ExplainMonitor(const Model& model, std::vector<SignalStretch> signals = {})
       : model_(model), unjudged_(signals.begin(), signals.end()) {}
 
-  /// The next rows with their residuals; `runs` are those known so far.
+  /// Takes the next rows with their residuals; `runs` are those known so far.
   void take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs);
-  /// After the last segment.
+  /// Ends the log, after the last segment.
   void finish();
 
   /// By onset.
   const std::vector<MonitoredEpisode>& episodes() const { return episodes_; }
   /// The stretches that are faults, by onset.
   const std::vector<JudgedStretch>& stretches() const { return stretches_; }
-  /// What the log tells of the effects of its day; empty where nothing could be explained.
+  /// Estimates of the effects of the day; empty if no window could be explained.
   std::vector<DayEffect> day() const;
-  /// Share of the log whose rows count for the regression; 0 where no window could be explained.
+  /// Share of the log whose rows count for the regression; 0 if no window could be explained.
   double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
-  /// By joint: the noise of the rows, times that of the healthy logs, in the loudest window.
+  /// By joint: noise level of the rows over that of the healthy logs, in the noisiest window.
   const std::vector<double>& loudness() const { return loudness_; }
 
  private:
@@ -59,7 +59,7 @@ class ExplainMonitor {
     FaultClaim claim;
     std::size_t episode = 0;
 
-    /// The rows of an unknown fault that lasts say nothing: the next window looks at them anew.
+    /// Rows of an unknown fault that lasts would be silent, so the next window judges them anew.
     bool is_handed_on() const { return claim.kind != FaultKind::unknown || claim.end_s < kNeverEnds; }
   };
 
@@ -69,11 +69,11 @@ class ExplainMonitor {
   const Model& model_;
   Log window_;
   std::deque<Residuals> residuals_;  ///< of the window
-  std::optional<double> decided_s_;  ///< up to which the windows before have decided
+  std::optional<double> decided_s_;  ///< time up to which the windows before have decided
   std::size_t run_ = 0;
   std::vector<Lasting> lasting_;
   std::vector<MonitoredEpisode> episodes_;
-  std::deque<SignalStretch> unjudged_;  ///< that begin where the windows before have not decided
+  std::deque<SignalStretch> unjudged_;  ///< those that begin after decided_s_
   std::vector<JudgedStretch> stretches_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
   std::vector<double> loudness_;

@@ -10,18 +10,18 @@
 
 namespace faultline {
 
-/// Follows a log for the stretches in which a joint could not be judged: rows without its position or torque
-/// (where the log has torque), and missing rows. What lies between two runs is none.
+/// Finds the stretches of a log in which a joint could not be judged: rows without its position or torque (if
+/// the log has torque), and missing rows. The time between two runs is no such stretch.
 class JudgedStretches {
  public:
-  /// The next rows; `runs` are those known so far.
+  /// Takes the next rows; `runs` are those known so far.
   void take(const Log& segment, const std::vector<LogRun>& runs);
-  /// Those longer than a moment at this sample period, by start; complete after the last row.
+  /// Returns those longer than a moment at this sample period, by start; complete after the last row.
   std::vector<UnjudgedStretch> longer_than_a_moment(double sample_period_s) const;
 
  private:
   struct Joint {
-    double judged_s = 0.0;  ///< last row at which it was, or the run's first
+    double judged_s = 0.0;  ///< last row at which it was judged, or the run's first
     bool lacks_position = false, lacks_torque = false;
   };
 

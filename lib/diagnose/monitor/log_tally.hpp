@@ -16,7 +16,7 @@ namespace faultline {
 /// Throws Error(input) when the log has other joints than the model's robot.
 void check_joints(const Log& segment, const LogSource& log, const Model& model);
 
-/// What was read of a log, whatever is made of it.
+/// Counts what is read of a log, however it is judged.
 struct LogTally {
   std::int64_t rows = 0;
   double start_s = std::numeric_limits<double>::quiet_NaN();
@@ -28,11 +28,11 @@ struct LogTally {
   QualityState quality;  ///< gaps, missing values, implausible units and the like
 
   /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither
-  /// torque nor, with a model that can do with them, references.
+  /// torque that the model can judge nor references that a tracking relation of the model needs.
   void take(const Log& segment, const LogSource& log, const Model& model);
 };
 
-/// The facts of a log that was read to its end.
+/// Returns the facts of a log that was read to its end.
 LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model);
 
 }  // namespace faultline

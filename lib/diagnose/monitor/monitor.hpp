@@ -8,17 +8,17 @@
 
 namespace faultline {
 
-/// The loop of the whole program: every segment goes through the residuals of the regenerated fault-free
+/// Main loop of the program: leads every segment of a log through the residuals of the regenerated fault-free
 /// motion and on to the regression, or to the networks over single samples. Memory does not grow with the
-/// log, and where segments end changes nothing. Throws Error(input) when the log has other joints than the
-/// model's robot, or no torque.
+/// log, and the result does not depend on segment borders. Throws Error(input) when the log has other joints
+/// than the model's robot, or neither torque nor references that the model can judge.
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options = {});
 
-/// The same of a simulated log whose fault is known to last from `onset_s` to `end_s`: nothing is searched
-/// (explain_at()), and of the log's facts none are told.
+/// Monitors a simulated log whose fault is known to last from `onset_s` to `end_s`: onset and end are not
+/// searched (explain_at()). The result has at most one episode, and no facts of the log.
 MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, double end_s);
 
-/// What is known of a log whose rate or clock lets nothing of it be judged: read once, with no finding.
+/// Reads a log once that cannot be judged because of its rate or clock, and returns its facts alone.
 MonitoredLog read_unjudged(LogSource& log, const Model& model);
 
 }  // namespace faultline

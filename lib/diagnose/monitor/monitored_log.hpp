@@ -12,17 +12,17 @@
 
 namespace faultline {
 
-/// What one pass over a log gives before anything is decided.
+/// The result of monitoring a log, before anything is decided.
 struct MonitoredLog {
   LogFacts log;
   std::vector<JointResidual> residuals;            ///< of the MLP, over the whole log
   std::vector<MonitoredEpisode> episodes;          ///< found by the regression
   std::vector<SampleAlarm> sample_alarms;          ///< found by the paper's fault criterion
-  std::vector<DayEffect> day;                      ///< empty where nothing was explained
+  std::vector<DayEffect> day;                      ///< empty if no window was explained
   std::vector<RelationEpisode> relation_episodes;  ///< of the second residuals, by onset
   std::vector<JudgedStretch> stretches;            ///< those that are faults; `id` is the episode's index
-  std::vector<double> relations_judged_s;  ///< by relation of the model: for how long this log showed it
-  std::vector<double> relations_beyond_s;  ///< likewise: beyond all that was learned, so not judged
+  std::vector<double> relations_judged_s;  ///< by relation of the model: for how long it was judged, s
+  std::vector<double> relations_beyond_s;  ///< by relation: for how long beyond the learned inputs, s
   std::vector<double> roughness;           ///< Diagnosis::roughness
   double judged_share = 1.0;               ///< Diagnosis::judged_share
 };

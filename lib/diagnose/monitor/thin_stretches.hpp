@@ -11,15 +11,15 @@
 
 namespace faultline {
 
-/// Follows a log for the stretches in which a joint was judged again and again, but not enough: of ten
-/// moments in succession (judged_window_s()) more than a quarter was not judged, in pieces none of which is
-/// longer than a moment. Of a run that is shorter, a quarter of it counts, and more than a moment.
-/// JudgedStretches has the longer pieces.
+/// Finds the stretches of a log in which a joint was judged again and again, but not enough: of ten moments
+/// in succession (judged_window_s()) more than a quarter was not judged, in pieces none of which is longer
+/// than a moment. In a run shorter than ten moments the limit is a quarter of its length, but at least one
+/// moment. JudgedStretches has the longer pieces.
 class ThinStretches {
  public:
-  /// The next rows, where single lost rows stand as empty ones; `runs` are those known so far.
+  /// Takes the next rows, in which single lost rows are empty ones; `runs` are those known so far.
   void take(const Log& segment, const std::vector<LogRun>& runs);
-  /// By start; complete after the last row. A row without any position counts for no joint (0).
+  /// Returns them by start; complete after the last row. Rows without any position are reported as joint 0.
   std::vector<UnjudgedStretch> stretches() const;
 
  private:
@@ -28,13 +28,13 @@ class ThinStretches {
     double unjudged_s = 0.0;
     bool lacks_position = false, lacks_torque = false;
   };
-  /// What was not judged of a joint, or of the rows themselves.
+  /// The pieces of a joint, or of the rows themselves, that were not judged.
   struct Course {
-    double judged_s = 0.0;  ///< last row at which it was, or the run's first
+    double judged_s = 0.0;  ///< last row at which it was judged, or the run's first
     bool lacks_position = false, lacks_torque = false;
     std::deque<Piece> window;  ///< pieces of the latest ten moments
     double window_s = 0.0;     ///< their sum
-    Piece stretch;             ///< the latest one that is too thin; empty where it has no length
+    Piece stretch;             ///< the latest stretch with too much unjudged time; none if its length is 0
   };
 
   void begin();
@@ -47,7 +47,7 @@ class ThinStretches {
   void grow(std::size_t course, double enough_s);
   std::vector<UnjudgedStretch> without_doubles() const;
 
-  Log head_;  ///< the first rows, until there are enough to tell the period
+  Log head_;  ///< the first rows, until there are enough to estimate the period
   std::vector<LogRun> head_runs_;
   bool has_begun_ = false;
   double period_s_ = 0.0, moment_s_ = 0.0, width_s_ = 0.0;

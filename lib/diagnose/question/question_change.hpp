@@ -9,17 +9,17 @@
 
 namespace faultline {
 
-/// From a row on, the columns of a log mean something else than before.
+/// A change of the meaning of a log's columns from a row on.
 struct ReadingChange {
   std::int64_t row = 0;  ///< about, from 1
   double at_s = 0.0;
-  std::string what;  ///< a sentence's words such as "q2 is in deg"
+  std::string what;  ///< the new meaning as a clause, such as "q2 is in degrees"
 };
 
-/// Asks whether what looks like a fault from `onset_s` on is a change of the columns: other units, signs or
-/// swapped columns that explain the torque of every joint behind it as well as the plain columns explain it
-/// before, where the plain ones do not behind it. A fault of the robot is explained by none of them. Rewinds
-/// the log before and after.
+/// Tests whether an apparent fault from `onset_s` on is a change of the columns: other units, signs or
+/// swapped columns that explain the torque of every joint after it about as well as the plain columns explain
+/// it before, and one joint far better than the plain columns do. None of them explains a fault of the robot.
+/// Returns the interpretation that fits best, nullopt if none does. Rewinds the log before and after.
 std::optional<ReadingChange> question_change(LogSource& log, const KnownRobot& robot, double onset_s);
 
 }  // namespace faultline

@@ -8,26 +8,26 @@
 
 namespace faultline {
 
-/// Why a log does not mean what the model takes it for.
+/// The likely reason for which a log contradicts the model from the start.
 struct ReadingDoubt {
   std::string
-      what;  ///< likely cause, a sentence's words such as "the angles are in degrees"; empty: no doubt
-  std::string cure;  ///< what to do about it, an order
+      what;  ///< likely cause as a clause, such as "the angles are in degrees"; empty: no contradiction
+  std::string cure;  ///< what to do, as an instruction
 
   bool is_empty() const { return what.empty(); }
 };
 
-/// Asks whether a log ever fitted the robot of a model: whether each joint that moves has moments in which
-/// the torque logged is the one needed, and a velocity that is the position's. Where it has none, other
-/// units, signs, swapped columns, a late torque and a current are tried on the log's
-/// beginning; without one that explains it, two joints that never come near their torque are another robot. A
-/// fault that begins later, or on one joint, is no doubt. The log is at the rate of the model's logs. Rewinds
-/// it before and after.
+/// Tests whether a log ever fits the robot of a model: whether each joint that moves has moments in which the
+/// logged torque is the required one, and a velocity that is the derivative of its position. If not, other
+/// units, signs, swapped columns, a delayed torque and a current are tried on the beginning of the log; if
+/// none explains it, two joints that never come near their required torque indicate another robot. A fault
+/// that begins later, or on one joint, does not contradict the model. The log must be at the rate of the
+/// model's logs. Rewinds it before and after.
 ReadingDoubt question_reading(LogSource& log, const KnownRobot& robot);
 
-/// Asks whether a log at another rate than the model's logs, which have a row every `sample_period_s`, has
-/// stamps that run too fast or too slow: whether its motion is explained when its rows are so far apart.
-/// Rewinds the log before and after.
+/// Tests whether a log at another rate than the model's logs, which have a row every `sample_period_s`, has
+/// stamps that run too fast or too slow: whether its motion is explained if its rows are `sample_period_s`
+/// apart. Rewinds the log before and after.
 ReadingDoubt question_clock(LogSource& log, const KnownRobot& robot, double sample_period_s);
 
 }  // namespace faultline

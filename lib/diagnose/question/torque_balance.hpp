@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// The identified robot that a log is held against, and its usual motion.
+/// The identified robot that a log is compared with, and its usual motion.
 struct KnownRobot {
   const Robot& robot;
   const UsualMotion& usual;
@@ -19,36 +19,36 @@ struct KnownRobot {
   double torque_phi() const { return robot.torque_phi.value_or(0.0); }
 };
 
-/// The torque of one joint in means over windows of a tenth of a second or more in which the joint moves, in
+/// The torque of one joint as means over windows of a tenth of a second or more in which the joint moves, in
 /// the order of time.
 struct JointBalance {
   std::vector<double> time_s;   ///< start of each window
   std::vector<double> logged;   ///< N m or N
-  std::vector<double> body;     ///< that moves and holds the bodies along the logged motion
-  std::vector<double> braking;  ///< that friction and ripples take
-  /// Measured velocity over the derivative of the position, where they are one quantity in two units; else 1.
+  std::vector<double> body;     ///< required for inertia and gravity along the logged motion, N m or N
+  std::vector<double> braking;  ///< required for friction and ripple, N m or N
+  /// Measured velocity over the derivative of the position if they are one quantity in two units; else 1.
   double velocity_factor = 1.0;
 
   std::size_t windows() const { return logged.size(); }
 };
 
-/// What the robot needs for a log's motion beside what was logged, by joint. Where the log tells no motion
-/// (too few rows, no torque), there are no windows.
+/// Computes the torque that the robot needs for the motion of a log, beside the logged torque, by joint.
+/// Without windows if the motion cannot be computed (too few rows, no torque).
 std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot);
 
-/// How far the torque of successive windows is from what the robot needs, a number for each block of them:
-/// the root mean square of what is left as a share of how much it varies. Another offset and half to twice
-/// the friction are no misfit. A torque that varies by less than a tenth of `torque_scale` (largest healthy
-/// torque) must be the right one itself, and says nothing where it is small.
+/// Returns the misfit of each block of successive windows: root mean square of logged minus required torque
+/// over the standard deviation of the torque. An offset and half to twice the friction are fitted first. In a
+/// block whose torque varies by less than a tenth of `torque_scale` (largest healthy torque), the misfit is
+/// relative to the mean torque and without an offset; a block in which that is small too is left out.
 std::vector<double> misfits(const JointBalance& balance, double torque_scale);
 
-/// The factor that takes the torque that is needed to the one that was logged, and the share that is left
-/// then.
+/// The factor from required to logged torque, and the share of the logged torque's standard deviation that
+/// remains as residual.
 struct TorqueRatio {
-  double ratio = 0.0;  ///< 0 where too little varies
+  double ratio = 0.0;  ///< 0 if the torque varies too little
   double left = 1.0;
 };
-/// Over all windows.
+/// Fits the ratio over all windows, with an offset.
 TorqueRatio torque_ratio(const JointBalance& balance, double torque_scale);
 
 }  // namespace faultline

@@ -10,16 +10,16 @@
 
 namespace faultline {
 
-/// How far beyond its limit an episode was.
+/// Returns the evidence of an episode: its largest mean over the limit, and the log likelihood ratio.
 std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode);
-/// 0 to 1.
+/// Confidence in an episode, 0 to 1, by how far it exceeds its limit.
 double confidence_of(const RelationEpisode& episode);
 
-/// The episodes as one score takes them (judge_stretch()); without the jolt of another drive while the
-/// controller answers to what one drive does. `torque`: that of the torque balance.
+/// Converts the episodes for the joint score with the torque balance (judge_stretch()), without the short
+/// deviation of a drive while the controller reacts to another one. `torque`: that of the torque balance.
 std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& episodes, TorqueMeaning torque);
 
-/// An episode and the fault that explains it as a finding; it ends with the log at the latest.
+/// Makes the finding of an episode and the fault that explains it; it ends with the log at the latest.
 FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fault, double log_end_s,
                         const Model& model);
 
