@@ -14,8 +14,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kEnough = 0.75;              // of the simulated faults of a kind
-constexpr std::size_t kListedStretches = 10;  // of a joint: a report with more is read by nobody
+constexpr double kEnough = 0.75;  // share of the simulated faults of a kind: fewer found are reported
+constexpr std::size_t kListedStretches = 10;  // unjudged stretches in a report: longer lists are not read
 constexpr double kPercentOfTime = 100.0;
 
 std::string what_is_missing(const UnjudgedStretch& stretch) {

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-/// An unknown fault is nothing that the runs held it against had.
+/// Calibrated confidence; that of an unknown fault is kept, since the calibration runs had no such fault.
 double calibrated(const Decision& decision, const ConfidenceCalibration& calibration) {
   if (decision.label.kind == FaultKind::unknown) return decision.confidence;
   return calibration.of(confidence_source(decision.decided_by), decision.confidence);

@@ -7,7 +7,7 @@ namespace faultline {
 namespace {
 
 constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
-constexpr double kSureOfUnknown = 0.9;  // that no known fault leaves so much
+constexpr double kSureOfUnknown = 0.9;  // confidence that no known fault has such a misfit
 
 bool explains_the_log(const FaultLabel& label, const DecisionBasis& basis) {
   return label == basis.likeliest ||

@@ -18,7 +18,7 @@ std::string disagreement(const Episode& episode) {
                      words(episode.rbfn.label));
 }
 
-/// ", all simulated," where that is all that voted.
+/// ", all simulated," if every case that voted was simulated, else "".
 std::string if_simulated(const Votes& votes) {
   const bool all = std::all_of(votes.precedents.begin(), votes.precedents.end(), [](const Neighbour& n) {
     return origin_of(*n.found) == CaseOrigin::simulated;

@@ -30,9 +30,9 @@ namespace faultline {
 
 namespace {
 
-constexpr double kLittleLeft = 0.02;  // of the excess over the noise: no other reading is asked for
+constexpr double kLittleLeft = 0.02;  // residual, share of the excess over the noise: columns are not tested
 
-/// Those of joints in which no fault was found.
+/// Adds lasting friction at joints without another finding.
 void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
   const std::vector<FaultFinding> named = faults;
   for (const LastingFriction& friction : lasting_friction(run.day, run.log.start_s, run.log.end_s))
@@ -79,15 +79,15 @@ void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
                       : "")));
 }
 
-/// Whether a log that does not fit the model's robot contradicts the log: not where that robot did not even
-/// explain the logs that it was learned from.
+/// Whether a misfit between log and robot is held against the log: not if the robot did not even explain the
+/// logs that it was learned from.
 bool can_question(const Model& model) {
   return model.has_mechanics() && model.identification.status != IdentificationStatus::unexplained;
 }
 
-/// The rows to judge: those of the log, or the log at the model's rate, which `kept` holds. What the log
-/// means is asked once its rate is settled; a log that was never what the model takes it for gets an issue
-/// that says what it is more likely to be.
+/// Returns the rows to judge: those of the log, or of the log at the model's rate, which `kept` then owns.
+/// The meaning of the columns is tested once the rate is settled. Adds a severe issue with the likely cause
+/// when the log contradicts the model from the start (wrong unit, sign, columns, clock or robot).
 LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, Issues& issues,
                       std::unique_ptr<LogSource>& kept) {
   if (!rate.is_models()) {
@@ -105,7 +105,7 @@ LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, I
   return judged;
 }
 
-/// Where the log has several runs: the one that each fault began in.
+/// Sets the run in which each fault began, and its clock offset, if the log has several runs.
 void name_runs(Diagnosis& diagnosis) {
   if (diagnosis.log.runs.size() < 2) return;
   for (FaultFinding& fault : diagnosis.faults)
@@ -116,7 +116,7 @@ void name_runs(Diagnosis& diagnosis) {
       }
 }
 
-/// What was found in a run is known of that run alone: where the next one shows it, it is found there again.
+/// Ends each fault with the run in which it began: if the next run shows it, it is found there again.
 void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& faults) {
   for (FaultFinding& fault : faults)
     for (const LogRun& run : runs)
@@ -124,8 +124,8 @@ void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& fa
         fault.end_s = std::min(fault.end_s, run.end_s);
 }
 
-/// Whether known kinds explain all but little of what the faults of a log change. Columns that change are
-/// like no kind but a joint that swings freely, which a torque in a smaller unit looks like.
+/// Whether faults of known kinds explain nearly all of a log's excess over the noise. A change of columns
+/// resembles no kind except a free-swinging joint, which a torque in a smaller unit looks like.
 bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
   return !episodes.empty() &&
          std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {
@@ -135,8 +135,8 @@ bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
          });
 }
 
-/// What looks like a fault may be a change of the log's columns. `has_log_rows`: the rows of `judged` are
-/// those of the log, not at another rate.
+/// Adds a severe issue if the first fault may be a change of the log's columns. `has_log_rows`: the rows of
+/// `judged` are those of the log, not resampled.
 void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
                      const std::vector<FaultFinding>& faults, Issues& issues) {
   if (faults.empty() || issues.find(kMisreadLog)) return;
@@ -154,7 +154,7 @@ void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
        row, change->at_s, 1});
 }
 
-/// A joint that was not judged may be anything.
+/// Makes a healthy verdict inconclusive if a joint could not be compared with a reference.
 void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
   diagnosis.verdict = Verdict::inconclusive;

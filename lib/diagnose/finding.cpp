@@ -17,12 +17,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kSureOfFriction = 0.95;  // its interval alone leaves less, other kinds leave more
+constexpr double kSureOfFriction = 0.95;  // confidence: below that of its interval, as other kinds may fit
 
-constexpr double kLeastShare = 0.15;  // of the votes that makes a label worth naming
-constexpr double kLeastPush = 0.2;    // of the push on the joint named, each by its joint's usual torque
+constexpr double kLeastShare = 0.15;  // of the votes: a label with less is not named as an alternative
+constexpr double kLeastPush = 0.2;    // of the push on the named joint, each over its joint's usual torque
 
-/// Reasons by label, in the order in which they were given.
+/// A list of alternative labels with reasons, each label once, with its first reason.
 class Alternatives {
  public:
   explicit Alternatives(const FaultLabel& of) : of_(of) {}
@@ -62,9 +62,9 @@ void add_pushed_joints(Alternatives& alternatives, const MonitoredEpisode& obser
                        "the push reached this joint too, as one at the tip does");
 }
 
-/// What a fault could also be: the networks' other opinions, labels with a good share of the votes, labels
-/// whose evidence comes near that of the best, and the other joints that a push on all of them reached. Each
-/// label once, with the first reason that named it, and never the fault's own.
+/// Lists what a fault could also be: the labels with the best evidence and nearly the best, the opinions of
+/// both networks, labels with enough votes, and other joints that a collision pushed. Each label once, with
+/// its first reason, and never the fault's own.
 std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Model& model) {
   const auto& [observed, basis, decision] = decided;
   Alternatives alternatives(decision.label);
@@ -78,7 +78,7 @@ std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Mo
   return alternatives.list;
 }
 
-/// The words of single networks.
+/// Lists the labels that single networks give.
 std::vector<Alternative> alternatives_to(const SampleAlarm& alarm) {
   Alternatives alternatives(alarm.episode.label);
   for (const Opinion& opinion : {alarm.opinions.mlp, alarm.opinions.rbfn})
@@ -86,7 +86,7 @@ std::vector<Alternative> alternatives_to(const SampleAlarm& alarm) {
   return alternatives.list;
 }
 
-/// How large the fault is that was named; empty where the log was not explained by it.
+/// Describes the size of the named fault; empty if no hypothesis of this label was judged or it has no size.
 std::string size_words(const DecidedEpisode& decided, const Model& model) {
   const FaultLabel& label = decided.decision.label;
   for (const LabelScore& score : decided.observed.fault.scores) {
@@ -101,8 +101,8 @@ EvidenceItem remark(const char* name, std::string text) {
   return {.name = name, .unit = {}, .text = std::move(text)};
 }
 
-/// What speaks for a decision: its reason in a sentence, what similar cases hold against it, the log
-/// likelihood ratio, the size of the fault, and the MLP's residual of each joint.
+/// Lists the evidence on a decision: its reason, warnings from similar cases, the log likelihood ratio, size,
+/// residual and misfit of the fault, and the MLP's residual of each joint.
 std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const Model& model) {
   const auto& [observed, basis, decision] = decided;
   std::vector<EvidenceItem> items;

@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kFar = 2.0;  // normal ranges: farther is a fault
+constexpr double kFar = 2.0;  // normal ranges: friction above this is a fault
 
 }  // namespace
 

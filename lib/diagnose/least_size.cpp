@@ -16,7 +16,7 @@ constexpr double kSharePercent = 100.0;
 
 bool is_small(const FaultFinding& fault) { return fault.extent.times_least < 1.0; }
 
-/// Of size number `s` of the label's kind, in SI units.
+/// Least value of a size of the label's kind, SI units.
 double least_size_of(const FaultLabel& label, const FaultSize& size, const Model& model) {
   return model.robot.least_sizes.of(label.kind) * usual_size(model.motion, size.feature, label.joint - 1);
 }
@@ -29,7 +29,7 @@ std::string amount_text(double size, const std::string& unit) {
   return unit == "1" ? fmt::format("{:.2g} %", kSharePercent * size) : fmt::format("{:.2g} {}", size, unit);
 }
 
-/// The finding's part in what all small ones of its label come to.
+/// Sum of times_least over all small findings with the label of `fault`.
 double times_least_together(const FaultFinding& fault, const std::vector<FaultFinding>& faults) {
   double sum = 0.0;
   for (const FaultFinding& other : faults)

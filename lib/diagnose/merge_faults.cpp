@@ -11,10 +11,10 @@
 namespace faultline {
 namespace {
 
-constexpr double kCalm_s = 1.0;          // between two faults that are not one
-constexpr double kAtItsEnd_s = 0.3;      // of a fault
-constexpr double kShaking_s = 1.4;       // of springs after an onset, and of the transients of a controller
-constexpr double kAfterShaking_s = 0.6;  // until what lasts is named
+constexpr double kCalm_s = 1.0;          // a longer time between two findings separates two faults
+constexpr double kAtItsEnd_s = 0.3;      // a collision so near the end of a fault belongs to it
+constexpr double kShaking_s = 1.4;       // longest vibration of springs and a controller after an onset
+constexpr double kAfterShaking_s = 0.6;  // from its end to the onset of the lasting fault, at most
 
 double or_last(double time_s) {
   return std::isnan(time_s) ? std::numeric_limits<double>::infinity() : time_s;
@@ -23,19 +23,20 @@ double or_last(double time_s) {
 bool passes(const FaultFinding& finding) { return describe(finding.label.kind).passes; }
 bool is_unknown(const FaultFinding& finding) { return finding.label.kind == FaultKind::unknown; }
 
-/// Second residuals tell when a fault is over, so that the next one is another.
+/// Whether second residuals determine the end of the fault, so that a later finding is another fault.
 bool has_its_end(const FaultFinding& finding) {
   return finding.decided_by == DecidedBy::actuator || finding.decided_by == DecidedBy::control_law;
 }
 
-/// Whether nothing was healthy for long between the two.
+/// Whether the healthy time between the two is too short to separate two faults.
 bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
   return later.decided_by != DecidedBy::criterion && !has_its_end(earlier) && !has_its_end(later) &&
          !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
 }
 
-/// Whether `later` is `earlier` again after a short pause, or a push that is how it ends; all that is unknown
-/// is one disturbance, and pushes are part of it. What begins while a known fault lasts is another one.
+/// Whether `later` is `earlier` again after a short pause, or a collision at its end. Unknown disturbances
+/// that follow closely are one, and collisions are part of it. One that begins during a known fault is
+/// another.
 bool continues(const FaultFinding& earlier, const FaultFinding& later) {
   const bool is_again = !passes(earlier) && earlier.label == later.label &&
                         (is_unknown(earlier) || !(later.onset_s < or_last(earlier.end_s)));
@@ -44,12 +45,12 @@ bool continues(const FaultFinding& earlier, const FaultFinding& later) {
   return follow_closely(earlier, later) && (is_again || is_end || (is_unknown(earlier) && passes(later)));
 }
 
-/// Whether a push was the first that was seen of an unknown disturbance.
+/// Whether `earlier` is a collision that is the onset of an unknown disturbance.
 bool begins(const FaultFinding& earlier, const FaultFinding& later) {
   return follow_closely(earlier, later) && passes(earlier) && is_unknown(later);
 }
 
-/// Whether what the finding looks like may be at that joint.
+/// Whether the finding, or an alternative of an unknown one, is at that joint.
 bool may_be_at(const FaultFinding& finding, int joint) {
   if (!is_unknown(finding)) return finding.label.joint == joint;
   const auto& others = finding.could_also_be;
@@ -58,8 +59,8 @@ bool may_be_at(const FaultFinding& finding, int joint) {
          });
 }
 
-/// Whether `earlier` is the shaking that the onset of a lasting fault left in a machine that gives way: an
-/// unknown disturbance or a push at its joint, short, and right before.
+/// Whether `earlier` is the vibration of a compliant machine after the onset of the lasting fault `later`: a
+/// short unknown disturbance or collision at its joint, right before.
 bool is_shaken_by(const FaultFinding& earlier, const FaultFinding& later) {
   const bool lasts = !passes(later) && !is_unknown(later), shakes = is_unknown(earlier) || passes(earlier);
   return lasts && shakes && may_be_at(earlier, later.label.joint) && follow_closely(earlier, later) &&

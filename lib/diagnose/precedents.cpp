@@ -13,16 +13,16 @@
 namespace faultline {
 namespace {
 
-constexpr std::ptrdiff_t kMoreCases = 3;  // that did not vote
-constexpr std::size_t kTold = 3;          // features that agree, and as many that do not
+constexpr std::ptrdiff_t kMoreCases = 3;  // listed cases that did not vote, at most
+constexpr std::size_t kTold = 3;          // listed features that agree, and that differ, at most
 
-/// What is needed to compare an episode with cases.
+/// The data for comparing an episode with cases.
 struct Comparing {
   const DecisionBasis& basis;
   const CaseBase& cases;
   const Model& model;
   std::vector<UsualFeature> usual;
-  std::vector<EpisodeFeature> list;  ///< empty where the base compares other features than the model makes
+  std::vector<EpisodeFeature> list;  ///< empty if the base compares other features than the model has
 };
 
 Comparing comparing(const DecisionBasis& basis, const CaseBase& cases, const Model& model) {
@@ -68,7 +68,7 @@ Precedent precedent_of(const Neighbour& neighbour, bool voted, const Comparing& 
           .unlike = told(found.unlike, c, by)};
 }
 
-/// Near cases that were not simulated and have no vote.
+/// Near cases that were not simulated and did not vote, sorted by origin.
 std::vector<Neighbour> more_cases(const DecisionBasis& basis, const CaseBase& cases) {
   std::vector<Neighbour> more = retrieve(cases, basis.episode.features, std::numeric_limits<int>::max(),
                                          cases.metric().near_similarity);

@@ -16,19 +16,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kOtherPeriod = 1.3;  // the noise and timing of a model belong to its sample period
-constexpr double kLeastPower =
-    0.5;  // of simulated faults found: a model that sees less cannot call a log healthy
-constexpr double kFarBeyond = 3.0;  // normal ranges: what is there is no healthy robot any more
+constexpr double kOtherPeriod = 1.3;  // ratio of sample periods: noise and timing of the model hold below it
+constexpr double kLeastPower = 0.5;   // share of simulated faults found: below it, no log is called healthy
+constexpr double kFarBeyond = 3.0;    // normal ranges: beyond them the robot is not healthy any more
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
-constexpr double kRough = 3.0;   // times as much torque missed as in the learned logs: faults hide there
+constexpr double kRough = 3.0;   // times the noise of the learned logs: a fault may be hidden
 constexpr double kVerdictPercent = 100.0;
-constexpr std::int64_t kFewestRows = 20;  // judged: fewer say nothing of a robot
-constexpr double kFewestJudged = 0.75;    // of the log, likewise
-constexpr double kFewestJudgeable = 0.2;  // of the rows, below which a log without findings is inconclusive
+constexpr std::int64_t kFewestRows = 20;  // usable rows: with fewer a robot cannot be judged
+constexpr double kFewestJudged = 0.75;    // share of the log: with less a healthy verdict is not possible
+constexpr double kFewestJudgeable = 0.2;  // share of the rows: below it a log is inconclusive
 
-/// Where the model misses so much more torque than in the learned logs that what was learned of its power is
-/// not true of this log; empty if nowhere.
+/// States at which joint the model misses so much more torque than in the learned logs that its validated
+/// power does not hold for this log; empty if at none.
 std::string why_too_rough(const std::vector<double>& roughness) {
   const auto worst = std::max_element(roughness.begin(), roughness.end());
   if (worst == roughness.end() || *worst < kRough) return "";
@@ -38,8 +37,8 @@ std::string why_too_rough(const std::vector<double>& roughness) {
       *worst, worst - roughness.begin() + 1);
 }
 
-/// Where the motion was so far from a fault-free one that something happened there, though no fault explains
-/// it; empty if nowhere.
+/// States when the motion was so far from a fault-free one that something happened, although no fault
+/// explains it; empty if never.
 std::string why_too_wild(const std::vector<JointResidual>& residuals) {
   const auto worst = std::max_element(residuals.begin(), residuals.end(), [](const auto& a, const auto& b) {
     return !(a.velocity_peak >= b.velocity_peak);
@@ -51,7 +50,7 @@ std::string why_too_wild(const std::vector<JointResidual>& residuals) {
       worst->joint, worst->velocity_peak_s, worst->velocity_peak);
 }
 
-/// What is so wrong with the log that no calm verdict can rest on it; empty if nothing.
+/// States the severe issue of the log that excludes a healthy verdict; empty if there is none.
 std::string why_too_damaged(const Issues& issues) {
   for (const Issue& issue : issues.all())
     if (issue.severity == Severity::severe)
@@ -59,7 +58,7 @@ std::string why_too_damaged(const Issues& issues) {
   return "";
 }
 
-/// Why the model cannot call any log healthy; empty when it can.
+/// States why the model cannot call any log healthy; empty if it can.
 std::string why_too_doubtful(const ModelFacts& model) {
   if (model.grave_doubts.empty()) return "";
   return fmt::format(
@@ -68,7 +67,7 @@ std::string why_too_doubtful(const ModelFacts& model) {
       model.grave_doubts.front());
 }
 
-/// Which joint could not be judged for longer than a moment; empty if none. Of several the longest stretch.
+/// States the longest stretch in which a joint could not be judged; empty if there is none.
 std::string why_not_judged(const LogFacts& log) {
   const auto longest = std::max_element(
       log.unjudged.begin(), log.unjudged.end(),
@@ -84,7 +83,7 @@ std::string why_not_judged(const LogFacts& log) {
       judged_window_s(log.sample_period_s));
 }
 
-/// Why too little of the log could be explained; empty if it was enough.
+/// States that too little of the log could be explained; empty if it was enough.
 std::string why_too_thin(double judged_share) {
   if (judged_share >= kFewestJudged) return "";
   return fmt::format(
@@ -93,13 +92,13 @@ std::string why_too_thin(double judged_share) {
       kVerdictPercent * judged_share);
 }
 
-/// Why a log that shows no motion says nothing; empty where a joint moves.
+/// States that a log without motion cannot be called healthy; empty if a joint moves.
 std::string why_at_rest(const LogFacts& log) {
   if (log.resting.empty() || std::ssize(log.resting) < log.joints) return "";
   return "no fault was found, but no joint moved: most faults show in motion only";
 }
 
-/// What a healthy verdict speaks of: the whole log only where all of it was judged.
+/// Names the part of the log that a healthy verdict covers: the whole log only if all of it was judged.
 std::string judged_part(const LogFacts& log) {
   const auto read =
       std::count_if(log.runs.begin(), log.runs.end(), [](const LogRun& run) { return run.is_read; });
@@ -117,7 +116,7 @@ std::string judged_part(const LogFacts& log) {
       rows, judged_moment_s(log.sample_period_s), judged_window_s(log.sample_period_s));
 }
 
-/// Why a log in which no fault was found is not called healthy; empty when it can be.
+/// States why a log in which no fault was found is not called healthy; empty if it is.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
   if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
@@ -139,7 +138,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
       far);
 }
 
-/// Why the log cannot be judged with this model; empty when it can.
+/// States why the log cannot be judged with this model; empty if it can.
 std::string why_inconclusive(const LogFacts& log, double model_period_s) {
   for (const char* code : {kMisreadLog, kChangedColumns})
     if (const Issue* misread = log.issues.find(code)) return misread->message;
