@@ -35,8 +35,7 @@ bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
 }
 
 /// Whether `later` is `earlier` again after a short pause, or a collision at its end. Unknown disturbances
-/// that follow closely are one, and collisions are part of it. One that begins during a known fault is
-/// another.
+/// that follow closely are one, and collisions are part of it. What begins during a known fault is another.
 bool continues(const FaultFinding& earlier, const FaultFinding& later) {
   const bool is_again = !passes(earlier) && earlier.label == later.label &&
                         (is_unknown(earlier) || !(later.onset_s < or_last(earlier.end_s)));

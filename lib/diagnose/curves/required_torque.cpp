@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCurvePercent = 100.0;
-constexpr double kLeastFriction = 0.05;  // of the identified one: friction never drives
+constexpr double kLeastFriction = 0.05;  // share of the identified friction: friction is never negative
 constexpr double kGapPeriods = 5.5;      // a longer step ends a stretch: the motion in it is not known
-constexpr int kMostMissingRows = 4;      // in a row; more are a gap, too
-constexpr int kShortestStretch = 8;      // rows: fewer show no acceleration
-constexpr int kChunkRows = 2000;         // that are smoothed at a time,
-constexpr int kMarginRows = 250;         // with so many on either side, beyond which no row counts any more
-// Gauss' three points in a step of length 1 and their weights.
+constexpr int kMostMissingRows = 4;      // successive incomplete rows; more are a gap, too
+constexpr int kShortestStretch = 8;      // rows: fewer do not determine an acceleration
+constexpr int kChunkRows = 2000;         // rows that are smoothed at a time,
+constexpr int kMarginRows = 250;         // with so many on either side; farther rows have no influence
+// The three points of Gauss' quadrature in a step of length 1, and their weights.
 constexpr std::array<double, 3> kGaussPoint{0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> kGaussWeight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
@@ -34,8 +34,8 @@ bool is_complete(const Log& segment, int row) {
          std::all_of(segment.dq.begin(), segment.dq.end(), finite);
 }
 
-/// Position, velocity and acceleration between two rows that are `h` seconds apart, by the cubic through
-/// both.
+/// Position, velocity and acceleration at the share `s` of the step from row `k` to the next, by the cubic
+/// through the positions and velocities of both.
 struct Between {
   JointVector q, dq, ddq;
 
@@ -51,7 +51,7 @@ struct Between {
   }
 };
 
-/// Mean torque that the drives give from row k to the next.
+/// Mean torque that the robot needs from row k to the next, joints, N m or N.
 JointVector mean_torque(const Chain& chain, const RawStretch& motion, int k) {
   JointVector mean = JointVector::Zero(chain.joints());
   for (std::size_t i = 0; i < kGaussPoint.size(); ++i) {
@@ -61,7 +61,7 @@ JointVector mean_torque(const Chain& chain, const RawStretch& motion, int k) {
   return mean;
 }
 
-/// The rows of one stretch that are not yet smoothed, and those before that they need.
+/// The rows of one stretch that are not yet smoothed, and those before them that smoothing needs.
 class OpenStretch {
  public:
   OpenStretch(const RobotOfTheDay& robot, const LogSurvey& survey) : robot_(robot), survey_(survey) {}
@@ -95,7 +95,7 @@ class OpenStretch {
     for (const auto& joint : segment.dq) values_.push_back(joint[row]);
   }
 
-  /// Torque of the rows from the first waiting one to `end` (exclusive), joints x rows.
+  /// Returns the torque of the rows from the first waiting one to `end` (exclusive), joints x rows.
   RequiredTorque take(int end) {
     RequiredTorque torque = RequiredTorque::Constant(robot_.chain.joints(), end - done_, kNaN);
     if (rows() >= kShortestStretch) fill(torque);
@@ -122,7 +122,7 @@ class OpenStretch {
     }
   }
 
-  /// The motion of all rows given all that was measured of it.
+  /// Estimates the motion of all rows from the measurements of all of them.
   RawStretch smoothed() const {
     const int n = robot_.chain.joints(), width = has_dq_ ? 2 * n : n;
     const Eigen::Map<const Eigen::MatrixXd> measured(values_.data(), width, rows());
@@ -159,7 +159,7 @@ class OpenStretch {
   int done_ = 0, missing_ = 0;
 };
 
-/// Segments that wait until each of their rows has its torque.
+/// Keeps segments until each of their rows has its torque, then passes them to `visit`.
 class WaitingSegments {
  public:
   explicit WaitingSegments(const std::function<void(const Log&, const RequiredTorque&)>& visit)
@@ -169,7 +169,7 @@ class WaitingSegments {
     waiting_.emplace_back(segment, RequiredTorque::Constant(joints, segment.rows(), kNaN));
   }
 
-  /// For the next rows that have none, in order.
+  /// Sets the torque of the next rows that have none, in order.
   void put(const RequiredTorque& torque) {
     for (Eigen::Index i = 0; i < torque.cols(); ++i) {
       auto& [segment, required] = waiting_.front();
@@ -187,7 +187,7 @@ class WaitingSegments {
   int next_ = 0;
 };
 
-/// Cuts the rows of a log into stretches and asks each for its torque.
+/// Cuts the rows of a log into stretches and computes the torque of each.
 class TorqueReplay {
  public:
   TorqueReplay(const RobotOfTheDay& robot, const LogSurvey& survey,

@@ -12,13 +12,13 @@
 namespace faultline {
 namespace {
 
-/// A bin is at least two samples wide, so that none is empty between them.
+/// Number of bins of at least two samples each, so that none is empty; at most `most`.
 int bins_for(double span_s, double period_s, int most) {
   if (!(period_s > 0.0)) return most;
   return static_cast<int>(std::clamp(span_s / (2.0 * period_s), 1.0, static_cast<double>(most)));
 }
 
-/// Of the rows that were judged.
+/// Sample period of the rows that were judged, s; 0 if not known.
 double judged_period(const Model& model, const LogFacts& log) {
   if (log.issues.find(kResampled)) return model.sample_period_s;
   return std::isfinite(log.sample_period_s) ? log.sample_period_s : 0.0;
@@ -37,7 +37,7 @@ CurveWindow window_of(const FaultFinding& fault, const LogFacts& log, double per
   return window;
 }
 
-/// What the networks are asked about: the fault by its name and by theirs, and fault-free.
+/// Labels whose network outputs are shown: up to two of the fault's own and the networks', and fault-free.
 std::vector<FaultLabel> asked_about(const FaultFinding& fault) {
   std::vector<FaultLabel> labels;
   for (const FaultLabel& label : {fault.label, fault.mlp.label, fault.rbfn.label})

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kHeldSteps = 1.6;  // of the predictions: a longer time between two is a gap in the log
+constexpr double kHeldSteps = 1.6;  // prediction steps: a longer time between two is a gap in the log
 
 std::vector<float> largest_of(const Envelope& envelope) {
   std::vector<float> out;
@@ -18,7 +18,7 @@ std::vector<float> largest_of(const Envelope& envelope) {
   return out;
 }
 
-/// The predictions that end within [from_s, to_s].
+/// Returns the predictions that end within [from_s, to_s].
 Residuals part_of(const Residuals& residuals, double from_s, double to_s) {
   const double* begin = residuals.time.data();
   const double* end = begin + residuals.time.size();

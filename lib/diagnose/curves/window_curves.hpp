@@ -19,8 +19,8 @@ class WindowCurves {
   /// `labels`: those whose network outputs the window shows; empty for a window without outputs.
   WindowCurves(const CurveWindow& window, const Model& model, const std::vector<FaultLabel>& labels);
 
-  /// Adds the rows of `segment`, the predictions that end in it, and the torque required at its rows (may be
-  /// empty).
+  /// Adds the rows of `segment`, the predictions that end in it, and the torque required at its rows, which
+  /// may be empty.
   void take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque);
   CurveWindow curves() const;
 

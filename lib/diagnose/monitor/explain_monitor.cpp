@@ -10,13 +10,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kOverlap = 1.0 / 3.0;  // of a window and the next; the middle parts what each decides
-constexpr double kLongestGap_s = 2.0;   // that a window spans
-constexpr double kFasterBetween = 2.0;  // times the velocity at both ends, between two rows
-constexpr double kLeastJump = 0.01;     // rad or m
-constexpr double kRowsMissing = 3.0;    // periods between two rows: some were left out
-constexpr int kFewestJumps = 2;         // joints: the sensor of one of them may be faulty
-constexpr int kFewestRows = 20;         // with position and torque of every joint
+constexpr double kOverlap = 1.0 / 3.0;  // share of a window; the middle separates what each window decides
+constexpr double kLongestGap_s = 2.0;   // a longer gap ends a window
+constexpr double kFasterBetween = 2.0;  // times the velocity at both ends: fastest motion between two rows
+constexpr double kLeastJump = 0.01;     // rad or m: smaller position changes are no jump
+constexpr double kRowsMissing = 3.0;    // periods: in a longer step between two rows, some are missing
+constexpr int kFewestJumps = 2;         // joints: a single one may have a faulty sensor
+constexpr int kFewestRows = 20;         // complete rows that a window needs to be explained
 
 /// A row of a log.
 struct RowOf {
@@ -26,8 +26,8 @@ struct RowOf {
   double t() const { return log.time[row]; }
 };
 
-/// Whether rows are missing between two rows, and the positions of several joints change further than the
-/// velocities of both allow: the log was cut there, or repeats itself.
+/// Whether rows are missing between two rows, and the positions of several joints change more than the
+/// velocities at both allow: the log was cut there, or repeats itself.
 bool is_break(const RowOf& before, const RowOf& after, double period_s) {
   const double step = after.t() - before.t();
   if (before.log.dq.empty() || step < kRowsMissing * period_s) return false;
@@ -40,7 +40,7 @@ bool is_break(const RowOf& before, const RowOf& after, double period_s) {
   return jumps >= kFewestJumps;
 }
 
-/// By which a healthy day may differ as the robot file says, or by default.
+/// Normal range of an effect by the robot file, or its default: share, N m or N.
 double stated_range(const DayEffect& effect, const Model& model) {
   const NormalRange& normal = model.robot.normal;
   switch (effect.kind) {
@@ -54,7 +54,7 @@ double stated_range(const DayEffect& effect, const Model& model) {
   return 0.0;
 }
 
-/// Rows with position and torque of every joint.
+/// Number of rows with position and torque of every joint.
 int complete_rows(const Log& log) {
   int out = 0;
   for (int k = 0; k < log.rows(); ++k) {
@@ -67,7 +67,7 @@ int complete_rows(const Log& log) {
   return out;
 }
 
-/// Whether the torque balance alone says when the fault of a stretch ends.
+/// Whether the fault of a stretch outlasts it, so that the torque balance alone determines its end.
 bool outlasts_signals(const JudgedStretch& judged) {
   return judged.fault.claim.end_s >= kNeverEnds && judged.stretch.end_s < kNeverEnds;
 }
@@ -108,7 +108,8 @@ void ExplainMonitor::take_rows(const Log& segment, int begin, int end) {
 
 void ExplainMonitor::finish() { explain_window(false); }
 
-/// `is_followed`: the log goes on without a gap, so what begins near the end is left to the next window.
+/// Explains the window. `is_followed`: the log goes on without a gap, and the next window decides on faults
+/// that begin near the end.
 void ExplainMonitor::explain_window(bool is_followed) {
   if (window_.rows() == 0) return;
   const double overlap_s = kOverlap * model_.explain.window_s;
@@ -137,7 +138,7 @@ void ExplainMonitor::explain_window(bool is_followed) {
   }
 }
 
-/// What the rows of the window say beside the faults that reach into it; nothing where they are too few.
+/// Explains the window given the faults that reach into it; finds no new faults if it has too few rows.
 ExplainedLog ExplainMonitor::explained_window() const {
   std::vector<FaultClaim> lasting;
   for (const Lasting& l : lasting_)
@@ -157,7 +158,7 @@ ExplainedLog ExplainMonitor::explained_window() const {
   return out;
 }
 
-/// The stretches that begin in the window, and those before it that reach into it.
+/// Returns the stretches that begin in the window, and the claims of earlier ones that reach into it.
 SignalStretches ExplainMonitor::signals_of_window() const {
   const double start_s = window_.time.front(), end_s = window_.time.back();
   const bool is_after_fault = !episodes_.empty() || !stretches_.empty();
@@ -171,14 +172,14 @@ SignalStretches ExplainMonitor::signals_of_window() const {
   return out;
 }
 
-/// Those that begin where this window decides.
+/// Adds the judged stretches that begin before `until_s`, up to which this window decides.
 void ExplainMonitor::report_stretches(const std::vector<JudgedStretch>& judged, double until_s) {
   for (const JudgedStretch& each : judged)
     if (each.stretch.onset_s <= until_s) stretches_.push_back(each);
   while (!unjudged_.empty() && unjudged_.front().onset_s <= until_s) unjudged_.pop_front();
 }
 
-/// Takes what a window says of the faults that were handed on to it; returns the others.
+/// Updates the faults that were handed on to a window by its claims; returns the other lasting ones.
 std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<FaultClaim>& followed) {
   std::vector<Lasting> unfollowed;
   std::erase_if(lasting_, [&](const Lasting& l) {
@@ -195,7 +196,7 @@ std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<Fa
   return unfollowed;
 }
 
-/// A fault of the window: a further one, or an unknown one that goes on from the window before.
+/// Adds a fault of the window: a further episode, or an unknown one that goes on from the window before.
 void ExplainMonitor::report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed) {
   const double end_s = std::min(fault.claim.end_s, window_.time.back());
   if (!unfollowed.empty() && decided_s_ && fault.claim.onset_s < *decided_s_) {

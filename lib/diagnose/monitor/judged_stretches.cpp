@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 constexpr double kMissingSteps = 3.0;       // times the step before: rows are missing in a longer one
-constexpr std::size_t kMostKept = 100'000;  // of a log that lacks values again and again
+constexpr std::size_t kMostKept = 100'000;  // stretches, to bound memory if values are missing repeatedly
 
 }  // namespace
 

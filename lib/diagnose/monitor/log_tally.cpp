@@ -17,7 +17,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kHardly = 0.01;  // of the range of the healthy logs
+constexpr double kHardly = 0.01;  // share of the healthy logs' range: a joint that moves less is at rest
 
 bool can_track(const Log& segment, const Model& model) {
   return std::any_of(model.relations.begin(), model.relations.end(), [&](const SignalRelation& relation) {
@@ -44,13 +44,13 @@ void check_channels(const Log& segment, const LogSource& log, const Model& model
     throw Error(ErrorCode::input, log.identity().path, why_not_judged(model));
 }
 
-/// The path as given when it is relative, else its file name: no name of a machine's folders in a report.
+/// The path as given if it is relative, else its file name: a report names no folders of a machine.
 std::string shown_path(const std::string& path) {
   const std::filesystem::path given(path);
   return given.is_absolute() ? given.filename().string() : given.generic_string();
 }
 
-/// What a note counts was no row of the joint log.
+/// Rows that issues dropped; those of notes do not count, since they are no rows with joint values.
 std::int64_t rows_lost(const Issues& issues) {
   std::int64_t rows = 0;
   for (const Issue& issue : issues.all()) rows += issue.severity == Severity::note ? 0 : issue.rows_dropped;
@@ -84,7 +84,7 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   }
 }
 
-/// Joints, from 1, that move less than a small part of what the healthy logs hold.
+/// Returns the joints, from 1, whose range is less than kHardly of that of the healthy logs.
 std::vector<int> resting_joints(const LogTally& tally, const Model& model) {
   std::vector<int> out;
   if (!model.has_mechanics()) return out;

@@ -14,12 +14,12 @@ namespace faultline {
 namespace {
 
 constexpr double kSameRate = 0.02;  // relative; clocks of two recorders differ by far less
-/// Times the model's period. New rows between the recorded ones hold less noise than the model expects, and
-/// noise that neighbouring rows share: harmless while most new rows have a recorded row of their own.
+/// Longest period that can be resampled, times the model's. Interpolated rows have less noise than the model
+/// expects, correlated between neighbours: harmless while most new rows have a recorded row of their own.
 constexpr double kMostStretch = 1.3;
 constexpr double kGapSteps = 3.0;  // a step of so many periods is a gap
 
-/// Mean step, gaps left out: where stamps are rounded to whole ms, the usual step is not the period.
+/// Mean step without gaps, s: if stamps are rounded to whole ms, the median step is not the period.
 double mean_step(const std::vector<double>& time, double usual) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 1; i < time.size(); ++i) {

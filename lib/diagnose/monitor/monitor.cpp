@@ -21,12 +21,12 @@
 namespace faultline {
 namespace {
 
-/// A log whose segments are shown to somebody on their way.
+/// A log that passes each segment to a callback as it is read.
 class TappedSource : public LogSource {
  public:
   using Tap = std::function<void(const Log& segment)>;
 
-  /// `source` is read by nobody else and outlives this. Whoever is shown the segments goes on after a rewind.
+  /// `source` has no other reader and outlives this. After a rewind, `tap` gets the segments once more.
   TappedSource(LogSource& source, Tap tap) : source_(source), tap_(std::move(tap)) {}
 
   bool next(Log& segment) override {
@@ -44,8 +44,8 @@ class TappedSource : public LogSource {
   Tap tap_;
 };
 
-/// Leads the segments of a log through the second residuals of a model: those with torque or, where a log has
-/// none, tracking.
+/// Leads the segments of a log through the second residuals of a model: those of torque or, if the log has
+/// none, those of tracking.
 class RelationMonitor {
  public:
   /// `relations` outlive this.
@@ -58,9 +58,9 @@ class RelationMonitor {
 
   /// By onset.
   std::vector<RelationEpisode> episodes() const;
-  /// By relation: for how long the log could be judged, s; 0 for those of the other sort.
+  /// By relation: for how long the log could be judged, s; 0 for relations that are not watched.
   std::vector<double> judged_s() const;
-  /// By relation: for how long its inputs were beyond all that was learned, s.
+  /// By relation: for how long its inputs were beyond the learned range, s.
   std::vector<double> beyond_s() const;
 
  private:
@@ -116,7 +116,7 @@ class CriterionWatch {
       : options_(options), meaning_(meaning) {}
 
   void take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs);
-  /// After the last sample: an episode that is open ends.
+  /// Ends an open episode, after the last sample.
   void finish();
   const std::vector<SampleEpisode>& episodes() const { return episodes_; }
 
@@ -127,9 +127,9 @@ class CriterionWatch {
   std::vector<SampleEpisode> episodes_;
 };
 
-/// The paper's way: both networks over the residuals of each sample, the fault criterion on their average
-/// (figure 2) and on each alone (figure 1), whose word becomes its opinion. The criterion is that of the
-/// options, as the model has tuned it.
+/// The method of the paper: both networks over the residuals of each sample, the fault criterion on their
+/// average (figure 2) and on each alone (figure 1), which gives the opinion of that network. The criterion is
+/// that of the options, with the tuning of the model.
 class SampleMonitor {
  public:
   SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options);
@@ -144,7 +144,7 @@ class SampleMonitor {
   CriterionWatch average_, mlp_, rbfn_;
 };
 
-/// What one network alone says about the time of an episode.
+/// Returns the opinion of one network alone during an episode.
 Opinion opinion_on(const SampleEpisode& episode, const std::vector<SampleEpisode>& own) {
   for (const SampleEpisode& other : own)
     if (other.alarm_s <= episode.end_s && other.end_s >= episode.onset_s)
@@ -193,8 +193,8 @@ std::vector<SampleAlarm> SampleMonitor::alarms() const {
   return alarms;
 }
 
-/// Whether there is no torque that the model could judge. Rewinds the log before and after. Throws
-/// Error(input) for a log of another number of joints, before anything takes it for the model's.
+/// Whether the log has no torque that the model can judge. Rewinds it before and after. Throws Error(input)
+/// for a log with another number of joints than the model's robot.
 bool lacks_torque(LogSource& log, const Model& model) {
   if (!model.has_mechanics()) return true;
   log.rewind();
@@ -206,8 +206,7 @@ bool lacks_torque(LogSource& log, const Model& model) {
   return lacks;
 }
 
-/// What the second residuals of the whole log say, before its torque balance is judged. Rewinds the log where
-/// it has any.
+/// Judges the second residuals of the whole log, before its torque balance. Rewinds the log after reading.
 RelationMonitor watched_relations(LogSource& log, const Model& model) {
   RelationMonitor out(model.relations, false);
   if (!out.watches_any()) return out;

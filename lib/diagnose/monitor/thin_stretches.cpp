@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kPeriodRows = 256;         // whose median step is the period
+constexpr int kPeriodRows = 256;         // first rows, whose median step is the period
 constexpr double kLostRowsStep = 3.0;    // periods: rows are missing in a longer step
-constexpr std::size_t kMostThin = 1000;  // stretches that are kept
+constexpr std::size_t kMostThin = 1000;  // stretches that are kept, to bound memory
 
 bool lacks(const JointSignals& signals, std::size_t joint, int row) {
   return !signals.empty() && !std::isfinite(signals[joint][row]);
@@ -33,7 +33,7 @@ void ThinStretches::take(const Log& segment, const std::vector<LogRun>& runs) {
   head_ = {};
 }
 
-/// Learns the period from the first rows.
+/// Estimates the period from the first rows, and begins the first run.
 void ThinStretches::begin() {
   has_begun_ = true;
   const auto rows = std::min(head_.rows(), kPeriodRows);
@@ -86,7 +86,7 @@ void ThinStretches::end_run() {
   }
 }
 
-/// The joint is judged in a row: what was not judged since the last such row is a piece.
+/// Notes that the joint is judged at `time_s`: what was not judged since its last such row becomes a piece.
 void ThinStretches::judge(std::size_t course, double time_s, bool is_missing_before) {
   Course& of = courses_[course];
   const bool is_piece = is_missing_before || of.lacks_position || of.lacks_torque;
@@ -108,7 +108,7 @@ void ThinStretches::add_piece(std::size_t course, const Piece& piece) {
   grow(course, kLeastUnjudgedShare * width_s_);
 }
 
-/// Where more than enough of the window was not judged, it belongs to a stretch that is too thin.
+/// Adds the window to the current stretch if more than `enough_s` of it was not judged.
 void ThinStretches::grow(std::size_t course, double enough_s) {
   Course& of = courses_[course];
   if (of.window.empty() || of.window_s <= enough_s) return;
@@ -138,7 +138,7 @@ void ThinStretches::settle(std::size_t course) {
   stretch = {};
 }
 
-/// Where too many rows are missing or empty, that is said once and not of every joint.
+/// Returns the stretches found, without those of single joints that overlap one of missing or empty rows.
 std::vector<UnjudgedStretch> ThinStretches::without_doubles() const {
   std::vector<UnjudgedStretch> out;
   for (const UnjudgedStretch& each : found_) {

@@ -13,14 +13,14 @@
 namespace faultline {
 namespace {
 
-constexpr int kChangeRows = 4000;         // that are looked at before and behind
-constexpr double kAtOnset_s = 0.1;        // behind the onset, which is an estimate: left out
-constexpr double kChangeExplains = 0.35;  // of a joint's varying torque left in half of its blocks: explained
-constexpr double kTimesWorse = 3.0;       // than before the change, or than with another reading
-constexpr double kMovesAtAll = 0.2;       // of the fastest velocity
-constexpr double kOneUnit = 1.4;          // ratio of two velocities up to which they have one unit
-constexpr std::size_t kFewestRatios = 20;  // moving rows: the median of fewer ratios says nothing of a joint
-constexpr double kNothingLeft = 0.02;      // below, all readings are as good
+constexpr int kChangeRows = 4000;          // rows that are tested on either side of the change
+constexpr double kAtOnset_s = 0.1;         // after the onset, which is an estimate: not tested
+constexpr double kChangeExplains = 0.35;   // median misfit of a joint's blocks, up to which it is explained
+constexpr double kTimesWorse = 3.0;        // ratio to the misfit before the change, or of other columns
+constexpr double kMovesAtAll = 0.2;        // share of the fastest velocity: slower rows do not count
+constexpr double kOneUnit = 1.4;           // ratio of two velocities up to which they have one unit
+constexpr std::size_t kFewestRatios = 20;  // moving rows: with fewer ratios a joint is not tested
+constexpr double kNothingLeft = 0.02;      // least misfit: below it, all interpretations are as good
 
 struct Sides {
   Log before, behind;
@@ -42,7 +42,7 @@ Sides sides_of(LogSource& log, double onset_s) {
   return out;
 }
 
-/// What is left of each joint's torque in the middle one of its blocks; NaN for a joint that says nothing.
+/// Median misfit of each joint's blocks, at least kNothingLeft; NaN for a joint without a usable block.
 std::vector<double> left_of(const Log& rows, const KnownRobot& robot) {
   std::vector<double> left(robot.joints(), std::nan(""));
   if (rows.rows() == 0) return left;
@@ -55,7 +55,7 @@ std::vector<double> left_of(const Log& rows, const KnownRobot& robot) {
   return left;
 }
 
-/// Whether the velocity of each joint is the derivative of its position, as the median of their ratios says:
+/// Whether the velocity of each joint is the derivative of its position, by the median of their ratios:
 /// single jumps of a position do not count.
 bool velocity_fits_position(const Log& rows) {
   for (std::size_t j = 0; j < rows.dq.size(); ++j) {
@@ -76,8 +76,8 @@ bool velocity_fits_position(const Log& rows) {
   return true;
 }
 
-/// Whether the reading explains every joint that the rows before the change explain, and one of them by far
-/// better than the plain columns do.
+/// Whether the interpretation explains every joint that was explained before the change, and one of them far
+/// better than the plain columns do. Arguments: misfits by joint (left_of()).
 bool explains(const std::vector<double>& reading, const std::vector<double>& plain,
               const std::vector<double>& before) {
   bool better = false, any = false;

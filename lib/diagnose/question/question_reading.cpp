@@ -19,30 +19,29 @@
 namespace faultline {
 namespace {
 
-constexpr int kRows = 4000;            // of an excerpt
-constexpr int kExcerpts = 25;          // looked at for a moment that fits
-constexpr int kFewExcerpts = 3;        // after which a joint that never moved is passed over
-constexpr double kReadingFits = 0.35;  // of a joint's varying torque left: as the model means it
-constexpr double kExplains = 0.2;      // left in the best moments by a reading that is right
-constexpr double kFitsWell = 0.06;     // one such moment is enough
-constexpr double kNeverNear = 0.5;     // left in the best moments: another robot
-constexpr double kClearlyLess = 0.5;   // of the rows' own mean misfit: a better reading leaves less
-constexpr double kLeastRange = 0.05;   // of the healthy one: less motion is none
-constexpr double kOtherUnit = 1.5;     // times the torque needed, or that much less, at every joint
+constexpr int kRows = 4000;            // rows of a stretch that is tested at once
+constexpr int kExcerpts = 25;          // stretches that are searched for a moment that fits, at most
+constexpr int kFewExcerpts = 3;        // stretches, after which joints that never moved are not waited for
+constexpr double kReadingFits = 0.35;  // misfit of a joint below which its torque is as the model predicts
+constexpr double kExplains = 0.2;      // largest misfit in the best moments of a right interpretation
+constexpr double kFitsWell = 0.06;     // misfit below which one moment is enough
+constexpr double kNeverNear = 0.5;     // misfit in the best moments above which it is another robot
+constexpr double kClearlyLess = 0.5;  // share of the plain columns' mean misfit that a better one stays below
+constexpr double kLeastRange = 0.05;  // share of the healthy range: less is no motion
+constexpr double kOtherUnit = 1.5;    // factor between logged and required torque that is another unit
 
-constexpr double kOtherClock = 1.3;  // times the period of the model's logs
+constexpr double kOtherClock = 1.3;  // ratio to the period of the model's logs above which clocks differ
 
 double period_of(const Log& rows) { return (rows.time.back() - rows.time.front()) / (rows.rows() - 1); }
 
-/// How many times too far apart the rows are for a model whose logs have one every `sample_period_s`; 1 where
-/// they are not.
+/// Ratio of the period of the rows to that of the model's logs; 1 if it is within kOtherClock.
 double clock_ratio(const Log& rows, double sample_period_s) {
   if (rows.rows() < 2) return 1.0;
   const double ratio = period_of(rows) / sample_period_s;
   return ratio > kOtherClock || ratio < 1.0 / kOtherClock ? ratio : 1.0;
 }
 
-/// Stamps that run that many times too fast; none for 1.
+/// Returns the interpretation that stamps run `ratio` times too fast; none for a ratio of 1.
 std::vector<ColumnReading> clock_readings(double ratio, double sample_period_s) {
   if (ratio == 1.0) return {};
   constexpr double kMilli = 1e-3, kNear = 0.05;  // s in a ms; relative error of a ratio that counts as ms
@@ -62,7 +61,7 @@ std::vector<ColumnReading> clock_readings(double ratio, double sample_period_s) 
   return {reading};
 }
 
-/// Torques logged late or early by two rows to a quarter of `rows`, in steps of a third.
+/// Returns torques logged late or early by two rows to a quarter of `rows`, in steps of a third.
 std::vector<ColumnReading> delay_readings(const Log& rows) {
   // Rows: the first delay tried; the next is a third longer each time, up to a quarter of the log.
   constexpr int kFirstStep = 2, kFiner = 3, kShortest = 4;
@@ -84,7 +83,7 @@ std::vector<ColumnReading> delay_readings(const Log& rows) {
   return out;
 }
 
-/// What an excerpt says of each joint under one reading.
+/// The fit of a stretch to the robot, by joint, under one interpretation of its columns.
 struct Fit {
   std::vector<std::vector<double>> misfits;  // of its blocks, by joint
   std::vector<double> velocity_factor;
@@ -110,7 +109,7 @@ Fit fit_of(const Log& log, const KnownRobot& robot) {
   return fit;
 }
 
-/// The misfit that `count` blocks stay below; with fewer blocks, the largest. 0 without any.
+/// The misfit that `count` blocks do not exceed; with fewer blocks, the largest. 0 without any.
 double best_blocks(std::vector<double> of_joint, std::size_t count) {
   if (of_joint.empty()) return 0.0;
   const std::size_t last = std::min(count, of_joint.size()) - 1;
@@ -118,7 +117,7 @@ double best_blocks(std::vector<double> of_joint, std::size_t count) {
   return of_joint[last];
 }
 
-/// The misfit in the best moment of a joint: of a block that fits well, else of two that follow each other;
+/// The misfit in the best moment of a joint: of a block that fits well, else of two successive blocks, since
 /// one may fit by chance.
 double best_misfit(const std::vector<double>& of_joint) {
   const double best = best_blocks(of_joint, 1);
@@ -129,19 +128,19 @@ double best_misfit(const std::vector<double>& of_joint) {
   return pair;
 }
 
-/// The misfit that a third of the blocks stay below: a fault may come soon.
+/// The misfit that a third of the blocks, at least two, do not exceed: a fault may begin soon.
 double usual_misfit(const std::vector<double>& of_joint) {
   return best_blocks(of_joint, std::max((of_joint.size() + 2) / 3, std::size_t{2}));
 }
 
-/// How a whole reading fits: the worst joint in its best moments, and as usual, and the mean logarithm of
-/// both.
+/// The fit of an interpretation: largest best_misfit() and usual_misfit() of a joint, and the mean logarithm
+/// of both over the joints.
 struct Score {
   double worst = 0.0, usual = 0.0, log_mean = 0.0;
 };
 
 Score score_of(const Fit& fit) {
-  constexpr double kLeast = 1e-2;  // below, all readings are right
+  constexpr double kLeast = 1e-2;  // least misfit: below it, all interpretations are right
   Score out;
   int told = 0;
   for (int j = 0; j < fit.joints(); ++j) {
@@ -159,13 +158,13 @@ Score score_of(const Fit& fit) {
   return out;
 }
 
-/// The beginning of a log that moves, and what all of it that was read says.
+/// The first stretch of a log that moves, and the misfits of all stretches that were read.
 struct Beginning {
   Log rows;
   Fit fit;                                // of `rows`
   std::vector<std::vector<double>> ever;  // misfits of all blocks that were read, by joint
   std::vector<bool> velocity_fits;        // by joint, where it first moved
-  bool fitted = false;                    // every joint that moves had its moments
+  bool fitted = false;                    // every joint that moves had moments that fit
 
   bool is_told(int j) const { return !ever[j].empty(); }
   bool has_every_joint() const {
@@ -215,7 +214,7 @@ Beginning look_for_a_fit(LogSource& log, const KnownRobot& robot) {
   return out;
 }
 
-/// The first excerpt that moves: all that the question about the clock looks at.
+/// Reads up to the first stretch that moves, which is enough for the test of the clock.
 Beginning first_motion(LogSource& log, const KnownRobot& robot) {
   Beginning out;
   Log rest;
@@ -224,14 +223,14 @@ Beginning first_motion(LogSource& log, const KnownRobot& robot) {
   return out;
 }
 
-/// Whether all joints that are told as the rows are read now are told by another reading, too.
+/// Whether an interpretation (`then`) has misfits for all joints for which the plain columns (`now`) have.
 bool tells_as_much(const Fit& then, const Fit& now) {
   for (int j = 0; j < now.joints(); ++j)
     if (now.is_told(j) && !then.is_told(j)) return false;
   return true;
 }
 
-/// Whether a reading makes of a joint's motion one far smaller than the healthy ones.
+/// Whether an interpretation makes the motion of a joint far smaller than in the healthy logs.
 bool shrinks_motion(const Log& rows, const Log& read, const KnownRobot& robot) {
   const auto range = [](const std::vector<double>& q) {
     const auto [low, high] = std::minmax_element(q.begin(), q.end());
@@ -244,19 +243,19 @@ bool shrinks_motion(const Log& rows, const Log& read, const KnownRobot& robot) {
   return false;
 }
 
-/// The best reading of the rows so far.
+/// The best interpretation so far.
 struct Best {
-  ReadingDoubt doubt;  ///< empty while the rows as they are come next to the best
+  ReadingDoubt doubt;  ///< empty while none is clearly better than the plain columns
   double log_mean = 0.0;
 };
 
-/// What a reading must come to, to be better than the rows as they are.
+/// The mean logarithm that an interpretation must stay below to be clearly better than the plain columns.
 Best clearly_better_than(const Beginning& beginning) {
   return {{}, score_of(beginning.fit).log_mean + elementary::log(kClearlyLess)};
 }
 
-/// Takes those that explain every joint at moments (`usually`: as usual), and clearly more than the rows as
-/// they are.
+/// Sets `best` to the best interpretation that explains every joint in its best moments (`usually`: also as
+/// usual), and clearly better than before.
 void try_readings(const Beginning& beginning, const KnownRobot& robot,
                   const std::vector<ColumnReading>& readings, bool usually, Best& best) {
   for (const ColumnReading& reading : readings) {
@@ -272,8 +271,8 @@ void try_readings(const Beginning& beginning, const KnownRobot& robot,
   }
 }
 
-/// Whether the torques are the ones needed but for factors far from 1: those of every joint where `all` are
-/// asked for, else of most.
+/// Tests whether the logged torques are the required ones times factors far from 1: at every joint if `all`,
+/// else at most joints.
 ReadingDoubt other_torque(const Fit& fit, bool all) {
   std::vector<std::string> ratios;
   int told = 0, poor = 0, other = 0;

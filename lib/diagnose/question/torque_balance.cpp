@@ -17,20 +17,20 @@ namespace faultline {
 namespace {
 
 constexpr double kWindow_s = 0.1;  // s over which torques are averaged: less noise of the acceleration
-constexpr int kFewestSteps = 3;    // of a window
-constexpr std::size_t kBlock = 6;  // windows
-constexpr std::size_t kFewestOfBlock = 4;  // windows: fewer say nothing, two numbers are fitted to them
-constexpr double kFastest = 3.0;           // times the root mean square of the healthy speed
-constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // correlation and factor of two units
-constexpr double kMoves = 0.05;                                 // of the joint's largest speed
-constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque, over all windows
-constexpr double kLeastShare = 0.1;        // of the same, in a block: less says nothing
-constexpr double kLeastHeld = 0.3;         // of the same, of a torque that holds a weight
-// Times the friction of the model: bounds of what a block of windows may show.
+constexpr int kFewestSteps = 3;    // steps of a window, at least
+constexpr std::size_t kBlock = 6;  // windows of a block, for which one misfit is computed
+constexpr std::size_t kFewestOfBlock = 4;  // windows of a block, at least: two numbers are fitted to them
+constexpr double kFastest = 3.0;  // times the rms of the healthy speed: bound of the joint's largest speed
+constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // least correlation and factor of two units
+constexpr double kMoves = 0.05;            // share of the joint's largest speed: a slower window is at rest
+constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque: least variation for a ratio
+constexpr double kLeastShare = 0.1;        // of the same: least variation in a block
+constexpr double kLeastHeld = 0.3;         // of the same: least mean torque of a block that varies less
+// Times the friction of the model: bounds of the friction that is fitted to a block of windows.
 constexpr double kBalanceLeastFriction = 0.5, kMostFriction = 2.0;
-constexpr double kMostOffset = 0.3;  // of the largest healthy torque
+constexpr double kMostOffset = 0.3;  // of the largest healthy torque: bound of the offset fitted to a block
 
-/// Rows of a stretch with what the robot needs in each.
+/// Torque that the robot needs in each row of a stretch, N m or N.
 struct Rows {
   Eigen::MatrixXd body, braking;  // joints x rows
 };
@@ -50,7 +50,7 @@ Rows needed_in(const Stretch& s, const Chain& chain) {
   return out;
 }
 
-/// Mean over the steps between `count` + 1 rows; `share` of each step's end counts, the rest of its start.
+/// Mean over the steps between `count` + 1 rows; `share` is the weight of each step's end.
 template <typename Row>
 double mean_of_steps(const Row& row, int first, int count, double share) {
   return (1.0 - share) * row.segment(first, count).mean() + share * row.segment(first + 1, count).mean();
@@ -79,8 +79,8 @@ Eigen::Map<const Eigen::ArrayXd> part(const std::vector<double>& values, std::si
 
 double variation(const Eigen::ArrayXd& values) { return std::sqrt((values - values.mean()).square().mean()); }
 
-/// What is left of a block of windows with the offset and the friction that suit it best; NaN where too
-/// little varies.
+/// Misfit of a block of windows with the offset and friction that fit it best (misfits()); NaN if its torque
+/// is too small.
 double misfit(const JointBalance& b, std::size_t first, std::size_t count, double torque_scale) {
   const Eigen::ArrayXd logged = part(b.logged, first, count), body = part(b.body, first, count),
                        braking = part(b.braking, first, count);
@@ -98,7 +98,8 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A position that jumps (a sensor's bias) makes of both what is nearly one quantity.
+/// Whether the velocity is the derivative of the position in another unit or sign. A lower correlation does
+/// not count: a position that jumps (a sensor's bias) also causes it.
 bool is_other_quantity(const DerivativeAgreement& velocity) {
   return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
          (velocity.factor < 0.0 ||
@@ -119,14 +120,14 @@ std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot
     source.rewind();
     for_each_stretch(source, 0, chain.joints(), survey, 1,
                      [&](const Stretch& stretch) { stretches.push_back(stretch); });
-    Eigen::VectorXd fastest = Eigen::VectorXd::Zero(chain.joints());  // but no faster than healthy ones
+    Eigen::VectorXd fastest = Eigen::VectorXd::Zero(chain.joints());  // bounded by the healthy logs
     for (const Stretch& s : stretches)
       fastest = fastest.cwiseMax(s.dq_smooth.cwiseAbs().rowwise().maxCoeff());
     for (int j = 0; j < chain.joints(); ++j)
       fastest[j] = std::min(fastest[j], kFastest * robot.usual.velocity_scale[j]);
     for (const Stretch& s : stretches) add_windows(s, robot, fastest, out);
   } catch (const Error&) {
-    return std::vector<JointBalance>(chain.joints());  // nothing in it that could be held against a robot
+    return std::vector<JointBalance>(chain.joints());  // no motion that can be compared with a robot
   }
   return out;
 }

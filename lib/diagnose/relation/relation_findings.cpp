@@ -16,9 +16,9 @@ namespace faultline {
 namespace {
 
 constexpr double kSure = 0.95, kLess = 0.8;  // confidence well beyond the limit, and just beyond it
-constexpr double kWellBeyond = 1.5;          // times the limit
-constexpr double kJolt_s = 0.1;     // another drive may stray for so long while the controller answers
-constexpr double kSettles_s = 0.1;  // and so long after the first one has ended
+constexpr double kWellBeyond = 1.5;          // times the limit that is well beyond it
+constexpr double kJolt_s = 0.1;     // longest deviation of a drive as the controller reacts to another one
+constexpr double kSettles_s = 0.1;  // and the latest time of its onset after the end of that one
 
 bool loses_torque(FaultKind kind) {
   return kind == FaultKind::torque_loss || kind == FaultKind::free_swinging;
@@ -63,7 +63,7 @@ std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const Expl
   return items;
 }
 
-/// A jolt of another drive while the controller answers to what is going on.
+/// Whether the episode is a short deviation of a drive while the controller reacts to that of another joint.
 bool answers(const RelationEpisode& episode, const std::vector<RelationEpisode>& all) {
   if (episode.kind != RelationKind::actuator || episode.end_s - episode.onset_s > kJolt_s) return false;
   return std::any_of(all.begin(), all.end(), [&](const RelationEpisode& other) {

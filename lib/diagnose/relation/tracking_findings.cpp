@@ -14,12 +14,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kStill = 0.2;               // of the motion that should be there, or less
-constexpr double kAsked = 0.5;               // of the motion that was expected, or more
-constexpr double kTrackingExplains = 0.5;    // of the residual, by a velocity that is missing
-constexpr double kFindingsSameTime_s = 0.1;  // position and velocity show one thing so far apart
+constexpr double kStill = 0.2;               // share of the predicted motion: a joint with less stands still
+constexpr double kAsked = 0.5;               // share of it: a reference with more moves
+constexpr double kTrackingExplains = 0.5;    // share of the residual that a missing velocity must explain
+constexpr double kFindingsSameTime_s = 0.1;  // gap between episodes of position and velocity of one finding
 
-/// Of an episode or a relation.
+/// Names the target of an episode or a relation.
 template <typename Tracked>
 const char* what_strayed(const Tracked& tracked) {
   return tracked.target == Quantity::q ? "position" : "velocity";
@@ -31,15 +31,16 @@ const char* unit_of(const Tracked& tracked, const Chain& chain) {
   return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
-/// Whether what was expected of the joint when it began is what its reference asked for, and no constant that
-/// was learned while it moved.
+/// Whether the motion predicted at the beginning of the episode comes from its reference, and not from a
+/// constant that was learned from motion.
 bool reference_moves(const RelationEpisode& episode) {
   if (episode.target == Quantity::dq)
     return episode.first_reference_rms > kAsked * episode.first_predicted_rms;
   return episode.first_reference_span > kAsked * episode.first_predicted_span;
 }
 
-/// Hardly anything moved that should have when it began; later the joint may catch up.
+/// Whether the joint stood still at the beginning of the episode while its reference moved; it may catch up
+/// later.
 bool stands_still(const RelationEpisode& episode) {
   if (!reference_moves(episode)) return false;
   if (episode.target == Quantity::dq)
@@ -47,7 +48,7 @@ bool stands_still(const RelationEpisode& episode) {
   return episode.first_span < kStill * episode.first_predicted_span;
 }
 
-/// A joint at rest whose reference is at rest does what it is asked for, whatever was learned of motion.
+/// Whether joint and reference are at rest: the joint then follows, whatever was learned from motion.
 bool rests_as_asked(const RelationEpisode& episode) {
   return episode.target == Quantity::dq && !reference_moves(episode) &&
          episode.first_rms < kStill * episode.first_predicted_rms;
@@ -90,7 +91,7 @@ bool is_same(const FaultFinding& finding, const RelationEpisode& episode) {
          finding.end_s >= episode.onset_s - kFindingsSameTime_s;
 }
 
-/// The one that names a kind keeps its words.
+/// Merges two findings of one joint; the one that names a kind keeps its label and texts.
 void join(FaultFinding& finding, FaultFinding more, const EvidenceItem& of_more) {
   const double onset_s = std::min(finding.onset_s, more.onset_s);
   const double alarm_s = std::min(finding.alarm_s, more.alarm_s);
@@ -104,7 +105,7 @@ void join(FaultFinding& finding, FaultFinding more, const EvidenceItem& of_more)
   finding.evidence.push_back(std::move(other));
 }
 
-/// What the model and a log tell of how one joint follows its reference.
+/// The tracking relations of one joint: whether the model has any, and those that were judged in a log.
 struct JointTracking {
   bool is_known = false;
   std::vector<const SignalRelation*> judged{};
