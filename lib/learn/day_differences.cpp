@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // of a torque that the model misses
+constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // correlation time of a missed torque
 
-/// The torque that the rows of a joint leave, as one that is forgotten within some time.
+/// Sets the missed torque of a joint and its correlation time from the noise of its rows.
 void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
   const Eigen::VectorXd covariance = autocovariance(m.noise.joint[joint]);
   const double variance = m.noise.joint[joint].base * covariance[0];
@@ -96,7 +96,7 @@ RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
 
 namespace {
 
-/// The friction that explains the logs, in place of the identified one.
+/// Returns the identification with the friction of the model that explains the logs.
 template <typename Rows>
 Identification with_friction_of(Identification identification, const Rows& model,
                                 const Eigen::VectorXd& width) {
@@ -111,8 +111,8 @@ Identification with_friction_of(Identification identification, const Rows& model
   return identification;
 }
 
-/// The base parameters that explain the logs, which differ by day as these logs do, where some bodies can
-/// have them. A model of one-step predictions has no rotors.
+/// Returns the identification with the base parameters of the model that explains the logs, and their
+/// variance between days, if they are feasible; else unchanged. A one-step model has no rotors.
 Identification with_base_of(const Identification& identification, const OneStepModel& model) {
   Identification out = identification;
   const ParameterSpace& space = out.space;
@@ -130,7 +130,8 @@ Identification with_base_of(const Identification& identification, const OneStepM
   return is_feasible ? out : identification;
 }
 
-/// Noise of the readings as one-step predictions leave it: few samples of a move show it no other way.
+/// Returns the identification with the measurement noise that one-step predictions estimate: with few samples
+/// per move there is no other estimate.
 Identification with_noise_of(Identification identification, const OneStepModel& model) {
   const Eigen::VectorXd noise = model.reading_variance.cwiseSqrt();
   identification.q_noise.assign(noise.begin(), noise.begin() + model.joints());

@@ -10,17 +10,17 @@
 
 namespace faultline {
 
-/// How far healthy days of a robot differ, and the torque that its model misses, as the twin draws them.
+/// Returns how far healthy days of a robot differ and the torque that its model misses, for runs of the twin.
 DayDifferences day_differences(const RobotRows& robot);
 
-/// The robot with at least the ranges that its file states, and the work piece that it states; ranges that
-/// stand at their defaults say nothing.
+/// Returns the robot with day variances of at least the ranges in its file, and with the work piece of the
+/// file; ranges at their defaults change nothing.
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale);
 
-/// The identified robot with the friction that explains its logs, at coarse rates also with their noise and
-/// the base parameters that explain them, where some bodies can have these: the twin must not differ from
-/// what it is judged by.
+/// Returns the identified robot with the friction of the model that explains its logs; at coarse rates also
+/// with its measurement noise, and with its base parameters if they are feasible. The twin then does not
+/// differ from the model that judges it.
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot);
 
 }  // namespace faultline

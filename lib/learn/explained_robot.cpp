@@ -11,17 +11,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kSlack = 1.25;        // lengths of a healthy log that a window has
+constexpr double kSlack = 1.25;        // length of a window over the median length of a healthy log
 constexpr double kHealthyKnown = 0.8;  // share of the work that is done when the healthy robot is known
 
-/// Rows as the robot file says: what its torque is, and how far days may differ.
+/// Returns the rows with the meaning of the torque and the ranges of days from the robot file.
 RobotRows as_stated(RobotRows rows, const Model& model) {
   const bool is_measured = model.robot.log.torque == TorqueMeaning::measured;
   std::visit([&](auto& each) { each.torque_is_measured = is_measured; }, rows);
   return with_stated_ranges(std::move(rows), model.robot.normal, model.motion.torque_scale);
 }
 
-/// About as long as the logs that the limits come from: a log of their length is one window.
+/// Length of a window, s: a little longer than the logs that the limits come from, so that a log of their
+/// length is one window.
 double window_s(const std::vector<UniformLog>& logs) {
   std::vector<double> length_s;
   for (const UniformLog& log : logs) length_s.push_back(log.rows() * log.period_s);

@@ -9,26 +9,26 @@
 
 namespace faultline {
 
-/// A healthy robot whose model explains logs, and what it says of each log that it was learned from, where
-/// that log was left out.
+/// A healthy robot with a model that explains logs, and the explanation of each of its logs by a robot
+/// learned from the others.
 struct ExplainedRobot {
   HealthyRobot robot;
   std::vector<UniformLog> logs{};        ///< robot.days, on a grid
-  std::vector<LogExplanation> left_out;  ///< of each of them
+  std::vector<LogExplanation> left_out;  ///< of each log, by a robot learned from the others
 };
 
 struct ExplainedRobotOptions {
   IdentifyOptions identify{};
-  double more_nats = 0.0;  ///< that a fault needs beside what healthy logs ask for
+  double more_nats = 0.0;  ///< added to the evidence limits that healthy logs give
   int threads = 0;         ///< 0 = one a core; the result does not depend on it
 };
 
-/// healthy_robot() with what explains its logs. `logs` outlive the result. Throws Error(input) when they do
-/// not suffice.
+/// Learns healthy_robot(), the evidence limits and the window length. `logs` outlive the result. Throws
+/// Error(input) when they do not suffice.
 ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& robot,
                                const ExplainedRobotOptions& options, const Progress& progress = {});
 
-/// Limits with `nats` more, or less where that is negative.
+/// Returns the limits plus `nats`, which may be negative.
 EvidenceLimits raised(EvidenceLimits limits, double nats);
 
 }  // namespace faultline

@@ -17,17 +17,17 @@
 namespace faultline {
 namespace {
 
-constexpr double kFirst = 0.4;  // share of the work that is done when the robot was identified once
+constexpr double kFirst = 0.4;  // share of the work that is done after the first identification
 constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
-constexpr int kDaysOfOneLog = 3;                // that a single log is cut into
+constexpr int kDaysOfOneLog = 3;                // pieces of a single log that count as days
 
-/// What a model keeps of the identification for those who ask how good it is.
+/// Returns the part of the identification that a model keeps to document its quality.
 Identification without_state(Identification identification) {
   identification.robot = {};
   identification.space = {};
   identification.estimate = {};
   identification.covariance = {};
-  identification.logs.clear();  // the model's sources name them
+  identification.logs.clear();  // the model's sources list them
   return identification;
 }
 
@@ -49,7 +49,7 @@ Model identified_model(const Identification& identification) {
   return model;
 }
 
-/// Model and logs of `identification`; the logs are those that agreed when all were given.
+/// Makes model and logs of `identification`; the logs are those that were not left out of `given`.
 HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& robot,
                                  Identification identification, std::vector<IdentifiedLog> given) {
   HealthyRobot out;
@@ -62,8 +62,8 @@ HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& 
   return out;
 }
 
-/// A mass that comes and goes looks like a torque that acts late: what such logs tell of a delay is not
-/// believed while work pieces are looked for.
+/// Returns the identification with the torque delay of the robot file: a mass that comes and goes looks like
+/// a delay, so that the estimated delay is not used in the search for work pieces.
 Identification as_stated(Identification identification, const Robot& robot) {
   identification.robot.torque_delay_s = robot.torque_delay_s;
   return identification;
@@ -82,10 +82,10 @@ FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>&
   return fit_days(days, robot.identification.space, {.torque_is_held = is_held(robot)});
 }
 
-/// The robot at a coarse rate, and without each of the logs.
+/// Learns the robot at a coarse rate from all logs, and without each of them in turn.
 void learn_steps(HealthyRobot& robot, const std::vector<LogSource*>& days, int threads) {
   const auto count = static_cast<int>(days.size());
-  std::vector<Log> copies;  // one job after the other reads the same logs
+  std::vector<Log> copies;  // parallel jobs read the same logs
   for (LogSource* log : days) {
     log->rewind();
     copies.push_back(read_all(*log));
@@ -109,7 +109,7 @@ void take_rows(HealthyRobot& robot, FittedDays fit) {
   for (BalanceModel& model : fit.without) robot.without.emplace_back(std::move(model));
 }
 
-/// The logs that agree, without the rows in which a work piece is carried; none where that is told of none.
+/// Returns the kept logs, restricted to their rows_without_work_piece(); none if there are no such rows.
 std::deque<SelectedRowsSource> without_work_piece(std::span<LogSource* const> logs, HealthyRobot& robot,
                                                   const FittedDays& fit) {
   std::deque<SelectedRowsSource> out;
@@ -134,7 +134,7 @@ Issue work_piece_issue(double kg) {
                                 kg));
 }
 
-/// The logs as days; a single one is cut into several.
+/// Sets the days: the logs, or several pieces of a single log.
 void set_days(HealthyRobot& robot) {
   robot.days = pointers(robot.logs);
   if (robot.days.size() != 1) return;

@@ -16,7 +16,7 @@
 
 namespace faultline {
 
-/// How the torques of logs that were opened with one robot are read with another.
+/// Delay and gain by joint that convert the torques of logs opened with one robot to those of another robot.
 struct TorqueReading {
   std::vector<double> delay_s, gain;
 
@@ -25,13 +25,13 @@ struct TorqueReading {
 
 TorqueReading reading_of(const Robot& opened_with, const Robot& robot);
 
-/// The logs that agree, told as if their torques acted when and as logged; `logs` outlive them.
+/// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
 std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
                                         const std::vector<IdentifiedLog>& identified);
 
 std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs);
 
-/// What healthy logs tell of the robot before faults are thought of.
+/// A robot learned from its healthy logs, before limits and faults are.
 struct HealthyRobot {
   Identification identification;
   std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
@@ -43,13 +43,13 @@ struct HealthyRobot {
   std::vector<RobotRows> without{};                 ///< rows learned without each of the days
 };
 
-/// Identifies the robot and learns how its healthy days differ. Where a work piece comes and goes, the robot
-/// is identified a second time, from the rows without it. `logs` outlive the result. Throws
-/// Error(input) when they do not suffice.
+/// Identifies the robot and learns how its healthy days differ. If a work piece comes and goes, the robot is
+/// identified a second time, from the rows without it. `logs` outlive the result. Throws Error(input) when
+/// they do not suffice.
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress);
 
-/// Rows learned from some of the robot's days.
+/// Learns the rows from some of the robot's days.
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days);
 
 }  // namespace faultline

@@ -31,18 +31,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kFewestAlarms = 1e-6, kMostAlarms = 100.0;  // an hour
+constexpr double kFewestAlarms = 1e-6, kMostAlarms = 100.0;  // bounds of the option, per hour
 
-// Shares of the work that are done after its stages, roughly.
+// Approximate shares of the work that are done after its stages.
 constexpr double kIdentified = 0.25, kResidualsLearned = 0.35, kSimulated = 0.8, kTrained = 0.85;
 
-constexpr double kEnoughFound = 0.5;  // of the training runs: where fewer are, as many again are simulated
+constexpr double kEnoughFound = 0.5;  // of the training runs: if fewer are found, as many again are simulated
 
-// Streams of seeds that never meet.
+// Disjoint streams of seeds.
 constexpr std::uint64_t kTrainingSeeds = 0, kMoreSeeds = 500'000, kValidationSeeds = 1'000'000,
                         kHealthyValidationSeeds = 3'000'000, kLimitSeeds = 2'000'000, kSeedBlock = 10'000'000;
 
-constexpr int kSampleRuns = 6;  // of a label, two thirds for training
+constexpr int kSampleRuns = 6;  // runs of a label for the sample mode, two thirds for training
 
 CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& classifier,
                        const std::vector<LabelledResiduals>& runs) {
@@ -55,7 +55,7 @@ CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& cl
   return tune_criterion(start, meaning, outputs).best;
 }
 
-/// The runs that single samples are judged by.
+/// Selects the runs for the sample mode: all healthy ones, and a few of each label that shows in each sample.
 std::vector<LabelledResiduals> of_samples(std::vector<LabelledResiduals> runs) {
   std::vector<LabelledResiduals> out;
   std::vector<FaultLabel> taken;
@@ -111,9 +111,8 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
   return sources;
 }
 
-/// A ratio exceeds t by chance with a probability of at most exp(-t) (Wald, 1945): so many nats more make
-/// false alarms so much rarer.
-/// Nats beside the usual limits that fewer false alarms ask for.
+/// Nats that are added to the usual limits for this rate of false alarms: a log-likelihood ratio exceeds t by
+/// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
 double more_nats(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
 void tell(const Progress& progress, const char* what, double share) {
@@ -154,8 +153,8 @@ TwinStudy joined(TwinStudy a, TwinStudy b) {
   return a;
 }
 
-/// Faults that the identified robot was simulated with teach the networks and fill the case base; runs that
-/// nothing was trained on measure all that.
+/// Trains the networks and fills the case base with simulated faults of the identified robot, and validates
+/// them on runs that were not used in training.
 void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueReading& reading,
                      const std::vector<UniformLog>& days, const LearnOptions& options,
                      const Progress& progress) {

@@ -23,7 +23,7 @@ struct LabelledLog {
   double onset_s = 0.0;
 };
 
-/// The budget that the limits of healthy logs are meant for.
+/// False alarms per hour for which the limits from healthy logs are meant.
 inline constexpr double kUsualAlarmsPerHour = 0.01;
 
 struct LearnOptions {
@@ -31,12 +31,12 @@ struct LearnOptions {
   ResidualOptions residual{};
   TwinOptions twin{};            ///< how faults are simulated
   int runs_per_label = 3;        ///< simulated to train the networks and fill the case base
-  int validation_per_label = 1;  ///< simulated to measure the model, trained on by nothing
+  int validation_per_label = 1;  ///< simulated to validate the model, not used in training
   double alarms_per_hour =
-      kUsualAlarmsPerHour;         ///< that chance may raise, by the regression and by each relation
+      kUsualAlarmsPerHour;         ///< false alarms by chance, of the regression and of each relation
   int healthy_runs = 20;           ///< simulated for limits and networks, and as many to measure false alarms
   std::vector<FaultKind> kinds{};  ///< to simulate; empty = all that can be named
-  bool keep_doubtful = false;      ///< a model that is not to be trusted is marked rather than refused
+  bool keep_doubtful = false;      ///< a model with grave doubts is marked rather than refused
   int threads = 0;                 ///< 0 = one a core; changes no byte of the result
   std::uint64_t seed = 1;
 
@@ -53,10 +53,10 @@ struct Learned {
 
 /// Learns one robot from its healthy logs: identify it, learn its fault-free motion, learn how its days
 /// differ, simulate faults on the identified robot, train the networks and fill the case base with them (and
-/// with the labelled logs, if any), and measure all that on further simulated runs. Where no healthy log has
-/// a torque, the model knows only how the joints follow their references (tracking_model()). Logs that the
-/// others contradict are left out (trusted_robot()); Model::doubts keeps what else speaks against the model.
-/// Throws Error(input) when the logs do not suffice, or make a model that is not to be trusted.
+/// with the labelled logs, if any), and validate all that on further simulated runs. If no healthy log has a
+/// torque, the model holds only how the joints follow their references (tracking_model()). Logs that the
+/// others contradict are left out (trusted_robot()); Model::doubts lists the other doubts about the model.
+/// Throws Error(input) when the logs do not suffice, or give a model with grave doubts.
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options = {}, const Progress& progress = {});
 

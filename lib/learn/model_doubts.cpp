@@ -10,12 +10,12 @@
 namespace faultline {
 namespace {
 
-// Shares of simulated faults. Healthy arms of laboratories, whose torque a rigid robot explains to 90 %, come
-// to 45 to 75 %, robots that equal their model to 98 %.
-constexpr double kBlind = 1.0 / 3.0;  // found, below which a model says nothing by finding nothing
-constexpr double kUsual = 0.8;        // found
-constexpr double kNamed = 0.6;        // named rightly, or among the names
-constexpr int kMostFalseAlarms = 1;   // in all the simulated healthy runs: more is no chance
+// Shares of simulated faults. Models of laboratory arms, whose torque a rigid robot explains to 90 %, find 45
+// to 75 %, those of robots that equal their model 98 %.
+constexpr double kBlind = 1.0 / 3.0;  // found: below it, the absence of findings has no meaning
+constexpr double kUsual = 0.8;        // found: below it, a minor doubt
+constexpr double kNamed = 0.6;        // named right or as an alternative: below it, a minor doubt
+constexpr int kMostFalseAlarms = 1;   // in all simulated healthy runs: more are not by chance
 
 void doubt_friction(const ParameterEstimate& parameter, ModelDoubts& doubts) {
   const bool viscous = parameter.name.rfind("fv_", 0) == 0, coulomb = parameter.name.rfind("fc_", 0) == 0;

@@ -9,33 +9,32 @@
 
 namespace faultline {
 
-/// What speaks against a learned model, in sentences.
+/// Reasons not to rely on a learned model, in sentences.
 struct ModelDoubts {
-  std::vector<std::string> grave;  ///< its diagnoses would mean nothing
-  /// One of the logs that it was learned from may hold a fault, which it takes for healthy: what it finds
-  /// counts, that it finds nothing does not.
+  std::vector<std::string> grave;  ///< its diagnoses are meaningless
+  /// One of its healthy logs may contain a fault, which the model then treats as healthy: its findings are
+  /// valid, the absence of findings is not.
   std::vector<std::string> contradictions;
-  std::vector<std::string> minor;  ///< they mean less than those of other models
+  std::vector<std::string> minor;  ///< its diagnoses are less reliable than those of other models
 
   bool is_grave() const { return !grave.empty(); }
   void add(const ModelDoubts& more);
 };
 
-/// A robot that does not explain the logs, or that no robot is.
+/// Lists doubts about a robot that explains the logs poorly, did not converge, or has negative friction.
 ModelDoubts doubts_about(const Identification& identification);
 
-/// A model that misses most of the faults it was trained on, or alarms where there are none. Missing most is
-/// no grave doubt where second residuals judge the logs, too: they find faults that these runs do not ask
-/// for.
+/// Lists doubts about a model that misses or misnames many simulated faults, or raises false alarms. Missing
+/// most is no grave doubt with second residuals: they find faults that these runs do not have.
 ModelDoubts doubts_about(const Validation& validation, bool has_relations);
 
-/// All of them as one list, the grave first.
+/// Joins all of them to one list, the grave first.
 std::vector<std::string> listed(const ModelDoubts& doubts);
 
-/// Those with which no log can be called healthy (Model::grave_doubts).
+/// Returns those with which no log can be called healthy (Model::grave_doubts): grave and contradictions.
 std::vector<std::string> against_healthy(const ModelDoubts& doubts);
 
-/// Throws Error(input) that names the grave doubts and what to do.
+/// Throws Error(input) that names the grave doubts and what to do, if there are any.
 void refuse_grave(const ModelDoubts& doubts);
 
 }  // namespace faultline

@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kSurely = 0.9;  // share of the logs that must show a size
+constexpr double kSurely = 0.9;  // share of the logs in which a size must be found
 
-/// Size of a label that nine of ten logs show; NaN where no log says, or too few show any.
+/// Smallest size of a label that is found in nine of ten logs; NaN if there is none.
 double size_shown(const FaultLabel& label, const std::vector<std::vector<LeastFound>>& by_log) {
   std::vector<double> sizes;
   for (const std::vector<LeastFound>& log : by_log)

@@ -9,9 +9,9 @@
 
 namespace faultline {
 
-/// How small a fault may be to be found, label by label in the order of the runs: the size that nine of ten
-/// healthy logs show, each by least_found(); and how many of the simulated runs were found, and when. An
-/// alarm before the onset finds nothing.
+/// Returns the reach of each label, in the order of the runs: the smallest size that is found in nine of ten
+/// healthy logs (`by_log`: least_found() of each), and number and median delay of the simulated runs that
+/// were found. An alarm before the onset does not count.
 std::vector<Reach> reach_of(std::span<const MonitoredRun> runs,
                             const std::vector<std::vector<LeastFound>>& by_log);
 

@@ -19,7 +19,7 @@ void check_joints(const Log& segment, const LogSource& log, const Robot& robot) 
               joint_count_sentence(log.issues(), segment.joints(), "the robot file", robot.joints()));
 }
 
-/// Reads the log through; its usual sample period, s.
+/// Reads the whole log and returns its usual sample period, s; sets model.has_velocity.
 double period_of(LogSource& log, const Robot& robot, Model& model) {
   QualityState state;
   log.rewind();

@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-/// Two classifiers: number h has not seen the episodes i with i % 2 == h.
+/// Trains two classifiers: number h without the episodes i with i % 2 == h.
 std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpisode>& episodes,
                                                    const EpisodeClassifierOptions& options) {
   std::array<EpisodeClassifier, 2> half;
@@ -32,7 +32,7 @@ CaseSource source_of(const MonitoredRun& run) {
           run.onset_s};
 }
 
-/// Every classifier, also those of halves, tells at least two kinds of fault apart.
+/// Throws Error(input) unless each half of the episodes has two labels, as every classifier needs.
 void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs) {
   for (std::size_t half = 0; half < 2; ++half) {
     std::vector<FaultLabel> labels;

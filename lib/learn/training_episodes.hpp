@@ -12,26 +12,26 @@
 
 namespace faultline {
 
-/// Where a case comes from.
+/// The origin of a case.
 struct CaseSource {
   std::string origin;
-  std::string log_sha256;  ///< empty where it was no file
-  std::string log_name;    ///< without folders; empty where it was no file
+  std::string log_sha256;  ///< empty without a file
+  std::string log_name;    ///< without folders; empty without a file
   double onset_s = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The episodes that the networks and the case base learn from: of each run the one that belongs to its
-/// fault, with its label and where it comes from.
+/// fault, with its label and origin.
 struct TrainingEpisodes {
   std::vector<LabelledEpisode> episodes;
   std::vector<double> evidence;     ///< log likelihood ratio of the best hypothesis, one an episode
-  std::vector<CaseSource> sources;  ///< as a case tells it
+  std::vector<CaseSource> sources;  ///< as a case stores them
 };
 
 TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model);
 
-/// A case an episode. The opinions kept with it come from networks that were trained on the other half of the
-/// episodes, so that they are as good as they will be in use, not better.
+/// Makes a case of each episode. Its opinions come from networks that were trained on the other half of the
+/// episodes, so that they are as accurate as in use, not better.
 CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
                         const EpisodeClassifierOptions& options);
 

@@ -15,11 +15,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kRobotFirst = 0.6;     // share of the work that is done before logs are doubted
-constexpr double kHint = 5.0;           // nats from which the most suspicious log is judged by the others
-constexpr double kContradictory = 5.0;  // times kLeastEvidence: a day of a kind that few logs show gives less
+constexpr double kRobotFirst = 0.6;     // share of the work that is done before logs are judged
+constexpr double kHint = 5.0;           // nats from which on the most suspicious log is judged by the others
+constexpr double kContradictory = 5.0;  // times kLeastEvidence: unusual healthy days give less evidence
 
-/// What a robot learned from the other logs sees in one of them.
+/// The fault that a robot learned from the other logs finds in a log.
 struct Contradiction {
   int log = 0;  ///< from 0
   FaultLabel label;
@@ -28,7 +28,7 @@ struct Contradiction {
 
 double strongest(const LogExplanation& e) { return e.best.empty() ? 0.0 : e.best.front().gain; }
 
-/// The log in which a fault explains most, if that is anything at all.
+/// Returns the log with the strongest evidence of a fault; nullopt if that is below kHint.
 std::optional<std::size_t> suspect(const std::vector<LogExplanation>& left_out) {
   std::size_t worst = 0;
   for (std::size_t k = 1; k < left_out.size(); ++k)
@@ -50,14 +50,14 @@ class LogTrial {
     std::erase_if(in_use_, [&](int log) { return given_[log].left_out; });
   }
 
-  /// Leaves out what contradicts the others until nothing does.
+  /// Leaves out logs that contradict the others until none does, at most a minority.
   void leave_out_contradicting(const Progress& progress) {
     const std::size_t most = in_use_.size() <= 2 ? 0 : (in_use_.size() - 1) / 2;
     for (std::size_t left_out = 0; left_out < most; ++left_out)
       if (!leave_one_out(progress)) return;
   }
 
-  /// Doubts of two logs, or of logs that are all kept.
+  /// Adds a doubt if one of the logs, which are all kept, contradicts the others.
   void doubt(const Progress& progress) {
     if (in_use_.size() < 2) return;
     const auto found = find_contradiction(progress);
@@ -82,12 +82,12 @@ class LogTrial {
       return explained_robot(others, robot_, options_);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::input) throw;
-      return std::nullopt;  // they do not suffice without it
+      return std::nullopt;  // the others do not suffice
     }
   }
 
-  /// The suspect, if rows learned from the others name a fault in it. A faulty log makes the noise that was
-  /// learned with it loud, so its own evidence against these rows is small.
+  /// Returns the fault in the suspect, if rows learned from the others alone show one. The noise level that
+  /// was learned with a faulty log is high, so that its evidence in the first explanation is small.
   std::optional<Contradiction> find_contradiction(const Progress& progress) const {
     const HealthyRobot& robot = explained_.robot;
     const std::optional<std::size_t> found = suspect(explained_.left_out);
@@ -121,7 +121,7 @@ class LogTrial {
     return true;
   }
 
-  /// Goes on with the robot that the others made, and without what that left out by itself.
+  /// Continues with the robot learned from the others, without the logs that its identification left out.
   void leave_out(int log, ExplainedRobot others) {
     explained_ = std::move(others);
     given_[log].left_out = true;

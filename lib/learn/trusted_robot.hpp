@@ -9,18 +9,18 @@
 
 namespace faultline {
 
-/// A robot learned from those logs that bear each other out.
+/// A robot learned from healthy logs that do not contradict each other.
 struct TrustedRobot {
   ExplainedRobot explained;  ///< `given` names all logs, also those left out
-  /// Why the logs are not to be trusted all the same, in sentences; empty where nothing speaks against them.
+  /// Contradictions between logs that were kept, in sentences; empty if there are none.
   std::vector<std::string> doubts;
 };
 
-/// explained_robot() of logs that were given as healthy, where no log is believed for its word: the one that
-/// a fault explains most of, against the others, is judged by a robot learned from the others, and left out
-/// where that names a fault in it; then the next. At most a minority is left out. With
-/// IdentifyOptions::keep_all, and of two logs, where nobody can say which of both is healthy, all are kept
-/// and the contradiction is a doubt. `logs` outlive the result. Throws Error(input) when they do not suffice.
+/// Learns explained_robot() from logs that were given as healthy, and checks that they are: the log with the
+/// strongest evidence of a fault is judged by a robot learned from the others, and left out if that finds a
+/// fault in it; then the next. At most a minority is left out. With IdentifyOptions::keep_all, and for two
+/// logs, either of which may be the faulty one, all are kept and the contradiction is a doubt. `logs` outlive
+/// the result. Throws Error(input) when they do not suffice.
 TrustedRobot trusted_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const ExplainedRobotOptions& options, const Progress& progress = {});
 

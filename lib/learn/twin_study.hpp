@@ -15,24 +15,24 @@
 
 namespace faultline {
 
-/// A log whose fault is known, as monitoring left it.
+/// A monitored log whose fault is known.
 struct MonitoredRun {
   FaultLabel label;
   double onset_s = 0.0;
   double length_s = 0.0;  ///< time from its first to its last row
-  std::string origin;     ///< where it comes from, as a case tells it
+  std::string origin;     ///< as a case stores it
   MonitoredLog log;
   double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
 };
 
 /// How a run of the twin is judged.
 enum class TwinJudging {
-  searched,  ///< as a log is that somebody recorded
-  known,     ///< at the times of its fault (monitor_at()): a tenth of the time
+  searched,  ///< as a recorded log is
+  known,     ///< at the known times of its fault (monitor_at()): a tenth of the computing time
 };
 
-/// The model without gear springs: the twin has rigid gears, and springs that its runs do not show would be
-/// evidence of faults.
+/// Returns the model without gear springs: the twin has rigid gears, and springs of the model that its runs
+/// do not have would be evidence of faults.
 Model with_rigid_gears(Model model);
 
 struct TwinStudyOptions {
@@ -45,14 +45,14 @@ struct TwinStudyOptions {
 /// Runs of the twin, one for each label.
 struct TwinStudy {
   std::vector<MonitoredRun> runs;
-  std::vector<LabelledResiduals> residuals;  ///< of all rows of each run; empty where they were not asked for
+  std::vector<LabelledResiduals> residuals;  ///< of all rows of each run; empty without keep_residuals
 };
 
-/// One run of the twin for each label, judged with the model, but with rigid gears.
+/// Simulates one run of the twin for each label, and judges it with the model, but with rigid gears.
 TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::vector<FaultLabel>& labels,
                               const TwinStudyOptions& options, const Progress& progress = {});
 
-/// Each of the labels `count` times: of the kinds asked for, all if none is.
+/// Returns each of the labels whose kind is in `kinds`, `count` times; all labels if `kinds` is empty.
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,
                                            const std::vector<FaultKind>& kinds);
 
@@ -62,10 +62,10 @@ const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
 
 struct Validated {
   Validation validation;
-  std::vector<JudgedConfidence> judged;  ///< the names that were given in the runs with a fault
+  std::vector<JudgedConfidence> judged;  ///< of findings in the runs with a fault, without unknown ones
 };
 
-/// What the pipeline makes of runs that it was not trained on.
+/// Validates the pipeline on runs that it was not trained on.
 Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
                    const Model& model, const CaseBase& cases);
 

@@ -4,11 +4,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kFewestOfAll = 0.15;       // share of the rows
+constexpr double kFewestOfAll = 0.15;       // share of the rows: with less, the robot is identified from all
 constexpr std::int64_t kFewestRows = 1000;  // rows of all logs together: fewer do not identify a robot
-constexpr double kSpare_s = 0.05;           // beside a change
+constexpr double kSpare_s = 0.05;           // margin between a change of the level and the rows used
 
-/// Times at which the tip is empty.
+/// A time range without a work piece.
 struct EmptyTimes {
   double begin_s = 0.0, end_s = 0.0;
 };
@@ -26,7 +26,7 @@ std::vector<EmptyTimes> empty_times(const PieceTimes& piece) {
   return out;
 }
 
-/// Rows of a log, and those of them at these times.
+/// The number of rows of a log, and its rows without a work piece.
 struct EmptyRows {
   std::int64_t all = 0;
   std::vector<RowRange> empty;

@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// By log, the rows in which the robot carries no work piece: a piece that is carried half of the time shifts
-/// masses and friction of a robot identified from all rows. Empty where they are too few to identify it from,
-/// or where no work piece comes and goes. `logs` are those that `days` were fitted to. Rewinds them.
+/// Returns by log the rows without a work piece, since one that is carried half of the time shifts masses and
+/// friction of a robot identified from all rows. Empty if these rows are too few for an identification, or no
+/// work piece comes and goes. `logs` are those that `days` were fitted to. Rewinds them.
 std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
                                                            const FittedDays& days);
 

@@ -9,15 +9,15 @@
 namespace faultline {
 namespace {
 
-// Streams of random numbers that never meet: of the attempts' draws, and of their simulations.
+// Disjoint streams of random numbers: of the draws of attempts, and of their simulations.
 constexpr std::uint64_t kDrawStream = 7;
-constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;  // more than one learning uses
+constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;  // more seeds than one learning uses
 
-// Of the way from one logged torque to the next (phi): less is nearer to a held torque, phi = 0, than to one
-// that changes many times on the way, phi = 1/2.
+// Share of the way from one logged torque to the next (phi): a smaller one is nearer to a held torque, phi =
+// 0, than to a torque that changes many times on the way, phi = 1/2.
 constexpr double kNearlyHeld = 0.25;
 
-// Samples that a run must reach to be of use: a few after the onset, or nearly all of a healthy one.
+// Samples that a run must reach to be used: a few after the onset, or nearly all of a healthy one.
 constexpr double kNeededAfterOnset = 3.0;  // after the onset
 constexpr double kSpareAtTheEnd = 2.0;     // before the end of a healthy run
 
@@ -51,7 +51,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
   return spec;
 }
 
-/// One try; the run may end early when the controller drawn does not hold this robot.
+/// Simulates one attempt; the run ends early if the drawn controller does not stabilise this robot.
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
   Robot robot = draw(*twin.identification, random);

@@ -12,19 +12,19 @@
 
 namespace faultline {
 
-/// How far healthy days of a robot differ (standard deviations), and the torque that its model misses for a
-/// while; one number a joint, 0 for none.
+/// How far healthy days of a robot differ, and the torque that its model misses, as standard deviations; one
+/// number a joint, 0 for none.
 struct DayDifferences {
   std::vector<double> friction;         ///< share of viscous and Coulomb friction
   std::vector<double> gain;             ///< share of the torque that the drive gives
   std::vector<double> offset;           ///< N m or N that the drive gives beside what is logged
   std::vector<double> missed;           ///< N m or N: ripple, springs, shape of friction
-  std::vector<double> missed_memory_s;  ///< after which a missed torque is another
+  std::vector<double> missed_memory_s;  ///< correlation time of the missed torque
 
   static DayDifferences none(int joints);
 };
 
-/// What the twin needs of the robot to make runs that resemble its logs.
+/// The data of a robot from which the twin makes runs that resemble its logs.
 struct Twin {
   const Identification* identification = nullptr;
   const UsualMotion* motion = nullptr;
@@ -34,7 +34,7 @@ struct Twin {
   TwinOptions options{};
 };
 
-/// A simulated run with the one fault it was asked for; FaultKind::none for a healthy one.
+/// A simulated run with the requested fault; FaultKind::none for a healthy one.
 struct TwinRun {
   Log log;
   FaultLabel label;
@@ -43,12 +43,12 @@ struct TwinRun {
   double size = 0.0;                                       ///< SimulatedFault::size
 };
 
-/// Length of a run: long enough for a few moves after any onset.
+/// Length of a run, s: long enough for a few moves after any onset.
 double twin_run_length_s(const Twin& twin);
 
-/// A run of the identified robot with its parameters drawn from their uncertainty, motion within the range
-/// and about the speed of its logs, controller and fault size at random, noise as measured. The same seed
-/// gives the same run.
+/// Simulates a run of the identified robot with its parameters drawn from their uncertainty, motion within
+/// the range and about the speed of its logs, controller and fault size at random, noise as measured. The
+/// same seed gives the same run.
 TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed);
 
 }  // namespace faultline

@@ -10,14 +10,14 @@
 namespace faultline {
 namespace {
 
-/// A usual move goes over a third of the range, as points drawn at random do, and a quintic has an rms speed
-/// of 1.2 times its mean: its length is this share of range / rms speed.
+/// Duration of a usual move over range / rms speed: a move between random points goes over a third of the
+/// range, and a quintic has an rms speed of 1.2 times its mean.
 constexpr double kMoveShare = 0.4;
-constexpr double kMoveOfAStill_s = 1.0;  // the usual move where no joint of the logs moves
+constexpr double kMoveOfAStill_s = 1.0;  // duration of the usual move if no joint of the logs moves
 
-constexpr double kMostStds = 2.0;       // of what differs on a day: the normal range
-constexpr double kLeastFriction = 0.3;  // there is always some
-constexpr double kLeastGain = -0.9;     // no drive turns round
+constexpr double kMostStds = 2.0;       // standard deviations of an effect of the day: the normal range
+constexpr double kLeastFriction = 0.3;  // factor of the friction of a day: there is always some
+constexpr double kLeastGain = -0.9;     // change of the gain of a day: no drive reverses its torque
 
 std::vector<double> scaled(std::vector<double> values, double by) {
   for (double& value : values) value *= by;
@@ -26,7 +26,7 @@ std::vector<double> scaled(std::vector<double> values, double by) {
 
 double random_sign(Random& random) { return random.uniform() < 0.5 ? -1.0 : 1.0; }
 
-/// What differs on a day, within the normal range; nothing is drawn where days are alike.
+/// Draws an effect of the day within the normal range; draws no random number if days do not differ.
 double draw_change(double std, Random& random) {
   if (std == 0.0) return 0.0;
   const double most = kMostStds * std, change = std * random.normal();
@@ -42,7 +42,7 @@ double draw_from(const DrawRange& range, Random& random) {
   return sign * size;
 }
 
-/// Sizes that a technician would call a fault, against what is usual for the joint.
+/// Draws a fault of sizes that a technician would call a fault, relative to what is usual for the joint.
 SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onset_s, Random& random) {
   const TwinFault& ranges = twin.options.faults[static_cast<std::size_t>(label.kind)];
   const FaultDescription& kind = describe(label.kind);
@@ -60,7 +60,7 @@ SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onse
   return fault;
 }
 
-/// A contact at the tip pushes another joint as well, less than its own.
+/// Adds a smaller push on another joint in a share of the runs, as a contact at the tip has.
 void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, Random& random) {
   const UsualMotion& motion = *twin.motion;
   const int joints = motion.joints();

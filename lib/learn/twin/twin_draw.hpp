@@ -8,22 +8,22 @@
 
 namespace faultline {
 
-/// Length of a move over which the twin is about as fast as the logs.
+/// Duration of a move, s, at which the twin is about as fast as the logs.
 double usual_move_s(const Twin& twin);
 
-// One draw each of what a run is made of.
+// Each of these draws one part of a run.
 MotionSpec draw_motion(const Twin& twin, Random& random);
-/// PD holds fewer robots than computed torque: a second attempt does without it.
+/// PD control stabilises fewer robots than computed torque, so that a second attempt does not allow it.
 ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random);
-/// What the drives give beside what is logged, as far as it is normal: offset, torque constant, roughness.
+/// Differences of drive torque and logged torque in the normal range: offset, torque constant, roughness.
 DriveSpec draw_drives(const Twin& twin, Random& random);
 /// Measurement noise of a day, within the normal range.
 NoiseSpec draw_noise(const Twin& twin, Random& random);
-/// What friction the robot has on a day, within the normal range.
+/// Scales the friction of `robot` to that of a day, within the normal range.
 void draw_day(const Twin& twin, Robot& robot, Random& random);
-/// Somewhere outside the range seen in the logs, or none.
+/// End stops outside the range of the logs, or none.
 JointStops draw_stops(const Twin& twin, Random& random);
-/// The fault asked for, and of one that passes perhaps a second push.
+/// The requested fault, and for a kind that passes possibly a second push at another joint.
 std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
                                         Random& random);
 
