@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What the network is to put out for each transition, in SI units.
+/// Training targets of the network for each transition, in SI units.
 MatrixXd network_targets(const ResidualGenerator& generator, const Transitions& transitions) {
   const MatrixXd change = measured_change(generator, transitions);
   if (generator.kind == ResidualKind::mlp && generator.target == PredictedQuantity::state) {

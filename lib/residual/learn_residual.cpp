@@ -21,9 +21,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kLeastPatterns = 50;  // below this there is nothing to learn a robot from
+constexpr int kLeastPatterns = 50;  // fewer training patterns do not determine the motion
 
-/// What a first look at the logs tells.
+/// Summary of the logs from a first pass.
 struct Survey {
   double period_s = 0.0;
   bool has_velocity = true;

@@ -27,7 +27,7 @@ struct ResidualOptions {
   double step_s = 0.0;
   /// Rows between predictions; 0 = a third of the step, so that each row lies in about three predictions.
   int stride = 0;
-  bool mean_torque = true;  ///< also feed the mean torque over the step where it differs from the first
+  bool mean_torque = true;  ///< mean torque over the step as further inputs, if it can differ from the first
   int max_patterns = 2000;  ///< trained on, drawn from the logs at random
   /// Patterns made by the identified robot around the logged states, as a share of max_patterns: a few logs
   /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,
@@ -52,8 +52,8 @@ struct LearnedResidual {
 
 /// Learns the fault-free motion of a robot from its healthy logs, streaming them twice (they are rewound
 /// first). Logs are cut into blocks of up to 3 s, so that whole moves stay together; of each ten blocks seven
-/// train, one validates, two measure the healthy residuals. Throws Error(input) when the logs have no such
-/// robot or too few rows.
+/// train, one validates, two measure the healthy residuals. Throws Error(input) when the logs have other
+/// joints, no torque or too few rows.
 LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const Robot& identified,
                                          double torque_phi, const ResidualOptions& options = {},
                                          const Progress& progress = {});

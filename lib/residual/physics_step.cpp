@@ -13,8 +13,8 @@ namespace {
 
 using Vector = JointVector;
 
-/// Runge-Kutta of order 4 is stable up to rate * step = 2.78; the friction of a joint pulls the velocity to
-/// zero at the rate dF/ddq / M.
+/// Number of integration steps. Runge-Kutta of order 4 is stable up to rate * step = 2.78; the friction of a
+/// joint reduces its velocity at the rate dF/d(dq) / M.
 int substeps(const FastDynamics& robot, const JointState& start, double duration) {
   constexpr double kLongest = 0.005, kStable = 2.0, kMost = 256.0;
   JointMatrix inertia;

@@ -13,15 +13,15 @@
 
 namespace faultline {
 
-/// What predicts the fault-free motion.
+/// The predictor of the fault-free motion.
 enum class ResidualKind {
   mlp,      ///< the paper: a network from (q, dq, tau) now to (q, dq) one step later
   physics,  ///< the identified robot, integrated over the step
-  hybrid,   ///< physics, and a network on what it leaves over
+  hybrid,   ///< physics, and a network that predicts its residual
 };
 const char* to_string(ResidualKind kind);
 
-/// What the network of kind `mlp` puts out.
+/// The output of the network of kind `mlp`.
 enum class PredictedQuantity {
   change,  ///< of q and dq over the step; exact at short steps
   state,   ///< q and dq after the step, as in the paper
@@ -34,14 +34,14 @@ struct HealthyResiduals {
   Eigen::VectorXd position_max, velocity_max, torque_max;  ///< largest magnitudes
 };
 
-/// Predicts (q, dq) one step ahead for a robot that works as it should.
+/// Predicts (q, dq) one step ahead for a healthy robot.
 struct ResidualGenerator {
   ResidualKind kind = ResidualKind::mlp;
   PredictedQuantity target = PredictedQuantity::change;
   TransitionShape shape;
   bool uses_mean_torque = false;  ///< inputs also hold the mean torque over the step
-  std::vector<char> turns;  ///< 1 for a revolute joint that goes round: seen by sine and cosine, differences
-                            ///< taken modulo a turn
+  std::vector<char> turns;  ///< 1 for a revolute joint with a range of about a turn: its inputs are sine and
+                            ///< cosine, differences are taken modulo a turn
   Chain chain;              ///< the identified robot
   Scaler inputs, outputs;   ///< of the network
   Mlp mlp;                  ///< empty for kind physics
@@ -50,22 +50,22 @@ struct ResidualGenerator {
   int joints() const { return shape.joints; }
 };
 
-/// What the network sees of each transition: q (or sine, then cosine), dq, tau and, if used, the mean torque;
-/// inputs x transitions, not scaled.
+/// Inputs of the network for each transition: q (or its sine), dq, tau and, if used, the mean torque, then
+/// the cosine of joints with `turns`; inputs x transitions, not scaled.
 Eigen::MatrixXd network_inputs(const ResidualGenerator& generator, const Transitions& transitions);
 
-/// What the network puts out for each transition, in SI units: change of q and dq over the nominal duration
-/// (for kind `hybrid` what physics leaves over of it), or both after it (target `state`). 2 joints x
-/// transitions. Not for kind `physics`, which has no network.
+/// Outputs of the network for each transition, in SI units: change of q and dq over the nominal duration (for
+/// kind `hybrid` the residual of physics), or both after it (target `state`). 2 joints x transitions. Not for
+/// kind `physics`, which has no network.
 Eigen::MatrixXd network_outputs(const ResidualGenerator& generator, const Transitions& transitions);
 
-/// Change of q (upper half) and dq (lower half) over each transition that the part before the network
-/// predicts: physics for the kinds that have it, else zero. 2 joints x transitions.
+/// Change of q (upper half) and dq (lower half) over each transition that physics predicts; zero for kind
+/// `mlp`. 2 joints x transitions.
 Eigen::MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions);
 
 /// Predicted change of q and dq, 2 joints x transitions. NaN where an input is missing or the log has a gap.
 Eigen::MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions& transitions);
-/// What was measured, with joints that go round taken modulo a turn.
+/// Measured change of q and dq, modulo a turn for joints with `turns`.
 Eigen::MatrixXd measured_change(const ResidualGenerator& generator, const Transitions& transitions);
 
 void to_json(nlohmann::json& json, const ResidualGenerator& generator);

@@ -33,7 +33,7 @@ class ResidualSummary {
       : from_s_(from_s), to_s_(to_s) {}
 
   void add(const Residuals& residuals);
-  /// So far, a joint each.
+  /// Returns the summary so far, one entry a joint.
   std::vector<JointResidual> joints() const;
   double from_s() const { return from_s_; }
   double to_s() const { return to_s_; }

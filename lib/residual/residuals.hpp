@@ -35,13 +35,12 @@ Eigen::MatrixXd ratio_to_torque(const Eigen::MatrixXd& torque, const Eigen::Matr
 
 using ResidualState = TransitionState;
 
-/// Residuals of all predictions that end in `segment`. Segments of one log are passed in order with the same
-/// state; where their borders fall changes no byte. Rows with missing numbers, and pairs across a gap, give
-/// NaN. A log without velocities
-/// has them from its positions; one without torque has no residuals. Throws Error(input) when the log is not
-/// of this robot.
+/// Computes the residuals of all predictions that end in `segment`. Segments of one log are passed in order
+/// with the same state; the result does not depend on their borders. Rows with missing numbers, and pairs
+/// across a gap, give NaN. The velocities of a log without any are derived from its positions; a log without
+/// torque has no residuals. Throws Error(input) when the log has other joints.
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
-/// The transitions that it goes by, of a log that has torque.
+/// Returns the transitions that compute_residuals() uses, for a log that has torque.
 Transitions log_transitions(const ResidualGenerator& generator, const Log& segment, ResidualState& state);
 Residuals residuals_of(const ResidualGenerator& generator, const Transitions& transitions);
 

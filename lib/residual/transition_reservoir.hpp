@@ -16,7 +16,7 @@ class TransitionReservoir {
 
   /// Offers one column of `transitions`.
   void offer(const Transitions& transitions, int column);
-  /// Those drawn.
+  /// Returns the transitions drawn so far.
   Transitions drawn() const;
   std::int64_t offered() const { return offered_; }
 

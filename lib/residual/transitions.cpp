@@ -60,7 +60,7 @@ double velocity(const Log& rows, const TransitionShape& shape, int j, int i) {
   return (rows.q[j][i] - rows.q[j][i - shape.step]) / (rows.time[i] - rows.time[i - shape.step]);
 }
 
-/// Always summed from the start of the pair, so that borders change nothing.
+/// Mean torque over a pair, always summed from its start, so that it does not depend on segment borders.
 double mean_torque(const std::vector<double>& tau, int from, int step, double phi) {
   double sum = 0.0;
   for (int i = from; i < from + step; ++i) sum += tau[i] + phi * (tau[i + 1] - tau[i]);

@@ -43,17 +43,17 @@ void for_each_matrix(Transitions& mine, const Transitions& theirs, Visit visit) 
   visit(mine.next_dq, theirs.next_dq);
 }
 
-/// What crosses a segment border: the last rows.
+/// What is carried over a segment border: the last rows.
 struct TransitionState {
   Log tail;
   std::int64_t rows_seen = 0;
 };
 
-/// All pairs whose later row lies in `segment`. Throws Error(input) when a channel is missing or the joints
-/// are not those of the shape.
+/// Returns all pairs whose later row lies in `segment`. Throws Error(input) when a channel is missing or the
+/// joints are not those of the shape.
 Transitions collect_transitions(const Log& segment, const TransitionShape& shape, TransitionState& state);
 
-/// The columns of `first`, then those of `second`.
+/// Returns the columns of `first`, then those of `second`.
 Transitions joined(const Transitions& first, const Transitions& second);
 
 }  // namespace faultline

@@ -32,7 +32,7 @@ Transitions twin_transitions(const Transitions& logged, const TransitionShape& s
   const FastDynamics robot(chain);
   Random random(options.seed);
   TransitionReservoir pool(std::max(count, 1), options.seed);
-  Transitions one = logged;  // its column 0 is the one in work
+  Transitions one = logged;  // column 0 holds the current transition
   for (int i = 0; i < count; ++i) {
     const int origin = static_cast<int>(random.below(logged.count()));
     one.duration[0] = shape.step_s;

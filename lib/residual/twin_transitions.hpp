@@ -16,9 +16,9 @@ struct TwinPatternOptions {
   std::uint64_t seed = 1;
 };
 
-/// `count` transitions that the identified robot would make from starts scattered around `logged` ones, so
-/// that a network also learns the states between and beyond the moves of a few healthy logs, where a faulty
-/// robot goes. Throws nothing; transitions that run away to non-finite numbers are left out.
+/// Simulates `count` transitions of the identified robot from starts scattered around `logged` ones, so that
+/// a network also learns the states between and beyond the moves of a few healthy logs, which a faulty robot
+/// reaches. Throws nothing; transitions with non-finite results are left out.
 Transitions twin_transitions(const Transitions& logged, const TransitionShape& shape, const Chain& chain,
                              int count, const TwinPatternOptions& options = {});
 

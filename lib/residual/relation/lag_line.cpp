@@ -9,8 +9,8 @@
 namespace faultline {
 namespace {
 
-constexpr double kGap = 1.75;    // periods from one row to the next: farther, a row is missing between them
-constexpr int kMostBridged = 5;  // of them
+constexpr double kGap = 1.75;    // periods: in a longer step between two rows, a row is missing
+constexpr int kMostBridged = 5;  // missing rows in succession that are interpolated, at most
 
 }  // namespace
 
@@ -26,7 +26,7 @@ LagLine::LagLine(const SignalRelation& relation)
       before_(inputs_.size() * (lags_ * stride_ + 1)),
       terms_(relation.weights_needed(), 1.0) {}
 
-/// What a target that starts where it is now and cannot change faster makes of the input.
+/// The input as a target with this rate limit follows it, from the present value of the target on.
 double LagLine::followed(double input, const Log& log, int row, double dt) {
   if (rate_limit_ <= 0.0) return input;
   const double target = signals_of(log, target_)[joint_][row];

@@ -13,10 +13,10 @@ class LagLine {
  public:
   explicit LagLine(const SignalRelation& relation);
 
-  /// Takes row `row`; false while what came before it is too short, or something is missing. Of a motion,
-  /// which is smooth, some rows that were lost are told from their neighbours.
+  /// Takes row `row`. Returns false if too few rows precede it without a gap, or an input is missing. For
+  /// tracking, whose inputs are smooth, a few lost rows are interpolated.
   bool take(const Log& log, int row);
-  /// After take() said true: as many as SignalRelation::weights_needed().
+  /// Valid after take() returned true; as many as SignalRelation::weights_needed().
   const std::vector<double>& terms() const { return terms_; }
 
  private:
@@ -28,10 +28,10 @@ class LagLine {
   bool bridges_;
   int joint_, lags_, stride_;
   double period_s_, rate_limit_;
-  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input, as fast as it can be
+  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input under rate_limit_
   std::vector<double> before_;                                  ///< by input, the latest row first
   std::vector<double> terms_;
-  int rows_ = 0;  ///< in step, the row itself among them
+  int rows_ = 0;  ///< number of rows since the last gap
   double last_s_ = -std::numeric_limits<double>::infinity();
 };
 

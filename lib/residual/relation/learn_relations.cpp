@@ -11,23 +11,23 @@
 namespace faultline {
 namespace {
 
-constexpr double kActuatorMemory_s = 0.03;  // of a current loop and its filter
-constexpr double kLawMemory_s = 0.01;       // of a controller's filters
+constexpr double kActuatorMemory_s = 0.03;  // length of the lags: of a current loop and its filter
+constexpr double kLawMemory_s = 0.01;       // length of the lags: of a controller's filters
 constexpr int kFewestLags = 2, kMostLags = 16;
 
-constexpr double kHelps = 0.75;  // times the straying without
-constexpr double kOfPlain = 1.0 / 3.0;
-constexpr double kKeepsGain = 0.8;  // times the gain of the command without
+constexpr double kHelps = 0.75;         // ratio of middle_straying(): below it the speed is used
+constexpr double kOfPlain = 1.0 / 3.0;  // ratio of the limits with speed to those without, at least
+constexpr double kKeepsGain = 0.8;      // ratio of the command's weights: below it the speed is not used
 
 int lags_of(double memory_s, double period_s) {
   return std::clamp(static_cast<int>(std::ceil(memory_s / period_s)), kFewestLags, kMostLags);
 }
 
-/// What of a joint may follow what, by the signals that the log has; without targets that are not there.
+/// Returns relations to be fitted, for each joint and by the signals that the log has.
 std::vector<SignalRelation> candidates(const Log& log, const RelationOptions& options) {
   const auto commanded = commanded_torque(log, options.torque_is_commanded);
   const auto measured = measured_torque(log, options.torque_is_commanded);
-  std::vector<Quantity> read;  // by the controller
+  std::vector<Quantity> read;  // inputs of the controller
   for (const Quantity quantity : {Quantity::q_ref, Quantity::dq_ref, Quantity::q, Quantity::dq})
     if (!signals_of(log, quantity).empty()) read.push_back(quantity);
   std::vector<SignalRelation> out;
@@ -52,21 +52,21 @@ std::vector<SignalRelation> candidates(const Log& log, const RelationOptions& op
   return out;
 }
 
-/// The same drive that also follows its own speed, as a current loop does against the voltage that the motor
-/// induces.
+/// Returns the relation of a drive with its speed as further input: the induced voltage of the motor acts on
+/// the current loop.
 SignalRelation with_speed(SignalRelation drive) {
   drive.inputs.push_back(Quantity::dq);
   return drive;
 }
 
-/// Whether the speed tells what the command does not. It must not stand for the command: then a drive that
-/// gives another torque, and another speed, would look right.
+/// Whether the speed improves the relation, but does not replace the command: a drive that gives another
+/// torque, and so another speed, would then seem healthy.
 bool speed_helps(const SignalRelation& with_speed, const SignalRelation& plain) {
   return middle_straying(with_speed) < kHelps * middle_straying(plain) &&
          with_speed.weights[0] > kKeepsGain * plain.weights[0];
 }
 
-/// The speed's part is as it was in few logs: limits stay a share of those without it.
+/// Bounds the limits by a share of those without speed, since few logs determine the part of the speed.
 SignalRelation limited_by(SignalRelation relation, const SignalRelation& plain) {
   for (std::size_t w = 0; w < std::min(relation.windows.size(), plain.windows.size()); ++w)
     relation.windows[w].limit = std::max(relation.windows[w].limit, kOfPlain * plain.windows[w].limit);

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kMemories_s[] = {0.1, 0.4, 1.6};  // of position loops, from stiff to soft
 constexpr int kTrackingFewestLags = 2, kTrackingMostLags = 8;
-constexpr double kTrackingHelps = 0.75;  // times the straying without
-constexpr double kRateHelps = 0.5;       // the same, of a limit of the rate
+constexpr double kTrackingHelps = 0.75;  // ratio of middle_straying(): below it a longer memory is used
+constexpr double kRateHelps = 0.5;       // the same ratio for a rate limit
 constexpr double kFollows = 0.5;        // share of the target's variance that its reference explains at least
-constexpr double kFollowsWell = 0.999;  // nothing limits it
-constexpr double kSlope_s = 0.1;        // over which rates are looked at
-constexpr double kLeastRate = 0.5, kMostRate = 1.1;  // of the largest seen
+constexpr double kFollowsWell = 0.999;  // share of the same from which on no rate limit is tried
+constexpr double kSlope_s = 0.1;        // time over which rates are measured
+constexpr double kLeastRate = 0.5, kMostRate = 1.1;  // bounds of a rate limit, of the largest rate in logs
 constexpr int kRounds = 9;
 
 void set_memory(SignalRelation& relation, double memory_s) {

@@ -9,11 +9,11 @@
 
 namespace faultline {
 
-/// How the joints of a log may follow their references: position and velocity, where the log has both sides.
+/// Returns tracking relations to be fitted: of position and velocity, for joints with a logged reference.
 std::vector<SignalRelation> tracking_candidates(const Log& log, double period_s);
 
-/// Fits one of them: with the memory, and the limit of how fast the target can change, that explain the
-/// healthy logs best. False where the motion does not follow the reference.
+/// Fits one of them, with the memory and the rate limit that explain the healthy logs best. Returns false if
+/// the motion does not follow the reference.
 bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
                   SignalRelation& relation);
 

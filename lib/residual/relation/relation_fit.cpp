@@ -15,18 +15,18 @@ namespace faultline {
 namespace {
 
 constexpr int kFewestFolds = 4;      // fewer logs are cut into pieces
-constexpr int kFewestRows = 20;      // for each weight
-constexpr double kRidge = 1e-11;     // of each term's power
-constexpr double kBeyondSeen = 0.2;  // of an input's range
-// Of rows left out, for a law: what an integrator adds differs from day to day with friction and load.
+constexpr int kFewestRows = 20;      // rows for each weight, at least
+constexpr double kRidge = 1e-11;     // regularisation, as a share of each term's power
+constexpr double kBeyondSeen = 0.2;  // share of a term's range by which its learned range is widened
+// For a control law on held-out rows: the part of an integrator differs between days with friction and load.
 constexpr double kLeastR2 = 0.999;
 
 constexpr std::size_t kMiddleWindow = 1;
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr int kFewestWindows = 10;      // that healthy logs fill one behind the other
-constexpr double kLeastStd = 1e-5;      // of the target: of logs without noise
-constexpr double kOfLargestSeen = 1.5;  // and what healthy logs reached, with a margin
+constexpr int kFewestWindows = 10;      // windows in succession that healthy logs must fill for a limit
+constexpr double kLeastStd = 1e-5;      // least std of a mean, of target_scale(): for logs without noise
+constexpr double kOfLargestSeen = 1.5;  // least limit over the largest mean of healthy logs: a margin
 
 /// Sums of least squares over some rows.
 struct Moments {
@@ -106,7 +106,7 @@ Moments moments_of(std::span<LogSource* const> logs, const Fold& fold, SignalRel
   return moments;
 }
 
-/// How means over windows stray, over rows that were left out.
+/// Statistics of residual means over windows, on held-out rows.
 struct Straying {
   explicit Straying(std::size_t windows) : square(windows), largest(windows), count(windows) {}
 
@@ -134,7 +134,7 @@ void add_straying(std::span<LogSource* const> logs, const Fold& fold, const Sign
   });
 }
 
-/// Standard deviations that a mean over a window exceeds by chance so often an hour.
+/// Number of standard deviations that a mean over a window exceeds by chance at this rate.
 double stds_of(double alarms_per_hour, double window_s) {
   const double chance = alarms_per_hour * window_s / kSecondsPerHour;
   double low = 0.0, high = 20.0;
@@ -145,14 +145,14 @@ double stds_of(double alarms_per_hour, double window_s) {
   return high;
 }
 
-/// Limits of the windows that healthy logs fill; the windows share the alarms.
+/// Returns limits of the windows that healthy logs fill; the windows share the rate of alarms.
 std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<int>& rows, double scale,
                                    double alarms_per_hour) {
   std::vector<WindowLimit> windows;
   for (std::size_t w = 0; w < straying.square.size(); ++w) {
     if (straying.count[w] < kFewestWindows * rows[w]) break;
     const double seen = std::sqrt(straying.square[w] / static_cast<double>(straying.count[w]));
-    // The mean over a longer window strays by no less than that of white noise does.
+    // The mean over a longer window has at least the deviation that white noise would have.
     const double white =
         w > 0 ? windows.back().std * std::sqrt(static_cast<double>(rows[w - 1]) / rows[w]) : 0.0;
     const double std = std::max({seen, white, kLeastStd * scale});
@@ -163,7 +163,7 @@ std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<i
   return windows;
 }
 
-/// What is a little beyond what was seen is not another world.
+/// Widens the learned range of each term on either side.
 void widen_terms(SignalRelation& relation) {
   for (std::size_t i = 0; i < relation.term_low.size(); ++i) {
     const double more = kBeyondSeen * (relation.term_high[i] - relation.term_low[i]);

@@ -11,24 +11,24 @@
 
 namespace faultline {
 
-/// A stretch of a healthy log that is left out together.
+/// A stretch of a healthy log that is held out at once.
 struct Fold {
   int log = 0;
   std::int64_t begin = 0, end = std::numeric_limits<std::int64_t>::max();  ///< rows
 };
 
-/// The healthy logs, or pieces of them where they are few. Rewinds them.
+/// Returns the healthy logs as folds, or pieces of them if they are few. Rewinds them.
 std::vector<Fold> folds_of(std::span<LogSource* const> logs);
 
 /// Fits weights by least squares over all folds, and limits to the residuals of each with the weights of the
-/// others. `relation` has kind, joint, target, inputs, lags and period; false where it does not hold.
+/// others. `relation` has kind, joint, target, inputs, lags and period. Returns false if it does not hold.
 bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
          SignalRelation& relation);
 
-/// How far a fitted relation strays over a middle window: says how good it is.
+/// Standard deviation of the mean residual over a middle window, in the target's unit: the quality of a fit.
 double middle_straying(const SignalRelation& relation);
 
-/// The largest torque of the healthy logs; of a position or velocity, what it ranges over. In the target's
+/// Largest torque of the healthy logs; for tracking the range of position or velocity. In the target's
 /// unit.
 double target_scale(const SignalRelation& relation);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRelationMostLags = 100, kMostStride = 10'000;
 constexpr std::size_t kMostWindows = 100;
 
-/// "tau_meas" of "tau_meas1".
+/// Name of a quantity without the number of a joint, such as "tau_meas".
 std::string name_of(Quantity quantity) {
   std::string name = to_string(Channel{quantity, 1});
   name.pop_back();

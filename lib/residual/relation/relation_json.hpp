@@ -10,8 +10,8 @@
 namespace faultline {
 
 nlohmann::json relations_to_json(const std::vector<SignalRelation>& relations);
-/// Throws Error(input), which names `where`, for relations of a robot of so many joints that do not fit
-/// together, and what nlohmann::json throws.
+/// Reads relations. Throws Error(input), which names `where`, for those that do not fit together or are not
+/// of a robot with `joints` joints, and what nlohmann::json throws.
 std::vector<SignalRelation> relations_from_json(const nlohmann::json& list, int joints,
                                                 const std::string& where);
 

@@ -9,12 +9,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kSettle_s = 0.15;  // after a command that no healthy log held, such as a jump to the limit
+constexpr double kSettle_s = 0.15;  // not judged after an input outside the learned range, such as a jump
 
 }  // namespace
 
 bool RelationResidual::terms_are_known() const {
-  // Where a joint is does not matter to how it follows its reference.
+  // The position of a joint does not change how it follows its reference.
   const bool anywhere = relation_.kind == RelationKind::tracking && relation_.target == Quantity::q;
   for (std::size_t i = anywhere ? 1 : 0; i < relation_.term_low.size(); ++i) {
     const double term = line_.terms()[i];
@@ -48,8 +48,8 @@ std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
                         residual(target, predicted)};
 }
 
-/// A torque beyond all that healthy logs reached is no more than wished for: the drive may stay at the most
-/// that it ever gave, and what lies beyond that too is not judged.
+/// Target minus prediction. A drive may not reach a predicted torque beyond the range of the healthy logs:
+/// the residual is 0 from that range to the prediction, and if target and prediction are both beyond.
 double RelationResidual::residual(double target, double predicted) const {
   if (relation_.kind == RelationKind::tracking) return target - predicted;
   const double reachable = std::clamp(predicted, relation_.low, relation_.high);

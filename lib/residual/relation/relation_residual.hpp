@@ -13,10 +13,10 @@ struct RelationSample {
   double time = 0.0;       ///< s
   double reference = 0.0;  ///< the first input
   double predicted = 0.0;
-  /// What no day repeats exactly: of a drive, what of the prediction its speed says; of a motion, what a
-  /// reference that is logged a row sooner or later changes.
+  /// The part of the prediction that differs between days: of a drive, its part by speed; of tracking, its
+  /// change since the row before, as by a reference that is logged a row earlier or later.
   double by_speed = 0.0;
-  double residual = 0.0;  ///< target less predicted, in the target's unit
+  double residual = 0.0;  ///< target minus predicted, in the target's unit
 };
 
 /// The residual of a relation along a log, row by row; its state crosses segment borders.
@@ -25,13 +25,12 @@ class RelationResidual {
   /// `relation` outlives this.
   explicit RelationResidual(const SignalRelation& relation) : relation_(relation), line_(relation) {}
 
-  /// nullopt where the row cannot be judged: something is missing, or moves as nothing that was learned,
-  /// and for a while after that.
-  /// Where a torque is predicted beyond what healthy logs reached, one between their most and the prediction
-  /// is as good as predicted: a drive in its limit; where both are beyond, the residual is 0. `log` has the
-  /// signals (has_signals()).
+  /// Returns the sample of a row; nullopt if it cannot be judged: a value is missing, or an input is outside
+  /// the learned range or was shortly before. If a torque is predicted beyond the range of the healthy logs,
+  /// the residual is 0 from that range to the prediction, as of a drive at its limit, and if both are
+  /// beyond. `log` has the signals (has_signals()).
   std::optional<RelationSample> take(const Log& log, int row);
-  /// For how long rows were beyond all that was learned, s.
+  /// For how long inputs were outside the learned range, s.
   double beyond_s() const { return beyond_s_; }
 
  private:
@@ -42,7 +41,7 @@ class RelationResidual {
   LagLine line_;
   double last_predicted_ = std::numeric_limits<double>::quiet_NaN();
   double beyond_s_ = 0.0;
-  double unknown_s_ = -std::numeric_limits<double>::infinity();  ///< last row beyond what was learned
+  double unknown_s_ = -std::numeric_limits<double>::infinity();  ///< last row outside the learned range
 };
 
 }  // namespace faultline

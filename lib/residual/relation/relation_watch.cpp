@@ -10,18 +10,18 @@
 namespace faultline {
 namespace {
 
-constexpr double kStillStrays = 0.5;  // of what is allowed: an episode goes on
-constexpr double kCalm_s = 0.1;       // after which it is over
-constexpr double kOfItsLength =
-    0.5;                         // of the limit over its length: less is a signal that came sooner or later
-constexpr double kJolt_s = 0.3;  // shorter ones that average out are such
-// Of the residual, which a share of the command explains, and what it leaves of what a constant leaves.
+constexpr double kStillStrays = 0.5;  // share of the allowed mean above which an episode goes on
+constexpr double kCalm_s = 0.1;       // time below it after which an episode is over
+constexpr double kOfItsLength = 0.5;  // of the limit: a smaller mean of a short episode is a shift in time
+constexpr double kJolt_s = 0.3;       // length below which an episode is short
+// Least share of the residual that a lost share of the command explains, and largest ratio of its residual to
+// that of a constant.
 constexpr double kShareExplains = 0.5, kBetterThanOffset = 0.5;
-constexpr double kAtFirst_s = 0.3;
-constexpr double kQuiet = 1.5;     // times the root mean square before the episode: nothing strays any more
-constexpr double kQuiet_s = 0.08;  // for which nothing strays: current loops settle sooner
-constexpr int kFewestQuiet = 20;   // rows that estimate it
-constexpr double kLookBack = 1.5;  // windows before the alarm that the onset may lie in
+constexpr double kAtFirst_s = 0.3;  // beginning of an episode that is described by itself
+constexpr double kQuiet = 1.5;      // times the rms before the episode, below which the deviation is over
+constexpr double kQuiet_s = 0.08;   // time for which it must be: current loops settle sooner
+constexpr int kFewestQuiet = 20;    // rows for an estimate of that rms, at least
+constexpr double kLookBack = 1.5;   // windows before the alarm in which the onset is searched
 
 std::vector<double> lengths_of(const SignalRelation& relation) {
   std::vector<double> lengths;
@@ -84,8 +84,8 @@ void RelationWatch::finish() {
   judged_rows_ = 0;
 }
 
-/// A channel that never changes is none, but for a joint that stands: against a reference that moves, or
-/// where its reference is.
+/// Whether the channels are connected: a channel that never changes is not. In tracking, a joint may stand
+/// still if its reference moves, or if it stands at its reference.
 bool RelationWatch::is_connected() const {
   if (relation_.kind != RelationKind::tracking) return target_moves_ && input_moves_;
   return input_moves_ || (!target_moves_ && episodes_.empty());
@@ -112,7 +112,7 @@ double RelationWatch::allowed(int window) const {
   return allowed_mean(relation_, window, predicted_.mean(window), by_speed_.mean(window));
 }
 
-/// What is allowed of a mean over as many rows as the sums have.
+/// Limit of a mean over about as many rows as the sums have, in the target's unit.
 double RelationWatch::allowed_over(const Sums& sums) const {
   int window = 0;
   while (window + 1 < static_cast<int>(relation_.windows.size()) && means_.rows(window + 1) <= sums.rows)
@@ -129,7 +129,7 @@ RelationWatch::Strayed RelationWatch::farthest() const {
   return strayed;
 }
 
-/// Where an offset that lasts until now most likely began: index into recent_.
+/// Index in recent_ at which an offset that lasts until now most likely began.
 std::size_t RelationWatch::onset_in(int window) const {
   const auto back = static_cast<std::size_t>(kLookBack * means_.rows(window));
   const std::size_t first = recent_.size() - std::min(recent_.size(), std::max<std::size_t>(back, 1));
@@ -143,8 +143,8 @@ std::size_t RelationWatch::onset_in(int window) const {
   return at;
 }
 
-/// Of the rows in recent_ before the window in which the onset was looked for; what was known before where
-/// they are too few, as right after another episode.
+/// Root mean square of the rows in recent_ before the onset; the previous value if they are too few, as right
+/// after another episode.
 double RelationWatch::quiet_rms_before(std::size_t onset) const {
   if (onset < kFewestQuiet) return quiet_rms_;
   double square = 0.0;
@@ -152,8 +152,8 @@ double RelationWatch::quiet_rms_before(std::size_t onset) const {
   return std::sqrt(square / static_cast<double>(onset));
 }
 
-/// Whether for a while nothing was left of what strayed: not the mean alone, which passes zero wherever a
-/// residual changes its sign.
+/// Whether the residual was as before the episode for kQuiet_s: also its rms, since its mean passes zero when
+/// it changes its sign.
 bool RelationWatch::is_quiet_again() const {
   return quiet_.full() > 0 && std::sqrt(quiet_squares_.mean(0)) < kQuiet * quiet_rms_ &&
          std::abs(quiet_.mean(0)) < kStillStrays * allowed(0) && says_something();
@@ -201,8 +201,8 @@ void RelationWatch::go_on(const RelationSample& sample, const Strayed& strayed) 
   }
 }
 
-/// Whether what strayed would show if it went on: not while a window fills after a pause, nor, where a share
-/// of the command is missing, while little is commanded.
+/// Whether the deviation would be detected if it went on: not while a window fills after a pause, nor, if a
+/// share of the command is missing, while little is commanded.
 bool RelationWatch::says_something() const {
   if (means_.full() <= window_) return false;
   const Sums& s = strayed_;
@@ -214,8 +214,8 @@ bool RelationWatch::says_something() const {
   return !is_share || expected > allowed(window_);
 }
 
-/// The mean over a window still strays for a while after what strayed is over: for the longer, the larger it
-/// was.
+/// Estimates the end of the deviation: the mean over a window deviates for some time after it, the longer,
+/// the larger it was.
 double RelationWatch::end_of(double last_s) const {
   const double still = kStillStrays * relation_.windows[window_].limit;
   const double late_s = relation_.windows[window_].window_s * (1.0 - std::min(still / peak_, 1.0));

@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kFarDay = 1.65;  // times the normal range of days: one in a thousand is farther
+constexpr double kFarDay = 1.65;  // times the normal range of days: one day in a thousand is beyond it
 
 bool has(const Log& log, Quantity quantity, int joint) {
   return static_cast<int>(signals_of(log, quantity).size()) > joint;

@@ -9,9 +9,9 @@
 #include "lib/log/channel_names.hpp"
 #include "lib/log/log.hpp"
 
-/// Second residuals: signals of a log that follow each other whatever the robot's mechanics do. What the
-/// drive gave follows what it was asked for; what it was asked for follows what the controller reads; and the
-/// motion follows its reference.
+/// Second residuals: relations between signals of a log that do not depend on the mechanics of the robot. The
+/// measured torque follows the commanded one, the commanded torque follows the inputs of the controller, and
+/// the motion follows its reference.
 namespace faultline {
 
 enum class RelationKind {
@@ -27,11 +27,11 @@ const char* to_string(RelationKind kind);
 /// Throws Error(input) when `name` is none of them; `where` names the file.
 RelationKind relation_kind_from(const std::string& name, const std::string& where);
 
-/// How far the mean of a residual over a window strays while nothing is wrong.
+/// The deviation of the mean of a residual over a window in healthy operation.
 struct WindowLimit {
   double window_s = 0.0;
-  double std = 0.0;  ///< of the mean in healthy logs, none of which was in the fit that it was measured with
-  double limit = 0.0;  ///< beyond it is an alarm, in the target's unit
+  double std = 0.0;    ///< of the mean in healthy logs, each held out of the fit that it is measured with
+  double limit = 0.0;  ///< a mean beyond it is an alarm; in the target's unit
 };
 
 /// A signal of one joint as a linear function of others in the same row and some rows before, learned from
@@ -41,7 +41,7 @@ struct SignalRelation {
   int joint = 0;  ///< from 0
   Quantity target = Quantity::tau_meas;
   std::vector<Quantity> inputs{};  ///< of the same joint
-  int lags = 0;                    ///< rows before that count, beside the row itself
+  int lags = 0;                    ///< earlier rows that are used beside the row itself
   int stride = 1;                  ///< rows from one of them to the next
   /// Change per second that the target cannot exceed, as of a drive that limits its acceleration: the first
   /// input is followed no faster. 0: no such limit.
@@ -51,22 +51,23 @@ struct SignalRelation {
   /// constant.
   std::vector<double> weights{};
   double low = 0.0, high = 0.0;  ///< of the target in the healthy logs, in its unit
-  /// Of each term that a weight multiplies but the constant: beyond them nothing was learned.
+  /// Learned range of each term that a weight multiplies, without the constant.
   std::vector<double> term_low{}, term_high{};
-  double r2 = 0.0;                     ///< share of the target's variance that is explained of a log left out
+  double r2 = 0.0;                     ///< share of the target's variance that is explained in held-out logs
   std::vector<WindowLimit> windows{};  ///< the shortest first
-  double offset_range = 0.0;           ///< N m or N by which healthy days may differ at all times
+  double offset_range = 0.0;           ///< N m or N by which healthy days may differ by a constant
   double gain_range = 0.0;             ///< share of the target by which they may differ
 
   int weights_needed() const { return static_cast<int>(inputs.size()) * (lags + 1) + 1; }
 };
 
-/// Largest mean over a window that is allowed, in the target's unit, while the target is `torque` and a
-/// drive's speed says `by_speed` of it: the limit and what days differ by, as independent errors.
+/// Largest allowed mean over window number `window`, in the target's unit: the limit and the differences
+/// between days, as independent errors. `torque` and `by_speed` are mean magnitudes over the window, of the
+/// predicted torque and of RelationSample::by_speed.
 double allowed_mean(const SignalRelation& relation, int window, double torque = 0.0, double by_speed = 0.0);
 
-/// The quantities of the log that hold the commanded and the measured torque; nullopt where it has none.
-/// `torque_is_commanded` says what `tau` is.
+/// Returns the quantity of the log that holds the commanded or the measured torque; nullopt if it has none.
+/// `torque_is_commanded`: `tau` is the commanded torque, else the measured one.
 std::optional<Quantity> commanded_torque(const Log& log, bool torque_is_commanded);
 std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded);
 

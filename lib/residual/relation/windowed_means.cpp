@@ -25,7 +25,7 @@ void WindowedMeans::add(double value, double time_s) {
   ring_[next_] = value;
   next_ = (next_ + 1) % ring_.size();
   ++count_;
-  if (next_ != 0) return;  // once a round: sums anew, so that rounding does not add up
+  if (next_ != 0) return;  // once a round the sums are recomputed, so that rounding errors do not add up
   for (std::size_t w = 0; w < rows_.size(); ++w) {
     sum_[w] = 0.0;
     for (int k = 1; k <= std::min<long long>(rows_[w], count_); ++k) sum_[w] += ring_[ring_.size() - k];
