@@ -17,8 +17,8 @@ struct DecisionOptions {
 /// The reason for a label.
 enum class DecisionReason {
   networks_agree,  ///< both networks give this label
-  votes_settle,    ///< the networks disagree and the votes settle it
-  evidence_alone,  ///< neither networks nor votes settle it; the fault explains the log best
+  votes_settle,    ///< the networks disagree and the votes decide
+  evidence_alone,  ///< neither networks nor votes decide; the fault explains the log best
   log_excludes,    ///< the label of networks or votes explains the log much worse than the likeliest fault
   no_known_form,   ///< unknown: the free form explains the log much better than every known fault
 };

@@ -36,7 +36,7 @@ struct HealthyRobot {
   Identification identification;
   std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
   TorqueReading reading;                            ///< of logs that were opened with the robot as given
-  std::deque<DelayedTorqueSource> logs;             ///< those that agree
+  std::deque<DelayedTorqueSource> logs;             ///< those not left out
   std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
   std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log
   Model model;                                      ///< robot, identification, motion, rows

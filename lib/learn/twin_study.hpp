@@ -56,8 +56,8 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
 std::vector<FaultLabel> labels_to_simulate(const std::vector<FaultLabel>& labels, int count,
                                            const std::vector<FaultKind>& kinds);
 
-/// The episode that belongs to the run's fault: the first alarm not before its onset; null when there is
-/// none.
+/// Returns the episode that belongs to the run's fault: the first alarm not before its onset; null if there
+/// is none.
 const MonitoredEpisode* episode_of_fault(const MonitoredRun& run);
 
 struct Validated {

@@ -44,8 +44,8 @@ struct LearnedResidual {
   TrainingSummary training;  ///< not run for kind physics
   int training_patterns = 0;
   int validation_patterns = 0;
-  /// Mean squared error over q and dq after a step, each in units of half the range seen, on patterns not
-  /// trained on: of the generator, and of "nothing changes".
+  /// Mean squared error over q and dq after a step, each in units of half its range, on patterns that were
+  /// not trained on: of the generator, and of the prediction that nothing changes.
   double normalised_mse = 0.0;
   double persistence_mse = 0.0;
 };

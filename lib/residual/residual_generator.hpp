@@ -63,7 +63,7 @@ Eigen::MatrixXd network_outputs(const ResidualGenerator& generator, const Transi
 /// `mlp`. 2 joints x transitions.
 Eigen::MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions);
 
-/// Predicted change of q and dq, 2 joints x transitions. NaN where an input is missing or the log has a gap.
+/// Predicted change of q and dq, 2 joints x transitions. NaN if an input is missing or the log has a gap.
 Eigen::MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions& transitions);
 /// Measured change of q and dq, modulo a turn for joints with `turns`.
 Eigen::MatrixXd measured_change(const ResidualGenerator& generator, const Transitions& transitions);

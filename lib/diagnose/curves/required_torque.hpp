@@ -15,11 +15,11 @@ namespace faultline {
 struct RobotOfTheDay {
   Chain chain;
   std::vector<double> gain, offset;  ///< by joint: the drive gives gain * logged torque + offset, N m or N
-  double torque_phi = 0.0;           ///< MotionModel::torque_phi
+  double torque_phi = 0.0;           ///< Robot::torque_phi
 };
 
-/// The identified robot with the friction, drives and tip mass that the diagnosis estimated for the log
-/// (Diagnosis::condition).
+/// Returns the identified robot with the friction, torque gain and torque offset that the diagnosis estimated
+/// for the log (Diagnosis::condition).
 RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionItem>& condition);
 
 /// Torque that the robot needs for the motion of a log, in terms of the logged torque: inverse dynamics along
