@@ -10,9 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kAlong = 0.9;  // cosine between a slide and gravity
+constexpr double kAlong = 0.9;  // least cosine between gravity and a slide, or a revolute axis before it
 
-/// Derivative of tanh(speed / width) by ln(width).
+/// Returns the derivative of tanh(speed / width) by ln(width).
 Eigen::VectorXd by_width(const Eigen::VectorXd& speed, double width) {
   return speed.unaryExpr([width](double v) {
     const double saturated = elementary::tanh(v / width);
@@ -64,7 +64,7 @@ bool carries_weight(const RigidColumns& rigid, int joint) {
   const JointGeometry& axis = rigid.chain.geometry[joint];
   const double g = rigid.chain.gravity.norm();
   if (axis.kind != AxisKind::prismatic || g == 0.0) return false;
-  for (int j = 0; j < joint; ++j)  // a joint that tilts the slide makes weight and offset different
+  for (int j = 0; j < joint; ++j)  // if a joint tilts the slide, weight and offset differ
     if (rigid.chain.geometry[j].kind == AxisKind::revolute &&
         std::abs(rigid.chain.geometry[j].axis.dot(rigid.chain.gravity)) < kAlong * g)
       return false;

@@ -10,36 +10,36 @@
 
 namespace faultline {
 
-/// Variance of an effect of the day that no motion distinguishes from another one, and that has none of its
-/// own.
+/// Prior variance of an effect of the day that the model does not use because it looks like another one: gain
+/// and offset of a joint that carries weight.
 inline constexpr double kNoEffect = 1e-10;
 
-/// A robot as its torque-balance rows show it, with what is normal to differ from day to day and the noise of
-/// the rows: what explains a log (equation (2) of docs/how-it-works.md).
+/// Model that explains a log by torque-balance rows (equation (2) of docs/how-it-works.md): the robot, its
+/// normal variation between days, and the noise of the rows.
 struct BalanceModel {
   RowSetting setting;
   RigidColumns rigid;
-  Eigen::MatrixXd payload;       ///< base parameters x links: what 1 kg at the end of a link adds to them
+  Eigen::MatrixXd payload;       ///< base parameters x links: change by 1 kg at the end of a link
   Eigen::VectorXd theta;         ///< see ColumnLayout
   Eigen::VectorXd day_variance;  ///< prior variance of the effects of a day, see DayLayout
   RowNoise noise;
-  bool torque_is_measured = false;  ///< behind the drive: then a loss of torque does not show
-  double piece_kg = 0.0;            ///< of a work piece that comes and goes at the tip; 0: there is none
+  bool torque_is_measured = false;  ///< behind the drive, so that a loss of torque does not show
+  double piece_kg = 0.0;            ///< mass of a work piece that comes and goes at the tip; 0: there is none
 
-  // What the healthy logs looked like, by joint.
+  // Statistics of the healthy logs, by joint.
   Eigen::VectorXd q_noise, dq_noise;         ///< white noise of one sample
   Eigen::VectorXd q_low, q_high, top_speed;  ///< range, and the speed that 1 in 1000 rows exceeds
   Eigen::VectorXd torque_rms;
-  Eigen::VectorXi longest_repeat;  ///< samples by which a position repeats the one before, at most
-  Eigen::VectorXd repeat_share;    ///< of samples that repeat the position before
+  Eigen::VectorXi longest_repeat;  ///< longest run of samples that repeat the position before
+  Eigen::VectorXd repeat_share;    ///< share of samples that repeat the position before
 
   int joints() const { return setting.joints(); }
   ColumnLayout layout() const { return layout_of(rigid, setting); }
-  /// Of the gear spring of joint `joint` (from 0), rad per N m or m per N; 0: rigid.
+  /// Compliance of the gear spring of joint `joint` (from 0), rad per N m or m per N; 0: rigid.
   double compliance(int joint) const { return std::max(theta[layout().spring(joint)], 0.0); }
 };
 
-/// Where the effects of a day stand (equation (2) of docs/how-it-works.md): relative change of each base
+/// Indices of the effects of a day (equation (2) of docs/how-it-works.md): relative change of each base
 /// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
 /// the torque, relative width of the friction's step at rest; then the delay of all torques, samples.
 struct DayLayout {
@@ -57,20 +57,20 @@ struct DayLayout {
 
 inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }
 
-/// Columns of the effects of a day, by joint: rows x effects.
+/// Returns the columns of the effects of a day, by joint: rows x effects.
 std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetting& setting,
                                          const ColumnLayout& layout, const Eigen::VectorXd& theta);
 
-/// Torque of the robot `theta` in each row: rows x joints.
+/// Returns the torque of the robot `theta` in each row: rows x joints, N m or N.
 Eigen::MatrixXd torque_of(const BalanceRows& rows, const Eigen::VectorXd& theta);
 
-/// Torque that 1 kg at the end of link `link` takes in each row: rows x joints.
+/// Returns the torque of 1 kg at the end of link `link` (from 0) in each row: rows x joints, N m or N.
 Eigen::MatrixXd payload_torque(const BalanceRows& rows, const Eigen::MatrixXd& payload, int link);
 
-/// Whether a base parameter is the inertia of a rotor, which no link has a part in.
+/// Returns whether a base parameter is the inertia of a rotor, without any part of a link.
 bool is_rotor(const RigidColumns& rigid, int parameter);
 
-/// Whether torque gain and offset of a joint look like a mass: a slide that gravity pulls along.
+/// Returns whether gain and offset of a joint's torque look like a mass: a slide along gravity.
 bool carries_weight(const RigidColumns& rigid, int joint);
 
 }  // namespace faultline

@@ -7,19 +7,19 @@
 namespace faultline {
 namespace {
 
-constexpr double kBeyond = 0.05;     // of the healthy range by which a joint must be outside
-constexpr double kFast = 0.15;       // of its greatest healthy speed, before it halts
-constexpr double kHalt_s = 0.06;     // within which it halts
-constexpr double kStays_s = 0.30;    // for which it stays
-constexpr double kBounces_s = 0.30;  // for which it bounces at most
-constexpr double kForce = 1e4;       // N m or N
+constexpr double kBeyond = 0.05;     // share of the healthy range by which a joint must be outside
+constexpr double kFast = 0.15;       // share of its greatest healthy speed that it has before it halts
+constexpr double kHalt_s = 0.06;     // longest time of the halt
+constexpr double kStays_s = 0.30;    // time for which it stays, at least
+constexpr double kBounces_s = 0.30;  // time for which it bounces before it stays, at most
+constexpr double kForce = 1e4;       // N m or N: standard deviation of the force of an end stop
 
 struct Stay {
   int begin = 0, end = 0;
 };
 
-/// The first row at which joint `j` halted in `begin` .. `end`, on side `side`; `end` when it did not. It may
-/// bounce before it stays.
+/// Returns the first row in `begin` .. `end` at which joint `j` (from 0) halts on side `side` (1: above the
+/// healthy range, -1: below), even if it bounces before it stays; `end` if it does not halt.
 int halted_at(const BalanceRows& rows, const BalanceModel& model, int j, double side, const Stay& stay) {
   const double row_s = model.setting.row_s();
   const int before = std::max(1, static_cast<int>(std::lround(kHalt_s / row_s)));

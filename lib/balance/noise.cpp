@@ -15,16 +15,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e6;     // times the usual standard deviation
-constexpr double kRare = 50.0;           // times the median: squares above it are cut
-constexpr double kLeastShare = 0.1;      // of the median square that the constant part has at least
+constexpr double kSaysNothing = 1e6;     // times the usual standard deviation: a lost row has no weight
+constexpr double kRare = 50.0;           // times the median square: larger squares are clipped to it
+constexpr double kLeastShare = 0.1;      // least constant part, as a share of the median square
 constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
 constexpr Eigen::Index kImpulse = 2000;  // rows of the response of the autoregression to one innovation
 
 constexpr int kTerms = 5;  // parts of a row's variance: constant, torque, rest, speed, timing
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
-constexpr double kLeastTiming = 0.01;  // samples^2: a torque's step is known to a tenth of a sample at best
+constexpr double kLeastTiming = 0.01;  // samples^2: the time of a step is uncertain by a tenth of a sample
 
 Terms variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, int j) {
   const double still = elementary::tanh(rows.dq(k, j) / setting.friction_width[j]);
@@ -34,7 +34,7 @@ Terms variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, 
   return out;
 }
 
-/// Non-negative least squares in a few unknowns: the best of all sets of unknowns that may differ from zero.
+/// Solves non-negative least squares of a few unknowns: the best of all subsets that may differ from zero.
 Terms non_negative(const TermMatrix& a, const Terms& b) {
   Terms best = Terms::Zero();
   double least = std::numeric_limits<double>::infinity();

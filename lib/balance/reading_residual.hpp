@@ -8,20 +8,20 @@
 
 namespace faultline {
 
-/// Torque that a robot leaves unexplained in the rows of a log, without the torque of the springs: the same
-/// as torque - column * theta of BalanceRows, but without the columns; of the log and of trajectories that
-/// differ from it in the readings of one joint.
+/// Residual torque in the rows of a log, and in those of logs that differ from it in the measurements of one
+/// joint: torque - column * theta of BalanceRows except for the spring columns, computed without the columns.
 class ReadingResidual {
  public:
   /// Throws Error(input) when the log is shorter than the kernels.
   ReadingResidual(const UniformLog& log, RowSetting setting, const RigidColumns& rigid,
                   Eigen::VectorXd theta);
 
-  /// Rows from `first_row` on x joints, of a log that has other readings of joint `joint` (from 0).
+  /// Returns the residual of the log with other measurements of joint `joint` (from 0): rows from `first_row`
+  /// on x joints, N m or N.
   Eigen::MatrixXd of(const JointReading& moved, int joint, int first_row = 0) const;
 
  private:
-  /// What drive and friction give joint `joint` in each interval.
+  /// Returns the torque of joint `joint` minus its friction, offset, delay and ripple, by interval.
   Eigen::VectorXd drive(int joint, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
 
   RowSetting setting_;

@@ -6,18 +6,18 @@
 
 namespace faultline {
 
-/// The regression of regress() while its rows come in one after the other: the estimate after each row costs
+/// Regression of regress() while its rows arrive one after the other: the estimate after each row costs
 /// columns^2 operations instead of columns^3 (recursive least squares; Plackett 1950).
 class RecursiveRegression {
  public:
   /// `precision` is the inverse prior variance of each parameter; all are above 0.
   explicit RecursiveRegression(const Eigen::VectorXd& precision);
 
-  /// Takes in a white row of unit variance. Of its columns only those listed in `some` are not 0.
+  /// Adds a whitened row of unit variance. Only those of its columns that `some` lists differ from 0.
   void add(const Eigen::Ref<const Eigen::VectorXd>& columns, const std::vector<int>& some, double row);
 
   const Eigen::VectorXd& estimate() const { return estimate_; }
-  /// Squares that the estimate leaves of the rows so far, with those of the prior.
+  /// Sum of the squared residuals of the rows so far at the present estimate, plus the term of the prior.
   double square() const { return square_; }
 
  private:

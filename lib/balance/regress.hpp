@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// Sums of a linear regression with white rows of unit variance: all that its estimate needs of the rows.
+/// Sums of a linear regression with whitened rows of unit variance: all that its estimate needs of the rows.
 struct NormalEquations {
   Eigen::MatrixXd matrix;  ///< X' X
   Eigen::VectorXd vector;  ///< X' y
@@ -16,21 +16,21 @@ struct NormalEquations {
 
 NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows);
 
-/// What a linear regression with a Gaussian prior of mean zero gives (equation (5) of docs/how-it-works.md;
+/// Result of a linear regression with a Gaussian prior of mean zero (equation (5) of docs/how-it-works.md;
 /// Bishop 2006, section 3.5).
 struct Regression {
   Eigen::VectorXd estimate;
   Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the posterior's inverse covariance
-  /// ln p(rows), the parameters integrated out, less rows / 2 ln(2 pi): the evidence for these columns.
+  /// ln p(rows) without -rows / 2 ln(2 pi), parameters integrated out: the evidence for these columns.
   double log_likelihood = 0.0;
-  double left = 0.0;  ///< squares left over, without the prior's
+  double left = 0.0;  ///< sum of squared residuals, without the prior's term
 
   Eigen::MatrixXd covariance() const;
-  /// That of the parameters `first` to `first` + `count` - 1.
+  /// Returns the covariance of the parameters `first` to `first` + `count` - 1.
   Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index count) const;
 };
 
-/// `precision` is the inverse prior variance of each parameter; all are above 0.
+/// Solves the regression. `precision` is the inverse prior variance of each parameter; all are above 0.
 Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision);
 
 }  // namespace faultline

@@ -9,7 +9,7 @@
 
 namespace faultline {
 
-/// Numbers that describe one link: mass, first moment (x y z), inertia about the frame (xx yy zz xy xz yz).
+/// Number of parameters of a link: mass, first moment (x y z), inertia about the frame (xx yy zz xy xz yz).
 inline constexpr int kLinkParameters = 10;
 
 using LinkVector = Eigen::Matrix<double, kLinkParameters, 1>;
@@ -24,8 +24,8 @@ struct Twist {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
 };
 
-/// Kinematics of a chain at one configuration: twist[link][joint] for joint <= link, and gravity as each link
-/// feels it.
+/// Kinematics of a chain at one configuration: twist[link][joint] for joint <= link, and gravity in the frame
+/// of each link.
 struct LinkFrames {
   std::array<std::array<Twist, kMaxJoints>, kMaxJoints> twist;
   std::array<Eigen::Vector3d, kMaxJoints> gravity;
@@ -34,15 +34,15 @@ struct LinkFrames {
 
 LinkFrames link_frames(const Chain& chain, const JointVector& q);
 
-/// Rows of a quantity linear in the links' inertia: n x (10 n), link after link.
+/// Rows of a quantity that is linear in the links' inertia: n x (10 n), link after link.
 using LinkRegressor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints,
                                     kMaxJoints * kLinkParameters>;
 
-/// Momentum p = M(q) dq.
+/// Writes the regressor of the momentum p = M(q) dq to `out`.
 void momentum_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out);
-/// The part of dp/dt that is neither motor nor friction: dT/dq - G(q), where T is the kinetic energy.
+/// Writes the regressor of dp/dt without motor and friction: dT/dq - G(q), with the kinetic energy T.
 void force_regressor(const LinkFrames& frames, const JointVector& dq, LinkRegressor& out);
-/// Inverse dynamics M ddq + h + G. The accelerations come from the recursion of Newton and Euler.
+/// Writes the regressor of the inverse dynamics M ddq + h + G; accelerations by the Newton-Euler recursion.
 void torque_regressor(const Chain& chain, const JointVector& q, const JointVector& dq, const JointVector& ddq,
                       LinkRegressor& out);
 

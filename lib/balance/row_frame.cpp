@@ -22,10 +22,10 @@ MatrixXd middle(const MatrixXd& values) {
   return 0.5 * (values.topRows(n) + values.bottomRows(n));
 }
 
-/// The torque that acts in each interval, and its step over the interval.
+/// Writes the torque that acts in each interval, and its step over the interval, to `out`.
 void read_torque(const MatrixXd& tau, const RowSetting& setting, Intervals& out) {
   const Index n = tau.rows() - 1;
-  const bool is_held = setting.torque_is_held && setting.averaged == 1;  // means run from one to the next
+  const bool is_held = setting.torque_is_held && setting.averaged == 1;  // means are interpolated linearly
   out.torque.resize(n, tau.cols());
   out.torque_step.resize(n, tau.cols());
   for (Index k = 0; k < n; ++k) {
@@ -56,7 +56,7 @@ CoarseGrid coarse_grid(int samples, const RowSetting& setting, const VectorXd& k
   CoarseGrid grid;
   grid.first = reach_samples(setting, kernel);
   grid.step = setting.decimation;
-  const int last = samples - 1 - grid.first;  // one behind
+  const int last = samples - 1 - grid.first;  // exclusive
   grid.count = last > grid.first ? (last - grid.first + grid.step - 1) / grid.step : 0;
   return grid;
 }
@@ -104,7 +104,7 @@ VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, 
   if (setting.velocity_is_difference || reading.dq.size() == 0) return difference;
   VectorXd off = difference - reading.dq;
   const Index last = off.size() - 1;
-  if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // there a difference lies half a sample aside
+  if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // at the ends a difference is half a sample off
   return reading.dq + two_sided_exponential(off, setting.fusion[joint]);
 }
 

@@ -8,13 +8,13 @@
 
 namespace faultline {
 
-/// What holds between neighbouring samples of a log.
+/// Signals between neighbouring samples of a log.
 struct Intervals {
   Eigen::MatrixXd velocity;     ///< of each sample
-  Eigen::MatrixXd torque;       ///< that acts: intervals x joints
+  Eigen::MatrixXd torque;       ///< intervals x joints: torque that acts
   Eigen::MatrixXd torque_step;  ///< from the sample before to the one after
   Eigen::MatrixXd q;            ///< at the middle
-  Eigen::MatrixXd link_speed;   ///< smoothed, behind the spring
+  Eigen::MatrixXd link_speed;   ///< smoothed speed of the link, behind the spring
 };
 
 /// Rows of the coarse grid: interval `first` + k * step is the middle of row k.
@@ -22,22 +22,22 @@ struct CoarseGrid {
   int first = 0, step = 1, count = 0;
 };
 
-/// What rows and residuals of one log share.
+/// Kernel, grid and intervals of one log, for its rows and residuals.
 struct RowFrame {
   Eigen::VectorXd kernel;
   CoarseGrid grid;
   Intervals at;
 };
 
-/// Throws Error(input) when the log is shorter than the kernels.
+/// Returns the frame of a log. Throws Error(input) when the log is shorter than the kernels.
 RowFrame row_frame(const UniformLog& log, const RowSetting& setting);
 
-/// Speed of joint `joint` (from 0) behind the spring, by interval, from its velocity at each sample.
+/// Returns the speed of joint `joint` (from 0) behind the spring, by interval, from the velocity by sample.
 Eigen::VectorXd link_speed(const Eigen::VectorXd& velocity, const Eigen::VectorXd& torque,
                            const RowSetting& setting, int joint);
 
-/// Velocity of joint `joint` (from 0) in each sample: the positions' differences where these are more
-/// precise, the logged velocity where that one is.
+/// Returns the velocity of joint `joint` (from 0) in each sample: position differences at low frequencies,
+/// the logged velocity at high ones.
 Eigen::VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, int joint);
 
 /// tanh(speed / width).

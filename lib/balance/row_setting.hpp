@@ -14,16 +14,16 @@ struct RippleRate {
   double rate = 0.0;  ///< 1/rad or 1/m
 };
 
-/// How the torque-balance rows of a robot are made; the same for all its logs.
+/// Settings of the torque-balance rows of a robot; the same for all its logs.
 struct RowSetting {
   double period_s = 0.0;        ///< of the samples
-  int averaged = 1;             ///< recorded samples that each of them is the mean of (averaged())
+  int averaged = 1;             ///< recorded samples of which each sample is the mean (averaged())
   double kernel_s = 0.010;      ///< standard deviation of the kernel that smooths torque and columns
   double friction_s = 0.006;    ///< the same for the velocity that friction depends on
   int decimation = 1;           ///< samples between two rows; never finer than the kernel
-  bool torque_is_held = false;  ///< between recorded samples; else it runs straight
-  int torque_lag = 0;  ///< of the torque that acts now, in samples: positive where it is logged too late
-  bool velocity_is_difference = false;  ///< the logged velocity holds nothing that the positions do not hold
+  bool torque_is_held = false;  ///< between recorded samples; else it is interpolated linearly
+  int torque_lag = 0;  ///< samples by which the acting torque is logged too late; negative: too early
+  bool velocity_is_difference = false;  ///< the logged velocity contains no more than the positions
   Eigen::VectorXd fusion;  ///< by joint: decay of the average that mixes difference and logged velocity
   Eigen::VectorXd friction_width;  ///< by joint: rad/s or m/s of tanh(dq / width)
   Eigen::VectorXd compliance;      ///< by joint: of the gear spring, rad per N m or m per N; 0: rigid
@@ -33,17 +33,17 @@ struct RowSetting {
   double row_s() const { return period_s * decimation; }  ///< between two rows
 };
 
-/// The rigid body of a chain as the columns see it: base parameters are what torques can tell.
+/// Rigid body of a chain by base parameters: the combinations that torques determine.
 struct RigidColumns {
-  Chain chain;           ///< geometry and gravity; its inertias and friction do not count
-  Eigen::MatrixXd lift;  ///< (11 n) x base: the links' inertial numbers, then rotors, that stand for the base
+  Chain chain;           ///< geometry and gravity; its inertias and friction are not used
+  Eigen::MatrixXd lift;  ///< (11 n) x base: inertial parameters of the links, then rotors, by base parameter
 
   int joints() const { return chain.joints(); }
   int base() const { return static_cast<int>(lift.cols()); }
 };
 
-/// Where the parameters of a robot stand in its columns: base, then friction, offset, delay and spring of
-/// each joint, then the ripples.
+/// Indices of the parameters of a robot in its columns: base, then friction, offset, delay and spring of each
+/// joint, then the ripples.
 struct ColumnLayout {
   int base = 0, joints = 0, ripples = 0;
 
@@ -54,7 +54,7 @@ struct ColumnLayout {
   int spring(int joint) const { return base + 4 * joints + joint; }
   int ripple(int k) const { return base + 5 * joints + 4 * k; }  ///< four: sin and cos times torque, sin, cos
   int count() const { return ripple(ripples); }
-  int rigid() const { return offset(0); }  ///< columns of inertia, gravity and friction come before it
+  int rigid() const { return offset(0); }  ///< columns of inertia, gravity and friction, which come first
 };
 
 inline ColumnLayout layout_of(const RigidColumns& rigid, const RowSetting& setting) {

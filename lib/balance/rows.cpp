@@ -15,13 +15,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Momentum and force (FastDynamics::momentum_and_force()) of each base parameter, that one 1 and the others
-/// 0.
+/// Momentum and force (FastDynamics::momentum_and_force()) by base parameter, with it 1 and all others 0.
 class BaseMotion {
  public:
   explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid), units_(unit_dynamics(rigid)) {}
 
-  /// Joints x base each.
+  /// Writes both, joints x base each.
   void at(const JointVector& q, const JointVector& dq, MatrixXd& momentum, MatrixXd& force) {
     const int n = rigid_.joints(), links = n * kLinkParameters;
     if (!units_.empty()) {
@@ -49,8 +48,8 @@ class BaseMotion {
   LinkRegressor link_momentum_, link_force_;
 };
 
-/// Columns of the base parameters: change of momentum over the interval less the force of motion and gravity.
-/// By joint: intervals x base.
+/// Returns the columns of the base parameters, by joint: intervals x base. Each is the mean rate of change of
+/// the momentum over the interval minus the force of motion and gravity.
 std::vector<MatrixXd> base_columns(const UniformLog& log, const RowSetting& setting,
                                    const RigidColumns& rigid, const MatrixXd& velocity) {
   std::vector<MatrixXd> column(rigid.joints(), MatrixXd(log.rows() - 1, rigid.base()));
@@ -68,7 +67,7 @@ std::vector<MatrixXd> base_columns(const UniformLog& log, const RowSetting& sett
   return column;
 }
 
-/// -M(q) d2(torque)/dt2 of each spring, at the rows.
+/// Writes -M(q) d2(torque)/dt2 of each spring to the columns of the rows.
 void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, const VectorXd& theta,
                         const Intervals& at, const VectorXd& kernel, const CoarseGrid& grid,
                         BalanceRows& rows) {
@@ -87,7 +86,7 @@ void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, co
   }
 }
 
-/// The four columns of a ripple in each interval: sine and cosine times the torque, then alone.
+/// Returns the four columns of a ripple by interval: sine and cosine times the torque, then alone.
 MatrixXd ripple_columns(const RippleRate& ripple, const Intervals& at) {
   MatrixXd out(at.q.rows(), 4);
   for (Index k = 0; k < out.rows(); ++k) {
@@ -98,7 +97,7 @@ MatrixXd ripple_columns(const RippleRate& ripple, const Intervals& at) {
   return out;
 }
 
-/// Rows whose kernel crosses a sample that the log lacks.
+/// Returns by row whether its kernel crosses a sample that the log lacks.
 std::vector<bool> crossing_lost(const std::vector<bool>& lost, const CoarseGrid& grid, int reach) {
   std::vector<int> before(lost.size() + 1, 0);
   for (std::size_t k = 0; k < lost.size(); ++k) before[k + 1] = before[k] + lost[k];

@@ -10,9 +10,9 @@
 
 namespace faultline {
 
-/// The torque balance of a log on a coarse grid (equation (1) of docs/how-it-works.md): the smoothed torque
-/// of each row and joint, and what each parameter of the robot adds to it. Row k stands for the motion within
-/// the kernel around time_s[k]; rows whose kernel leaves the log do not exist.
+/// Torque balance of a log on a coarse grid (equation (1) of docs/how-it-works.md): the smoothed torque of
+/// each row and joint, and what each parameter of the robot adds to it. Row k is the motion within the kernel
+/// around time_s[k]; there is no row whose kernel leaves the log.
 struct BalanceRows {
   Eigen::VectorXd time_s;
   Eigen::VectorXi sample;       ///< by row: the sample before its middle
@@ -26,30 +26,30 @@ struct BalanceRows {
   int joints() const { return static_cast<int>(torque.cols()); }
 };
 
-/// Rows of one log. `theta` are the parameters that the columns of springs need for the inertia matrix; while
-/// it is empty, these columns are zero. Throws Error(input) when the log is shorter than the kernels.
+/// Returns the rows of one log. The spring columns take the inertia matrix from `theta`; if it is empty, they
+/// are zero. Throws Error(input) when the log is shorter than the kernels.
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const Eigen::VectorXd& theta);
 
-/// The columns of viscous and Coulomb friction of joint `joint` (from 0) alone: what its width and its spring
-/// change.
+/// Returns the columns of viscous and Coulomb friction of joint `joint` (from 0), rows x 2: those that change
+/// with its friction width and its spring.
 Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int joint);
 
-/// How far the samples that a row is made of lie from its middle at most, s.
+/// Returns the greatest distance of a sample from the middle of a row to which it contributes, s.
 double reach_s(const RowSetting& setting);
 
-/// How far a sample's velocity shows in those of others with more than a share of it, s; without bound where
-/// the logged velocity has no noise.
+/// Returns the time over which a change of one velocity shows in the fused velocity of other samples by more
+/// than the share `share`, s; infinite if the logged velocity has no noise.
 double velocity_reach_s(const RowSetting& setting, double share);
 
-/// The chain that moves as `theta` says; its friction does not count.
+/// Returns the chain with the inertias of `theta`; its friction is not set.
 Chain chain_of(const RigidColumns& rigid, const Eigen::VectorXd& theta);
 
-/// The chain by base parameter, that one 1 and the others 0; none where the axes are not all parallel.
+/// Returns the dynamics by base parameter, with it 1 and all others 0; empty unless all axes are parallel.
 std::vector<FastDynamics> unit_dynamics(const RigidColumns& rigid);
 
-/// Velocity of each sample (rows x joints): the positions' differences where these are more precise, the
-/// logged velocity where that one is.
+/// Returns the velocity of each sample (rows x joints): position differences at low frequencies, the logged
+/// velocity at high ones.
 Eigen::MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting);
 
 }  // namespace faultline

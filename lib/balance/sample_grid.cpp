@@ -12,33 +12,33 @@
 namespace faultline {
 namespace {
 
-constexpr double kLeastError = 0.1, kMostError = 0.35;  // periods: standard deviation of a stamp
+constexpr double kLeastError = 0.1, kMostError = 0.35;  // periods: bounds of the error of a stamp (std)
 constexpr double kNormalMedian = 0.67;                  // median of |x| of a standard normal x
-constexpr double kLostPoint = 4.6;                      // nats: one row in a hundred
-constexpr double kMostLost = 10.0;                      // nats of a gap, however long: logs stop and go on
-constexpr double kMostWrong = 8.0;                      // nats of a stamp, however wrong: clocks jump
-constexpr double kRowTooMany = 9.2;                     // nats: one row in ten thousand
-constexpr double kUnlikely = 30.0;    // nats behind the best beyond which a sequence is given up
-constexpr double kDoubtful = 0.25;    // periods
-constexpr int kAround = 2;            // points on each side of where a stamp lies
-constexpr int kStepsAround = 4;       // rows on each side that show how far a joint moves in a period
-constexpr double kMostOfStep = 10.0;  // nats that the positions add to a number of periods at most
-constexpr double kSpreads = 2.0;      // of the steps around: standard deviation of one of them
-constexpr double kPhaseGain = 0.005;  // of the phase for each row: some 200 rows
-constexpr double kMostOff = 0.03;     // of a period: a mean step that differs by more counts lost rows
-constexpr double kRegular = 0.01, kRegularRate = 1e-3;  // of a period: steps and rate of regular stamps
+constexpr double kLostPoint = 4.6;                      // nats of a lost point: one row in a hundred
+constexpr double kMostLost = 10.0;                      // nats of a gap, at most: logs are interrupted
+constexpr double kMostWrong = 8.0;                      // nats of a stamp error, at most: clocks jump
+constexpr double kRowTooMany = 9.2;                     // nats of a surplus row: one in ten thousand
+constexpr double kUnlikely = 30.0;                      // nats beyond the best at which a sequence is dropped
+constexpr double kDoubtful = 0.25;    // periods: error of a stamp beside a lost point that excludes its row
+constexpr int kAround = 2;            // points that are tried on each side of a stamp
+constexpr int kStepsAround = 4;       // rows on each side that give the motion of a joint in a period
+constexpr double kMostOfStep = 10.0;  // nats of a number of periods by the positions, at most
+constexpr double kSpreads = 2.0;      // times the median deviation of the steps around: std of a step
+constexpr double kPhaseGain = 0.005;  // gain of the phase for each row: memory of some 200 rows
+constexpr double kMostOff = 0.03;     // of a period: a mean step that differs by more includes lost rows
+constexpr double kRegular = 0.01, kRegularRate = 1e-3;  // of a period: errors of regular steps and rates
 
-/// The best sequence that ends at one point.
+/// Best sequence that ends at one point.
 struct Ending {
   int point = 0;
   double cost = 0.0;
-  double phase_s = 0.0;  ///< time of point 0, as the last rows show it
+  double phase_s = 0.0;  ///< time of point 0, estimated from the last rows
   int before = -1;       ///< ending of the row before
-  int row = 0;           ///< the last one that stands at a point
+  int row = 0;           ///< last row that has a point
 };
 
-/// Standard deviation of a stamp in periods, from the steps between stamps, these cut where rows are lost: a
-/// median would be zero for stamps that are rounded.
+/// Estimates the standard deviation of a stamp in periods from the steps between stamps, clipped at a period
+/// since rows may be lost. A median would be zero for stamps that are rounded.
 double stamp_error(std::span<const double> time, double period_s) {
   double sum = 0.0;
   for (std::size_t k = 1; k < time.size(); ++k) {
@@ -48,7 +48,7 @@ double stamp_error(std::span<const double> time, double period_s) {
   return std::clamp(std::sqrt(0.5 * sum / static_cast<double>(time.size() - 1)), kLeastError, kMostError);
 }
 
-/// Nats by which the joints speak against `periods` between rows `before` and `row`.
+/// Returns the nats of `periods` periods between rows `before` and `row` by the motion of the joints.
 double cost_of_step(const RowSteps& steps, int before, int row, int periods) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < steps.position.cols(); ++j) {
@@ -68,7 +68,7 @@ void keep_better(const Ending& ending, std::vector<Ending>& endings) {
     *known = ending;
 }
 
-/// The endings of row `row`, which comes next and is stamped `time`.
+/// Returns the endings of row `row`, the next one, which is stamped `time`.
 std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, double time, double period_s,
                                  double error, const RowSteps& steps) {
   const double gain = std::max(kPhaseGain, 1.0 / (row + 1.0));
@@ -94,12 +94,12 @@ std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, do
   return out;
 }
 
-/// The sequences of points that end at each row, by one period.
+/// The sequences of points that end at each row, for one period.
 struct Sequences {
   double period_s = 0.0;
   std::vector<std::vector<Ending>> ending;  ///< by row
 
-  /// The best of the last row.
+  /// Returns the index of the best ending of the last row.
   int best() const {
     const auto least = std::min_element(ending.back().begin(), ending.back().end(),
                                         [](const Ending& a, const Ending& b) { return a.cost < b.cost; });
@@ -116,7 +116,7 @@ Sequences sequences_of(std::span<const double> time, double period_s, const RowS
   return out;
 }
 
-/// Whether every stamp stands at the point after that of the stamp before, without any doubt.
+/// Returns whether every stamp clearly belongs to the point after that of the stamp before.
 bool are_regular(std::span<const double> time, double period_s) {
   for (std::size_t k = 1; k < time.size(); ++k)
     if (!(std::abs(time[k] - time[k - 1] - period_s) < kRegular * period_s)) return false;
@@ -124,10 +124,10 @@ bool are_regular(std::span<const double> time, double period_s) {
   return std::abs(time.back() - time.front() - steps * period_s) < kRegularRate * steps * period_s;
 }
 
-/// The points without those of rows beside a lost one whose stamps lie as near to it as to their own: `off`
-/// is how far each stamp lies from its point, in periods.
+/// Returns the points without those of rows beside a lost point whose stamps lie about as near to it as to
+/// their own. `off`: stamp minus time of its point, in periods.
 std::vector<int> without_doubtful(std::vector<int> point, const std::vector<double>& off) {
-  int before = -1;  // last point that a row surely stands at
+  int before = -1;  // last point of a row that is kept
   for (std::size_t k = 0; k < point.size(); ++k) {
     if (point[k] < 0) continue;
     if (point[k] > before + 1 && off[k] < -kDoubtful)
@@ -146,7 +146,7 @@ std::vector<int> without_doubtful(std::vector<int> point, const std::vector<doub
   return point;
 }
 
-/// Start and period by least squares of the stamps over the points.
+/// Fits start and period by least squares of the stamps over the points.
 SampleGrid with_line(SampleGrid grid, std::span<const double> time, double period_s) {
   double rows = 0.0, point = 0.0, off = 0.0;
   for (std::size_t k = 0; k < time.size(); ++k) {
@@ -215,8 +215,8 @@ SampleGrid sample_grid(std::span<const double> time, double period_s, const RowS
     return with_line(std::move(grid), time, period_s);
   }
   Sequences all = sequences_of(time, period_s, steps);
-  // The usual step of stamps that wobble is some tenths of a per cent off the period. The mean step is the
-  // period where no row is lost.
+  // The usual step of stamps that wobble differs from the period by some tenths of a per cent. The mean step
+  // is the period if no row is lost.
   const double mean_s = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const double off_rate = std::abs(mean_s / period_s - 1.0);
   if (off_rate > kRegularRate && off_rate < kMostOff)

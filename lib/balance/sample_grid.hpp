@@ -7,33 +7,33 @@
 
 namespace faultline {
 
-/// Where the rows of a log stand on a uniform grid.
+/// Grid points of the rows of a log on a uniform grid.
 struct SampleGrid {
-  double start_s = 0.0;    ///< time of grid point 0, as all stamps show it
-  double period_s = 0.0;   ///< between grid points, as all stamps show it
+  double start_s = 0.0;    ///< time of grid point 0, fitted to all stamps
+  double period_s = 0.0;   ///< between grid points, fitted to all stamps
   std::vector<int> point;  ///< grid point of each row; -1 for a row that has none
 
-  int points() const;  ///< up to the last one that a row stands at
+  int points() const;  ///< number of grid points up to the last one with a row
 };
 
-/// What the joints say of the number of periods between rows; rows x joints.
+/// Motion of the joints between rows, which shows the number of periods between them; rows x joints.
 struct RowSteps {
   Eigen::MatrixXd position;  ///< rad or m
-  Eigen::MatrixXd usual;     ///< by how far a joint moves in one period, as the rows around show it
-  Eigen::MatrixXd std;       ///< standard deviation of what it moves about a number of periods of `usual`
+  Eigen::MatrixXd usual;     ///< motion of a joint in one period: median of the rows around
+  Eigen::MatrixXd std;       ///< standard deviation of its motion about a multiple of `usual`
 };
 
-/// Of positions by joint, of which each has a value for each row.
+/// Returns the steps of positions, which are given by joint with one value for each row.
 RowSteps row_steps(const std::vector<std::vector<double>>& positions);
 
-/// Whether stamps lie so far from whole periods that they alone may not say where a row stands.
+/// Returns whether stamps lie so far from whole periods that they alone do not determine the grid points.
 bool stamps_wobble(std::span<const double> time_s, double period_s);
 
-/// The most likely grid points of rows that were taken every `period_s` and stamped with some error: of all
-/// sequences that rise, the one with the least cost of errors, lost points and rows too many (Viterbi 1967).
-/// A stamp that wobbles so does not make two rows share a point. The phase of the clock is tracked, so that
-/// `period_s` need not be exact. `time_s` rises or repeats. `steps` count, too, where they are given: a stamp
-/// that is late by a period beside a lost row looks right, and the joints say where it belongs.
+/// Returns the most likely grid points of rows that were taken every `period_s` and stamped with some error:
+/// the rising sequence with the least cost of stamp errors, lost points and surplus rows (Viterbi 1967). Thus
+/// two rows do not share a point because a stamp wobbles. The phase of the clock is tracked, so that
+/// `period_s` need not be exact. `time_s` rises or repeats. `steps`, if given, add to the cost: a stamp that
+/// is late by a period beside a lost row looks right, and the motion of the joints shows its point.
 SampleGrid sample_grid(std::span<const double> time_s, double period_s, const RowSteps& steps = {});
 
 }  // namespace faultline

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kReach = 4.0;  // standard deviations at which a kernel is cut
 
-/// The normal distribution function at equal distances, and cubic polynomials between them.
+/// Normal distribution function at equal distances, with cubic polynomials between them.
 class NormalTable {
  public:
   NormalTable() {
@@ -35,7 +35,7 @@ class NormalTable {
 
  private:
   static constexpr double kEnd = 6.0;       // standard deviations: beyond, the function is 0 or 1 within 1e-9
-  static constexpr double kPerUnit = 32.0;  // nodes for each standard deviation: cubics leave 2e-9
+  static constexpr double kPerUnit = 32.0;  // nodes for each standard deviation: cubics err by 2e-9
   static constexpr int kNodes = static_cast<int>(2.0 * kEnd * kPerUnit) + 1;
   std::array<double, kNodes> value_{}, slope_{};
 };

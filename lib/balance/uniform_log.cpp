@@ -11,10 +11,10 @@
 namespace faultline {
 namespace {
 
-constexpr double kPeriodGrid_s = 1e-9;      // to which a sample period is rounded
-constexpr double kBridged_s = 0.007;        // a gap shorter than the kernels is bridged and not lost
-constexpr double kSameTime_s = 1e-9;        // between two times that count as one
-constexpr double kNormalMad = 0.6745;       // median of |x| of a standard normal x
+constexpr double kPeriodGrid_s = 1e-9;  // to which a sample period is rounded
+constexpr double kBridged_s = 0.007;    // longest gap that is bridged and not lost: shorter than the kernels
+constexpr double kSameTime_s = 1e-9;    // between two times that count as equal
+constexpr double kNormalMad = 0.6745;   // median of |x| of a standard normal x
 constexpr double kFourthDifference = 70.0;  // sum of the squares of 1, -4, 6, -4, 1
 
 bool is_complete(const Log& log, int row) {
@@ -25,8 +25,8 @@ bool is_complete(const Log& log, int row) {
   return std::isfinite(log.time[row]);
 }
 
-/// Value at `at` between rows `before` and `after`: the cubic through two rows on each side where `is_smooth`
-/// and there are so many, else a straight line. Rows that repeat one value are bridged by this very value.
+/// Returns the value at `at` between rows `before` and `after`: of the cubic through two rows on each side if
+/// `is_smooth` and they exist, else of a straight line. Rows that repeat one value are bridged by it.
 double between(const std::vector<bool>& lost, const Eigen::Ref<const Eigen::VectorXd>& values, int before,
                int after, int at, bool is_smooth) {
   const double share = static_cast<double>(at - before) / (after - before);
@@ -44,7 +44,7 @@ double between(const std::vector<bool>& lost, const Eigen::Ref<const Eigen::Vect
   return sum;
 }
 
-/// Fills the lost rows of a column from the rows that are there.
+/// Interpolates the lost rows of a column from the others.
 void interpolate(const std::vector<bool>& lost, bool is_smooth, Eigen::Ref<Eigen::VectorXd> values) {
   const int rows = static_cast<int>(values.size());
   int before = -1;
@@ -57,7 +57,7 @@ void interpolate(const std::vector<bool>& lost, bool is_smooth, Eigen::Ref<Eigen
   for (int i = before + 1; i < rows && before >= 0; ++i) values[i] = values[before];
 }
 
-/// The rows that count as lost when gaps of up to `most` rows are bridged.
+/// Returns the lost rows without gaps of up to `most` rows, which are bridged.
 std::vector<bool> without_short_gaps(std::vector<bool> lost, int most) {
   const int rows = static_cast<int>(lost.size());
   for (int k = 0; k < rows;) {
@@ -69,7 +69,7 @@ std::vector<bool> without_short_gaps(std::vector<bool> lost, int most) {
   return lost;
 }
 
-/// Rows of a log that have all values, and where they stand.
+/// Rows of a log that have all values, and their grid points.
 struct PlacedRows {
   std::vector<int> row;
   SampleGrid grid;

@@ -12,9 +12,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kMostSquare = 50.0;  // of one value: an outlier costs no more
-constexpr double kNoEvidence = 1e6;   // N m or N: a value with such a deviation is no evidence
-constexpr double kSurely = 6.5;       // kernels beside a change, where it shows no more
+constexpr double kMostSquare = 50.0;  // largest squared deviation of one value that counts: limits an outlier
+constexpr double kNoEvidence = 1e6;   // N m or N: a value with such a standard deviation does not count
+constexpr double kSurely = 6.5;       // kernels from a change, beyond which it has no effect
 
 double cost(double residual, double std) {
   const double z = residual / std;

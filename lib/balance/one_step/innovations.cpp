@@ -13,23 +13,23 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFirstPosition = 1.0;   // rad^2 or m^2: variance of the first state before its reading
-constexpr double kFirstVelocity = 10.0;  // (rad/s)^2 or (m/s)^2
-constexpr double kLeastProcess = 1e-13;  // variance of a state that rounding alone gives
+constexpr double kFirstPosition = 1.0;   // rad^2 or m^2: variance of the first position before it is measured
+constexpr double kFirstVelocity = 10.0;  // (rad/s)^2 or (m/s)^2: the same of the first velocity
+constexpr double kLeastProcess = 1e-13;  // variance added to each state: that of rounding
 
 template <int kStates>
 using Square = Eigen::Matrix<double, kStates, kStates>;
 template <int kStates>
 using Wide = Eigen::Matrix<double, kStates, Eigen::Dynamic>;
 
-/// State and its covariance, of the data and of each column.
+/// States of the data and of each column, with their common covariance.
 template <int kStates>
 struct Filter {
   Square<kStates> covariance;
   Wide<kStates> state;
 };
 
-/// Takes in one reading of state `i`.
+/// Updates the filter with the measurement of state `i` at sample `k`.
 template <int kStates>
 void take_in(int i, double variance, const Eigen::RowVectorXd& reading, Filter<kStates>& filter,
              Innovations& out, int k) {

@@ -14,32 +14,32 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTurn = 0.1;                // rad of a joint in a substep: leaves some 1e-6 of a state
-constexpr double kMostSubsteps_Hz = 2000.0;  // for a velocity that is no velocity
-constexpr double kNearRest = 5.0;            // widths of the friction: beyond, tanh is 1 but for 1e-4
-constexpr double kShortest_s = 1e-12;        // part of an interval that is worth integrating
+constexpr double kTurn = 0.1;  // rad of a joint in a substep: relative error of a state some 1e-6
+constexpr double kMostSubsteps_Hz = 2000.0;  // bound for implausible velocities
+constexpr double kNearRest = 5.0;            // widths of the friction, beyond which tanh is 1 within 1e-4
+constexpr double kShortest_s = 1e-12;        // shortest part of an interval that is integrated
 
-/// Weights and places of the four stages of Runge and Kutta.
+/// Nodes and weights of the four stages of Runge and Kutta.
 constexpr std::array<double, 4> kPlace = {0.0, 0.5, 0.5, 1.0}, kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 
-constexpr double kConverges = 2.0;  // largest rate times the step for which the Taylor series is good
-constexpr int kMostHalvings = 30;   // of a step: ends the loop where a derivative is infinite
+constexpr double kConverges = 2.0;  // largest rate times step for which the Taylor series needs no halving
+constexpr int kMostHalvings = 30;   // of a step: ends the loop if a derivative is infinite
 
-/// Part of an interval that one law moves.
+/// Part of an interval in which one law of motion holds.
 struct Part {
   const MotionLaw* law = nullptr;
   double begin_s = 0.0, end_s = 0.0;  ///< from the interval's start
-  bool within = false;                ///< the other law
+  bool within = false;                ///< the law is MotionPlan::within
 };
 
-/// The torque within one interval.
+/// Torque within one interval.
 struct IntervalTorque {
-  JointVector begin, slope;  ///< at its start, and by the time
+  JointVector begin, slope;  ///< at its start, and its derivative by time
 
   JointVector at(double s) const { return begin + s * slope; }
 };
 
-/// Derivatives of the state behind some time by the state before it and by each number of the law.
+/// Derivatives of the state at some time by an earlier state and by each number of the law.
 struct Tangent {
   StateMatrix by_state;
   Eigen::MatrixXd by_number;
@@ -47,9 +47,9 @@ struct Tangent {
   Tangent(int states, int numbers)
       : by_state(StateMatrix::Identity(states, states)), by_number(Eigen::MatrixXd::Zero(states, numbers)) {}
 
-  /// Moves it by a step of length `h` whose slopes are constant: the Taylor series of fourth order of the
-  /// exponential, by halved steps that are then doubled where it would not converge (Moler and Van Loan 2003,
-  /// method 3).
+  /// Advances the derivatives by a step of length `h`, s, with constant slopes: the Taylor series of fourth
+  /// order of the exponential, with steps that are halved, then doubled, if it would not converge (Moler and
+  /// Van Loan 2003, method 3).
   void move(double h, const MotionSlopes& at);
 };
 
@@ -58,7 +58,7 @@ void stop_locked(const MotionLaw& law, VectorXd& state) {
     if (law.is_locked(j)) state[law.joints() + j] = 0.0;
 }
 
-/// Simpson's mean of slopes at begin, middle and end of a step.
+/// Writes Simpson's mean of the slopes at begin, middle and end of a step to `out`.
 void mean_of(const MotionSlopes& begin, const MotionSlopes& middle, const MotionSlopes& end,
              MotionSlopes& out) {
   out.by_state = (begin.by_state + 4.0 * middle.by_state + end.by_state) / 6.0;
@@ -111,7 +111,7 @@ void Tangent::move(double h, const MotionSlopes& at) {
   with_state_count(static_cast<int>(by_state.rows()), [&](auto count) { move_tangent<count>(h, at, *this); });
 }
 
-/// Moves the state through one part by Runge-Kutta steps of fourth order.
+/// Integrates the state through one part by Runge-Kutta steps of fourth order.
 void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
   const int n = part.law->joints();
   const double h = (part.end_s - part.begin_s) / substeps;
@@ -132,8 +132,8 @@ void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd
   }
 }
 
-/// The same, with its derivatives, which take one step for two of the state: its slopes are Simpson's mean of
-/// those before, between and after the two. `substeps` is even.
+/// Integrates likewise and returns the derivatives. One of their steps spans two of the state; its slopes are
+/// Simpson's mean of those before, between and after the two. `substeps` is even.
 Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
   const int n = part.law->joints();
   const double h = (part.end_s - part.begin_s) / substeps;
@@ -197,7 +197,8 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
   return out;
 }
 
-/// Substeps of an interval, as fast motion and friction that changes its sign ask for: an even number.
+/// Returns the number of substeps of an interval, which is even: more for fast motion and for friction near
+/// its change of sign.
 int substeps_of(const StepSetting& setting, const MotionPlan& plan, const VectorXd& begin,
                 const VectorXd& end) {
   const MotionBody& body = plan.usual->body();
@@ -217,7 +218,7 @@ int substeps_of(const StepSetting& setting, const MotionPlan& plan, const Vector
   return 2 * std::max(1, static_cast<int>(std::ceil(pairs - 1e-9)));
 }
 
-/// Takes interval `k`, whose parts are `now`, from the known steps; false where they do not hold.
+/// Copies interval `k`, whose parts are `now`, from the known steps. Returns false if these do not hold.
 bool take_known(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
                 const MotionPlan& plan, const Parts& now, const KnownSteps& known, int k, LinearSteps& out) {
   if (known.steps == nullptr) return false;

@@ -9,19 +9,19 @@
 
 namespace faultline {
 
-/// How a log is integrated from sample to sample.
+/// Settings of the integration from sample to sample.
 struct StepSetting {
   double period_s = 0.0;        ///< of the samples
-  bool torque_is_held = false;  ///< between samples; else it runs straight
-  double substep_s = 0.02;      ///< of a Runge-Kutta step of fourth order at most; a fast joint asks for more
+  bool torque_is_held = false;  ///< between samples; else it is interpolated linearly
+  double substep_s = 0.02;      ///< longest Runge-Kutta step of fourth order; a fast joint takes shorter ones
 };
 
-/// The law that moves the robot, and another one that does from `begin_s` to `end_s`.
+/// The law of motion `usual`, and the law `within` that replaces it from `begin_s` to `end_s`.
 struct MotionPlan {
   const MotionLaw* usual = nullptr;
   const MotionLaw* within = nullptr;
   double begin_s = 1e300, end_s = 1e300;
-  const Eigen::MatrixXd* force = nullptr;  ///< joints x intervals, N m or N: beside the torque, if any
+  const Eigen::MatrixXd* force = nullptr;  ///< joints x intervals, N m or N: added to the torque; null: none
 };
 
 /// A trajectory: q, then dq, of every sample: 2 joints x samples.
@@ -31,38 +31,39 @@ using Trajectory = Eigen::MatrixXd;
 /// lies between samples k and k + 1. Blocks of intervals stand side by side.
 struct LinearSteps {
   int states = 0, numbers = 0, intervals = 0;
-  Eigen::MatrixXd slope;   ///< states x (states * intervals): by the state before
-  Eigen::MatrixXd miss;    ///< states x intervals: the prediction less the trajectory's next state
-  Eigen::MatrixXd number;  ///< states x (numbers * intervals): by the numbers of whichever law is in force
-  int within_begin = 0, within_end = 0;  ///< intervals that the other law has a part in
-  Eigen::MatrixXd within;  ///< states x (numbers * those intervals): by the numbers of the other law
+  Eigen::MatrixXd slope;   ///< states x (states * intervals): derivative by the state before
+  Eigen::MatrixXd miss;    ///< states x intervals: predicted minus next state of the trajectory
+  Eigen::MatrixXd number;  ///< states x (numbers * intervals): derivative by the numbers of both laws
+  int within_begin = 0, within_end = 0;  ///< intervals in which the law `within` acts
+  Eigen::MatrixXd within;  ///< states x (numbers * those intervals): by the numbers of the law `within` alone
 
   auto slope_of(int k) const { return slope.middleCols(k * states, states); }
   auto number_of(int k) const { return number.middleCols(k * numbers, numbers); }
-  /// Columns of the numbers' directions (numbers x n) that hold throughout, then of those of the other law:
-  /// states x ((n + m) * intervals).
+  /// Returns the columns of directions in the numbers of both laws (`throughout`, numbers x n), then in those
+  /// of the law `within` alone (`other`, numbers x m): states x ((n + m) * intervals).
   Eigen::MatrixXd columns(const Eigen::MatrixXd& throughout, const Eigen::MatrixXd& other) const;
 };
 
-/// Steps that are known about another trajectory or other times of the other law: those of an interval hold
-/// where the trajectory is the same and one law moves the robot all the while.
+/// Steps computed before, about another trajectory or for other times of the law `within`. Those of an
+/// interval are used again if its trajectory is the same and one law holds throughout the interval.
 struct KnownSteps {
   const LinearSteps* steps = nullptr;  ///< null: none
   const Trajectory* about = nullptr;
-  double begin_s = 1e300, end_s = 1e300;  ///< from when to when the other law moved the robot in them
-  bool laws_are_alike = false;            ///< steps of the usual law stand for those of the other one, too
+  double begin_s = 1e300, end_s = 1e300;  ///< times of the law `within` in these steps
+  bool laws_are_alike = false;            ///< steps of the usual law are also those of the law `within`
 };
 
-/// Linear in the state and in the numbers of both laws.
+/// Linearises the one-step predictions of a log about a trajectory, by the state and the numbers of both
+/// laws.
 LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const StepSetting& setting,
                          const MotionPlan& plan, const KnownSteps& known = {});
 
-/// State after interval `k` of the log that begins in the trajectory's.
+/// Returns the state after interval `k` of the log if it is that of the trajectory at its begin: q, then dq.
 Eigen::VectorXd next_state(const UniformLog& log, int k, const Trajectory& about, const StepSetting& setting,
                            const MotionPlan& plan);
 
-/// Share of the time that a velocity is near rest which runs straight from `begin` to `end`: within some
-/// widths of the friction's change of sign.
+/// Returns the share of the time for which a velocity that changes linearly from `begin` to `end` is near
+/// rest: within some widths of the change of sign of the friction.
 double share_near_rest(double begin, double end, double friction_width);
 
 }  // namespace faultline

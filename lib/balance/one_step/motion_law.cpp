@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNudge = 1e-6;  // rad, m, rad/s or m/s: of a derivative by difference; its error is as small
+constexpr double kNudge = 1e-6;  // rad, m, rad/s or m/s: step of a numeric derivative; its error is as small
 
 Chain chain_with_friction(const MotionBody& body, const VectorXd& numbers) {
   const MotionLayout at = body.layout();

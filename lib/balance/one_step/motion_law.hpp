@@ -9,8 +9,8 @@
 
 namespace faultline {
 
-/// Where the numbers that move a robot stand: base parameters; then, for each joint, viscous and Coulomb
-/// friction, gain of the logged torque (1 in health) and a force beside it (N m or N; 0 in health).
+/// Indices of the numbers of a law of motion: base parameters; then, for each joint, viscous and Coulomb
+/// friction, gain of the logged torque (1 in health) and a force added to it (N m or N; 0 in health).
 struct MotionLayout {
   int base = 0, joints = 0;
 
@@ -19,27 +19,27 @@ struct MotionLayout {
   int gain(int joint) const { return base + 2 * joints + joint; }
   int force(int joint) const { return base + 3 * joints + joint; }
   int count() const { return base + 4 * joints; }
-  int learned() const { return gain(0); }  ///< those before it are the robot's own
+  int learned() const { return gain(0); }  ///< number of those that belong to the robot, which come first
 };
 
-/// The rigid body of a robot, prepared for the torque that each base parameter takes.
+/// Rigid body of a robot, prepared for the computation of its torque by base parameter.
 class MotionBody {
  public:
   MotionBody() = default;
-  /// `friction_width` by joint, rad/s or m/s, of tanh(dq / width).
+  /// `friction_width`: of tanh(dq / width), by joint, rad/s or m/s.
   MotionBody(RigidColumns rigid, Eigen::VectorXd friction_width);
 
   const RigidColumns& rigid() const { return rigid_; }
   const Eigen::VectorXd& friction_width() const { return friction_width_; }
   MotionLayout layout() const { return {rigid_.base(), rigid_.joints()}; }
-  /// Torque M ddq + h + G by base parameter, joints x base.
+  /// Writes the torque M ddq + h + G by base parameter to `out`, joints x base.
   void torque_by_parameter(const JointVector& q, const JointVector& dq, const JointVector& ddq,
                            Eigen::Ref<Eigen::MatrixXd> out) const;
 
  private:
   RigidColumns rigid_;
   Eigen::VectorXd friction_width_;
-  std::vector<FastDynamics> unit_;  ///< by base parameter, that one 1 and the others 0; parallel axes only
+  std::vector<FastDynamics> unit_;  ///< by base parameter: it is 1, all others 0; only for parallel axes
 };
 
 /// A matrix of a robot's state: q, then dq.
@@ -50,24 +50,24 @@ using StateMatrix =
 struct MotionSlopes {
   StateMatrix by_state;    ///< joints x 2 joints: by q, then dq
   JointMatrix inverse;     ///< of the inertia matrix; rows and columns of locked joints are 0
-  Eigen::MatrixXd torque;  ///< joints x numbers: torque that one more of each number gives
+  Eigen::MatrixXd torque;  ///< joints x numbers: derivative of the accelerating torque by each number
 };
 
-/// What moves the robot for a while: numbers as MotionLayout says, and joints that do not move.
+/// Law of motion: the numbers of the robot (see MotionLayout) and its locked joints.
 class MotionLaw {
  public:
-  /// `body` must outlive it. Joints whose bit is set in `locked` (bit 0 the first) stand still.
+  /// `body` must outlive it. Joints whose bit is set in `locked` (bit 0: the first joint) do not move.
   MotionLaw(const MotionBody& body, const Eigen::VectorXd& numbers, unsigned locked = 0);
 
   int joints() const { return dynamics_.joints(); }
   bool is_locked(int joint) const { return (locked_ >> joint & 1u) != 0; }
   const MotionBody& body() const { return *body_; }
-  /// Acceleration under the logged torque `tau`.
+  /// Writes the acceleration under the logged torque `tau` to `ddq`.
   void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,
                     JointVector& ddq) const;
-  /// How fast each joint's friction changes its velocity near rest, 1/s.
+  /// Returns the rate at which the friction of each joint changes its velocity near rest, 1/s.
   JointVector friction_rate(const JointVector& q) const;
-  /// Derivatives of the acceleration `ddq` at this state.
+  /// Writes the derivatives of the acceleration `ddq` at this state to `out`.
   void slopes(const JointVector& q, const JointVector& dq, const JointVector& tau, const JointVector& ddq,
               MotionSlopes& out) const;
 

@@ -10,10 +10,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kQuietForce = 1e-3;     // of a joint's usual torque: what a model of a machine lacks at rest
-constexpr double kModelLacks = 0.004;    // of the torque and of each model term: what it lacks under load
-constexpr double kRestLacks = 0.3;       // of Coulomb friction: what a tanh of another width differs by
-constexpr double kUnknownTorque = 30.0;  // times the usual torque: where the torque was not logged
+constexpr double kQuietForce = 1e-3;     // share of the usual torque: force that the model lacks at rest
+constexpr double kModelLacks = 0.004;    // share of the torque and of each model term: the same under load
+constexpr double kRestLacks = 0.3;       // share of Coulomb friction: error of its tanh near rest
+constexpr double kUnknownTorque = 30.0;  // times the usual torque: unknown force if the torque was not logged
 
 }  // namespace
 
@@ -46,7 +46,7 @@ MatrixXd OneStepModel::force_std(const UniformLog& log, const Trajectory& motion
     body.torque_by_parameter(motion.col(k).head(n), motion.col(k).tail(n), ddq, term);
     const VectorXd square = log.tau.row(k).transpose().cwiseAbs2() +
                             (term * theta.head(base).asDiagonal()).rowwise().squaredNorm();
-    VectorXd rest(n);  // friction near rest has a shape of its own
+    VectorXd rest(n);  // the shape of friction near rest is inexact
     for (int j = 0; j < n; ++j)
       rest[j] = kRestLacks * theta[layout().coulomb(j)] *
                 share_near_rest(motion(n + j, k), motion(n + j, k + 1), body.friction_width()[j]);

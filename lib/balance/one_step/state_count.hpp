@@ -8,8 +8,8 @@
 
 namespace faultline {
 
-/// Calls `function` with the number of states (2 to 16, even) as a constant: the compiler knows the size of
-/// its matrices, and they take half the time.
+/// Calls `function` with the number of states (2 to 16, even) as a compile-time constant: with matrices of
+/// known size it takes half the time.
 template <int kStates = 2, typename Function>
 auto with_state_count(int states, const Function& function) {
   if constexpr (kStates < 2 * kMaxJoints)
