@@ -15,21 +15,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kSameSamples = 3;  // between two onsets that count as one
-/// Shares of each state that a wrong onset may miss: a sample's worth, then a fifth each time.
+/// Shares of each state tolerated as errors of a wrong onset: a sample's worth, then a fifth each time.
 constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
 constexpr double kNearSize = 0.2;          // relative difference of sizes that can share their steps
-constexpr double kLeastDuration_s = 1e-3;  // that a fault lasts
+constexpr double kLeastDuration_s = 1e-3;  // shortest duration of a fault
 // Longest Newton step of an onset: share of a long sample; s where samples are short.
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
 
-/// Whether steps about one size stand for those about another one.
+/// Returns whether steps about one size can replace those about another one.
 bool are_near(const VectorXd& a, const VectorXd& b) {
   return a.size() == b.size() && (a - b).norm() < kNearSize * b.norm();
 }
 
-/// The guess brought near its best onset and size. What a wrong onset leaves is first forgiven, then ever
-/// less, so that the steps of Newton find their way from a sample away.
+/// Moves the guess towards its best onset and size. Errors of a wrong onset are tolerated at first, then less
+/// and less, so that Newton steps converge from a sample away.
 CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<const CoarseSteps> known) {
   for (const double forgiven : kForgivenInTurn)
     for (int k = 0; k < kStepsForEach; ++k) {
@@ -44,8 +44,8 @@ CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<
   return guess;
 }
 
-/// Nats by which an explanation beats the healthy robot on the same day, by sample. The healthy robot's own
-/// day is bent by the fault, so that the rows before it would speak for the fault, too.
+/// Returns the nats of an explanation over the healthy robot with the same effects of the day, by sample. Its
+/// own effects of the day are biased by the fault, so that rows before the fault would be evidence, too.
 VectorXd row_gain(const CoarseLog& log, const CoarseExplanation& fit) {
   const CoarseExplanation& healthy = log.healthy;
   const VectorXd bent = healthy.day_column * (fit.day - healthy.day);
@@ -58,7 +58,7 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   FaultHypothesis out;
   out.kind = judged.kind;
   out.joint = judged.guess.joint;
-  if (out.kind == FaultKind::collision) {  // it belongs to the joint that it pushes most, by its torque
+  if (out.kind == FaultKind::collision) {  // of the joint with the greatest force, relative to its torque
     judged.fit.size.cwiseQuotient(log.model->torque_rms).cwiseAbs().maxCoeff(&out.joint);
     ++out.joint;
   }
@@ -74,7 +74,7 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   return out;
 }
 
-/// Whether a kind implies another trajectory than that which was smoothed.
+/// Returns whether a kind implies another trajectory than the smoothed one.
 bool moves_anew(FaultKind kind) { return kind != FaultKind::unknown; }
 
 }  // namespace

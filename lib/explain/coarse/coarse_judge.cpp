@@ -17,18 +17,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnknownForce = 30.0;  // times the usual torque (std): bounds no force that a robot meets
+constexpr double kUnknownForce = 30.0;  // times the usual torque (std): exceeds any force that a robot meets
 constexpr double kOnsetNudge_s = 1e-4;  // s, of the numeric derivative by the onset
-constexpr double kHolds = 4.0;        // mean square left, up to which the next round is about its trajectory,
-constexpr double kHoldsShare = 0.05;  // or share of the mean square that the healthy robot leaves
+constexpr double kHolds = 4.0;          // mean square of residuals, up to which its trajectory is used next,
+constexpr double kHoldsShare = 0.05;    // or share of the mean square of the healthy robot
 constexpr double kAbsurd = 1e6;       // derivative of a state by the one before: the integration has diverged
 constexpr double kMostColumns = 4.0;  // prior standard deviations: bound of a size that a round starts from
-constexpr double kTorqueForState = 15.0;   // a torque that is off by 3 % moves a state by some .2 % a sample
+constexpr double kTorqueForState = 15.0;   // a torque error of 3 % changes a state by some .2 % a sample
 constexpr double kMostLossOfStart = 1.05;  // share of the torque lost that a round starts from, at most
 constexpr double kSettled_nats = 0.05;     // nats: a round that changes less is the last
-constexpr double kMostPayload = 2.5;       // times the mass that the link carries: the same of a payload
+constexpr double kMostPayload = 2.5;       // times the mass that the link carries: the same for a payload
 
-/// What a unit of the false reading of `guess` adds to the readings (2 joints x samples) from sample `from`
+/// Returns what a false reading of size 1 adds to the measurements (2 joints x samples) from sample `from`
 /// on.
 Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(log.read.rows(), log.samples());
@@ -48,7 +48,7 @@ struct Setup {
   bool is_first = true;  ///< about the healthy robot's trajectory, whose steps are known
 };
 
-/// The pieces of one round that its regression needs.
+/// Inputs of the regression of one round.
 struct Linearised {
   LinearSteps steps;
   FilterInput input;
@@ -60,7 +60,7 @@ double end_of(const CoarseGuess& guess) {
   return guess.duration_s > 0.0 ? guess.onset_s + guess.duration_s : 1e300;
 }
 
-/// Numbers in force with and without the fault on this day.
+/// Returns the numbers of the robot on this day with a fault of this size; without it if there is no size.
 VectorXd numbers_with(const CoarseLog& log, const VectorXd& day, const FaultDirections& fault,
                       const VectorXd& size) {
   VectorXd out = log.numbers + log.day * day;
@@ -74,8 +74,8 @@ JointMatrix inertia_at(const CoarseLog& log, int sample) {
                         JointVector(log.about.col(sample).head(log.joints())));
 }
 
-/// Covariance of what a prediction lacks; a joint that locks takes its speed, and that of those it carries
-/// along, away at an unknown moment.
+/// Returns the covariance of the prediction error. A joint that locks halts at an uncertain moment, and the
+/// speeds of the joints coupled to it jump.
 MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
                     double forgiven) {
   const int n = log.joints(), j = guess.joint - 1;
@@ -108,7 +108,7 @@ MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const Linear
   return out;
 }
 
-/// The onset's own column: what a later onset changes in the interval that it lies in.
+/// Writes the column of the onset: what a later onset changes in the interval that contains it, per second.
 void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const CoarseGuess& guess,
                       const Trajectory& about, MatrixXd& column, int columns) {
   const int k =
@@ -158,7 +158,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   if (guess.kind == FaultKind::stuck_encoder) {
     const JointMatrix inertia = inertia_at(log, std::max(0, from - 1));
     for (int i = 0; i < n; ++i) {
-      if (inertia(i, j) == 0.0) continue;  // without its reading, the motion of the joint cannot be predicted
+      if (inertia(i, j) == 0.0) continue;  // joint j is not measured, so joint i cannot be predicted
       in.variance.row(i).tail(log.samples() - from).setConstant(kMissingReading);
       in.variance.row(n + i).tail(log.samples() - from).setConstant(kMissingReading);
     }
@@ -180,7 +180,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   return out;
 }
 
-/// The regression over the innovations, its prior about the values before.
+/// Solves the regression over the innovations for the values of the unknowns.
 CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
                             const Linearised& lin, const CoarseJudging& how) {
   const Innovations filter = innovations(lin.steps, lin.input);
@@ -229,7 +229,7 @@ VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const Vec
   return out;
 }
 
-/// An explanation for what cannot be integrated.
+/// Returns an explanation for a guess that cannot be integrated.
 CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   CoarseExplanation out;
   const auto sizes = fault_directions(*log.model, guess.kind, guess.joint).std.size();

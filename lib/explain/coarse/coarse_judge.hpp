@@ -20,20 +20,20 @@ struct CoarseGuess {
 };
 
 struct CoarseJudging {
-  int rounds = 1;           ///< of integration and regression in turn; the first takes known steps
+  int rounds = 1;           ///< of integration and regression in turn; the first uses known steps
   bool move_onset = false;  ///< the onset is a further unknown
-  double forgiven = 0.0;    ///< share of each state and torque that a wrong size or onset may miss
-  /// Of a guess of the same kind and joint, for the first round; null: those of the healthy robot, where the
-  /// fault has no part or no size to begin with.
+  double forgiven = 0.0;    ///< share of each state and torque that is tolerated as an error
+  /// Steps of a guess of the same kind and joint, for the first round; null: those of the healthy robot, for
+  /// intervals without the fault or if the guess has no size to begin with.
   std::shared_ptr<const CoarseSteps> known{};
 };
 
-/// The log explained by a guess, integrated and linearised about the trajectory that it implies in turn; the
-/// best round counts.
+/// Explains the log by a guess in rounds, each integrated and linearised about the trajectory that the one
+/// before implies. Returns the best round, with its price subtracted.
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
 
-/// Variance to add to each reading (2 joints) and standard deviation to add to a joint's torque by its size,
-/// where a share `forgiven` of each joint's range, top speed and torque may be missed.
+/// Returns the variance to add to each measurement (2 joints), and the standard deviation to add to a torque
+/// by its size, if errors of a share `forgiven` of each joint's range, top speed and torque are tolerated.
 Eigen::VectorXd forgiven_variance(const OneStepModel& model, double forgiven);
 double forgiven_torque(double forgiven);
 

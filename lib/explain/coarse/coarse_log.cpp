@@ -14,32 +14,31 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchDoubt = 1.0;      // of the usual torque and of the logged one: any of it may be missing
-constexpr int kSmoothings = 4;          // of the whole log: a force as large as the torque settles
-constexpr double kStillChanges = 30.0;  // standard deviations of a reading that the last round may change
+constexpr double kMuchDoubt = 1.0;      // share of usual and logged torque that may be missing (std)
+constexpr int kSmoothings = 4;          // rounds of smoothing: a force as large as the torque converges
+constexpr double kStillChanges = 30.0;  // standard deviations of a measurement that the last round may change
 constexpr int kHealthyRounds = 2;       // of integration and regression for the healthy robot
-constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is looked for,
+constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is searched,
 constexpr int kFirstOnset = 6;          // or samples, whichever is longer
-constexpr double kOutside = 0.05;       // of the healthy range by which a joint must be outside
-constexpr double kWasFast = 0.15;       // of its greatest healthy speed, before it halts
-constexpr double kHaltsIn_s = 0.06;     // within which it halts
-constexpr double kStaysFor_s = 0.30;    // for which it stays
-constexpr int kFewestStays = 4;         // samples
-constexpr double kStillShare = 0.02;    // of the joint's usual speed in this log
-constexpr double kStillNoise = 1.5;     // standard deviations of a velocity's reading
-constexpr int kFewestRepeats = 3;       // samples: a position that repeats longer says nothing by it
-constexpr double kTellingNoise = 2e-5;  // rad or m: without noise a joint at rest repeats its code
-constexpr int kFewestSamples = 16;      // of a log: fewer say nothing
+constexpr double kOutside = 0.05;       // share of the healthy range by which a joint must be outside
+constexpr double kWasFast = 0.15;       // share of its greatest healthy speed that it has before it halts
+constexpr double kHaltsIn_s = 0.06;     // longest time of the halt
+constexpr double kStaysFor_s = 0.30;    // time for which it stays, at least
+constexpr int kFewestStays = 4;         // samples for which it stays, at least
+constexpr double kStillShare = 0.02;    // share of the joint's usual speed in this log that is still rest,
+constexpr double kStillNoise = 1.5;     // beside so many standard deviations of a measured velocity
+constexpr int kFewestRepeats = 3;       // samples: if healthy positions repeat so long, it is no evidence
+constexpr double kTellingNoise = 2e-5;  // rad or m: with less noise a joint at rest repeats its code
+constexpr int kFewestSamples = 16;      // of a log: fewer are not explained
 
-/// First interval through which the robot cannot be integrated; their number where there is none.
+/// Returns the first interval through which the robot cannot be integrated; their number if there is none.
 int first_wild(const LinearSteps& steps) {
   for (int k = 0; k < steps.intervals; ++k)
     if (!steps.miss.col(k).allFinite() || !steps.slope_of(k).allFinite()) return k;
   return steps.intervals;
 }
 
-/// First sample that the last round of smoothing still changed; their number where the trajectory has
-/// settled.
+/// Returns the first sample that the last round of smoothing still changed; their number if there is none.
 int first_unsettled(const Trajectory& change, const MatrixXd& variance) {
   const MatrixXd square = change.cwiseAbs2().cwiseQuotient(variance);
   for (Eigen::Index k = 0; k < square.cols(); ++k)
@@ -54,8 +53,8 @@ struct SmoothedLog {
   std::optional<int> wild{};
 };
 
-/// The trajectory smoothed under the healthy robot, any torque in doubt. The steps are linear about the force
-/// that the trajectory asks for, too: it may be as large as the torque.
+/// Smooths the trajectory under the healthy robot with uncertain torques. The steps are linear about the
+/// force that the trajectory needs, too, which may be as large as the torque.
 SmoothedLog smoothed_log(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
   const int n = m.joints(), force = m.layout().force(0);
@@ -89,7 +88,7 @@ SmoothedLog smoothed_log(const CoarseLog& log) {
   return {std::move(about), settled};
 }
 
-/// Whether joint `j` came in fast and stays, from sample k on within a stretch outside its range.
+/// Returns whether joint `j` (from 0) halts at sample `k`, fast before, on side `side` outside its range.
 bool halts_at(const CoarseLog& log, int j, double side, int k, double still) {
   const int before = std::max(1, static_cast<int>(kHaltsIn_s / log.period_s()));
   const int from = std::max(0, k - before);
@@ -98,7 +97,7 @@ bool halts_at(const CoarseLog& log, int j, double side, int k, double still) {
          (side * speed.segment(from, k - from + 1)).maxCoeff() > kWasFast * log.model->top_speed[j];
 }
 
-/// Marks the intervals from a halt to the end of the stretch `begin` .. `end` outside the range.
+/// Marks the intervals from a halt that lasts to the end of the stretch `begin` .. `end` outside the range.
 void mark_stop(CoarseLog& log, int j, double side, int begin, int end) {
   const auto speed = log.about.row(log.joints() + j);
   const double still = kStillShare * std::sqrt(speed.squaredNorm() / log.samples()) +
@@ -117,7 +116,7 @@ void mark_stop(CoarseLog& log, int j, double side, int begin, int end) {
   log.stop.row(j).segment(from, to - from).setOnes();
 }
 
-/// Where an end stop holds a joint: outside the range of the healthy logs it halted abruptly and stays.
+/// Finds the end stops: a joint halted abruptly outside the range of the healthy logs and stays.
 void find_stops(CoarseLog& log) {
   const OneStepModel& m = *log.model;
   log.stop = MatrixXd::Zero(log.joints(), log.samples() - 1);

@@ -12,22 +12,22 @@ namespace faultline {
 namespace {
 
 constexpr double kCodesMove = 1e12;    // nats of a stuck encoder whose codes do not repeat
-constexpr double kUnreadSample = 0.7;  // nats a sample that a stuck encoder explains away
+constexpr double kUnreadSample = 0.7;  // nats of each sample that a stuck encoder excludes
 int repeats_from(const CoarseLog& log, int j, int from) {
   int same = 0;
   for (int k = std::max(1, from); k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
   return same;
 }
 
-/// Share of the samples from `from` on that repeat the position before, but for the first two.
+/// Returns the share of the samples from `from` on, without two, that repeat the position before.
 double share_repeated(const CoarseLog& log, int j, int from) {
   const int first = std::min(from + 2, log.samples() - 1);
   return log.samples() - from > 3 ? static_cast<double>(repeats_from(log, j, first)) / (log.samples() - first)
                                   : 0.0;
 }
 
-/// Nats of a first false code that does not repeat the last true one: it may be any position that the joint
-/// passed since, where a true reading lies within its noise.
+/// Returns the nats of a first false code that does not repeat the last true one: it may be any position that
+/// the joint passed since, while a true measurement lies within its noise.
 double price_of_new_code(const CoarseLog& log, int j, int from) {
   if (from < 1) return 0.0;
   const double passed = std::abs(log.log.q(from, j) - log.log.q(from - 1, j));

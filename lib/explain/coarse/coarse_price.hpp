@@ -5,11 +5,11 @@
 
 namespace faultline {
 
-/// Nats that a guess costs that cannot be.
+/// Nats that a guess costs which cannot be integrated.
 inline constexpr double kImpossibleAtCoarse = 1e14;
 
-/// Nats that a guess costs beside what it leaves of the readings: sizes that its kind does not have, readings
-/// and forces that it takes out of the evidence, codes that repeat or do not. `from` is its first sample.
+/// Returns the price of a guess in nats beside its residuals: for sizes that its kind does not have, for
+/// measurements and forces that it excludes, for codes that repeat or do not. `from` is its first sample.
 double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const CoarseExplanation& fit, int from);
 
 }  // namespace faultline

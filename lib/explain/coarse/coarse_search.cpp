@@ -19,16 +19,16 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 3> kBlow_s = {0.05, 0.15, 0.4};  // lengths of a collision that are tried
 constexpr double kOnsetStep_s = 0.05;                         // between two onsets at least
-constexpr double kForgiven = 0.002;                           // of each state: what a linear column misses
-constexpr double kWindow_s = 6.0;                             // behind an onset, in which the search looks
-constexpr int kFewestWindow = 60;                             // samples of it
-constexpr double kRoughStep_s = 1.0;                          // between two onsets of the first look
-constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // s; standard deviations of its misfit
-constexpr int kFewestOfStrike = 4;                            // samples of it, at least
-constexpr double kWorthASecond = 2.0;    // nats of a second onset of the same kind and joint
-constexpr double kStrikes = 10.0;        // mean square of one sample's innovations that no noise has
+constexpr double kForgiven = 0.002;                           // share of each state: error of a linear column
+constexpr double kWindow_s = 6.0;                             // of the log after an onset that are evaluated
+constexpr int kFewestWindow = 60;                             // samples of this window, at least
+constexpr double kRoughStep_s = 1.0;                          // between two onsets of the rough search
+constexpr double kStrike_s = 0.5, kSigmasOfStrike = 5.0;      // s of residuals; excess in standard deviations
+constexpr int kFewestOfStrike = 4;                            // samples of these residuals, at least
+constexpr double kWorthASecond = 2.0;    // nats from which a second onset of a kind and joint is kept
+constexpr double kStrikes = 10.0;        // mean square of the innovations of a sample that noise never has
 constexpr std::size_t kOnsetsTried = 3;  // onsets of the best candidates that are kept
-constexpr double kWrongWay = -9.0;       // score in nats of a negative loss or payload, which cannot be
+constexpr double kWrongWay = -9.0;       // score in nats of a negative loss or payload, which is impossible
 
 /// Columns of one kind and joint.
 struct Group {
@@ -39,9 +39,9 @@ struct Group {
   VectorXd std;
 };
 
-/// All columns that are tried: those of numbers (numbers x columns), then readings.
+/// All columns that are tried: those of numbers (numbers x columns), then those of measurements.
 struct Catalogue {
-  MatrixXd direction;            ///< numbers x columns; zero for readings
+  MatrixXd direction;            ///< numbers x columns; zero for measurements
   std::vector<int> length;       ///< by column, intervals; 0: to the end of the log
   std::vector<int> bias, drift;  ///< columns by joint
   std::vector<Group> groups;
@@ -81,9 +81,9 @@ Catalogue catalogue(const CoarseLog& log) {
 /// The healthy filter of the search with the regression of the day's effects.
 struct Base {
   Innovations filter;
-  MatrixXd day;         ///< white columns of the day: rows x effects
+  MatrixXd day;         ///< whitened columns of the day: rows x effects
   MatrixXd covariance;  ///< of its effects
-  VectorXd row;         ///< white rows
+  VectorXd row;         ///< whitened rows
   VectorXd left;        ///< the same without the effects of the day
 };
 
@@ -113,7 +113,7 @@ Base base_of(const CoarseLog& log, double forgiven) {
   return out;
 }
 
-/// Sums of all columns over a while from one onset on, the day's effects taken away.
+/// Normal equations of all columns over a window from one onset on, without the effects of the day.
 struct OnsetSums {
   MatrixXd square;
   VectorXd vector;
@@ -163,7 +163,7 @@ CoarseCandidate candidate(const CoarseLog& log, const Group& group, const OnsetS
 
 bool better(const CoarseCandidate& a, const CoarseCandidate& b) { return a.score > b.score; }
 
-/// The two best of a group that are apart.
+/// Adds the two best of a group that lie apart to `out`.
 void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<CoarseCandidate>& out) {
   std::stable_sort(group.begin(), group.end(), better);
   const CoarseCandidate* first = nullptr;
@@ -178,8 +178,8 @@ void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<Coarse
   }
 }
 
-/// The first sample that no noise explains, given the effects of the day as the samples before it show them:
-/// a fault bends those that the whole log shows.
+/// Returns the first sample that no noise explains, with the effects of the day estimated from the samples
+/// before it: a fault biases those of the whole log.
 std::optional<int> strike_of(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states;
   VectorXd effect = VectorXd::Zero(base.day.cols());
@@ -198,7 +198,7 @@ std::optional<int> strike_of(const CoarseLog& log, const Base& base) {
   return std::nullopt;
 }
 
-/// Onsets of the best candidates, before them the first sample that no noise explains.
+/// Returns the onsets of the best candidates, preceded by the sample before the first that no noise explains.
 std::vector<int> common_samples(const CoarseLog& log, const Base& base,
                                 const std::vector<CoarseCandidate>& all, int step) {
   std::vector<int> out;
@@ -216,12 +216,12 @@ std::vector<int> common_samples(const CoarseLog& log, const Base& base,
   return out;
 }
 
-/// Which onsets are tried, and how much of the log behind each of them is looked at.
+/// Distance of the onsets that are tried, and length of the log after each of them that is evaluated.
 struct OnsetGrid {
   int step = 1, window = 0;  ///< samples
 };
 
-/// The candidates of each group at each onset of the grid.
+/// Returns the candidates of each group at each onset of the grid.
 std::vector<std::vector<CoarseCandidate>> candidates_of(const CoarseLog& log, const Base& base,
                                                         const OnsetGrid& grid) {
   const Catalogue all = catalogue(log);
@@ -235,7 +235,7 @@ std::vector<std::vector<CoarseCandidate>> candidates_of(const CoarseLog& log, co
   return out;
 }
 
-/// Whether some samples in a row leave more than noise does.
+/// Returns whether some successive samples have larger residuals than noise.
 bool strikes(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states,
             length = std::max(kFewestOfStrike, static_cast<int>(kStrike_s / log.period_s())) * states;

@@ -12,23 +12,23 @@ namespace faultline {
 struct CoarseCandidate {
   CoarseGuess guess;   ///< with the size that fits best
   int sample = 0;      ///< of the onset
-  double score = 0.0;  ///< nats, through the gains of the healthy filter: for the choice of onsets only
+  double score = 0.0;  ///< nats, by the gains of the healthy filter: only for the choice of onsets
 };
 
 struct CoarseSearch {
   std::vector<CoarseCandidate> candidates;  ///< best first; at most two of each kind, joint and length
-  std::vector<int> onsets;                  ///< samples worth trying for every kind, most telling first
+  std::vector<int> onsets;                  ///< samples to try for every kind, most promising first
 };
 
-/// Whether anything is worth searching for: a fault that stays, from about any second on, or some samples in
-/// a row that the healthy robot does not explain.
+/// Returns whether a search is worthwhile: a lasting fault with one of many onsets 1 s apart is likely, or
+/// the healthy robot does not explain some successive samples.
 bool stands_out(const CoarseLog& log);
 
-/// Every sample as an onset of every kind that is a column: along the healthy trajectory, through the gains
-/// of a filter that forgives some.
+/// Searches onsets at distances of 0.05 s (at least a sample) for every kind that is a column: about the
+/// healthy trajectory, by the gains of a filter that tolerates small errors.
 CoarseSearch search_coarse(const CoarseLog& log);
 
-/// The first sample from which the healthy robot surely does not explain the log, if there is one.
+/// Returns the first sample that no noise of the healthy robot explains, if there is one.
 std::optional<int> first_strike(const CoarseLog& log);
 
 }  // namespace faultline

@@ -18,10 +18,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnexplained = 0.3;  // of the healthy robot's excess over noise: what leaves more is unknown
-constexpr std::size_t kJudged = 14;   // candidates of the search that are rated, best first
-constexpr std::size_t kApproached = 8;     // guesses whose onset is approached
-constexpr double kForgivenAtFirst = 5e-3;  // share of each state that a wrong onset may miss, to choose these
+constexpr double kUnexplained = 0.3;       // share of the healthy robot's excess over noise: more is unknown
+constexpr std::size_t kJudged = 14;        // candidates of the search that are rated, best first
+constexpr std::size_t kApproached = 8;     // guesses that are moved towards their best onset
+constexpr double kForgivenAtFirst = 5e-3;  // share of each state that is tolerated as error, to choose these
 constexpr std::size_t kOnsetsForAllKinds = 2;  // onsets at which every linear kind is tried
 constexpr std::size_t kMoved = 4;              // hypotheses whose onset is refined
 constexpr int kMostMoves = 24;                 // rounds of moves of an onset, at most
@@ -30,14 +30,15 @@ constexpr int kNewton = 6;                     // steps of onset and size togeth
 constexpr double kLeastFirstMove_s = 0.04, kLeastMove_s = 0.001, kLeastMove = 0.03;
 constexpr double kFirstLeap_s = 1.2, kLastLeap_s = 0.3;  // s: first leap of an onset, halved down to the last
 constexpr int kMostLeaps = 12;                           // at most, for the time of computation
-constexpr double kStandsFor_s = 0.3;     // s at the end of a log that show where a locked joint stands
-constexpr double kStillWithin = 5.0;     // standard deviations of a reading: a joint that stands is nearer
-constexpr double kStillRounding = 1e-6;  // rad, m, rad/s or m/s: rounding of readings without noise
-constexpr int kFewestRepeated = 4;       // samples that repeat a code to the end
+constexpr double kStandsFor_s = 0.3;     // s at the end of a log that give the position of a locked joint
+constexpr double kStillWithin = 5.0;     // standard deviations of a measurement: a joint at rest is nearer
+constexpr double kStillRounding = 1e-6;  // rad, m, rad/s or m/s: rounding of measurements without noise
+constexpr int kFewestRepeated = 4;       // samples that repeat a code to the end, at least
 
 bool more(const JudgedGuess& a, const JudgedGuess& b) { return a.gain > b.gain; }
 
-/// What the search found, and every linear kind at the onsets that stand out most.
+/// Returns the best candidates of the search, and every linear kind at the onsets that stand out most. Judges
+/// unknown faults there.
 std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const int n = log.joints();
@@ -53,7 +54,7 @@ std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& ben
   return out;
 }
 
-/// Judges those that explain the log best where a wrong onset is forgiven, from where their best onset is.
+/// Judges the guesses that explain the log best with tolerated errors, then again at their best onsets.
 void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   struct Rated {
     CoarseGuess guess;
@@ -77,12 +78,12 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   }
 }
 
-/// A joint `j` (from 0) that is locked since `onset_s`.
+/// Judges a lock of joint `j` (from 0) since `onset_s`.
 void judge_lock(int j, double onset_s, CoarseBench& bench) {
   bench.go({FaultKind::locked, j + 1, onset_s, 0.0, {}}, 1);
 }
 
-/// Since when joint `j` (from 0) stands still.
+/// Judges a lock of joint `j` (from 0) since it stands still, if it does to the end of the log.
 void judge_standstill(int j, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const OneStepModel& m = *log.model;
@@ -101,7 +102,7 @@ void judge_standstill(int j, CoarseBench& bench) {
       judge_lock(j, log.time_s(std::max(1, since - before)) - share * log.period_s(), bench);
 }
 
-/// Since when the codes of joint `j` (from 0) are the same.
+/// Judges a stuck encoder and a lock of joint `j` (from 0) since its codes repeat to the end of the log.
 void judge_repeats(int j, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
   const OneStepModel& m = *log.model;
@@ -109,7 +110,7 @@ void judge_repeats(int j, CoarseBench& bench) {
   int same = samples;
   while (same > 1 && log.log.q(same - 1, j) == log.log.q(same - 2, j)) --same;
   if (samples - same < kFewestRepeated || samples - same <= 2 * m.longest_repeat[j]) return;
-  for (const int first : {same, same - 1}) {  // false code: the last true one repeated, or one read since
+  for (const int first : {same, same - 1}) {  // first false code: repeats the last true one, or is a new one
     if (first < 1) continue;
     const double onset_s = log.time_s(first) - 0.5 * log.period_s();
     bench.go({FaultKind::stuck_encoder, j + 1, onset_s, 0.0, {}});
@@ -117,12 +118,12 @@ void judge_repeats(int j, CoarseBench& bench) {
   }
 }
 
-/// Onsets that a hypothesis may have.
+/// Returns whether a hypothesis may have this onset.
 bool may_begin(const CoarseLog& log, double onset_s) {
   return onset_s >= log.time_s(log.first_onset()) && onset_s < log.time_s(log.samples() - 3);
 }
 
-/// The guess with its onset and its end moved, where that explains more; about the same trajectory.
+/// Moves onset and end of the best guess, about the same trajectory, if that explains more; returns whether.
 bool try_times(double onset_step_s, double end_step_s, JudgedGuess& best, CoarseBench& bench) {
   const CoarseGuess guess = with_times_moved(best.guess, onset_step_s, end_step_s);
   if (!may_begin(bench.log, guess.onset_s)) return false;
@@ -136,7 +137,7 @@ bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
   return try_times(step, 0.0, best, bench);
 }
 
-/// Moves the onset, and the end of what has one, by steps of a sample, then halved ones, while that explains
+/// Moves the onset, and the end if there is one, by steps of a sample, then halved ones, while that explains
 /// more.
 JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
   const double period = bench.log.period_s();
@@ -150,7 +151,7 @@ JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
   return best;
 }
 
-/// The same, and by leaps: the search looked at a few seconds behind an onset only. Then it is integrated
+/// Moves likewise and by leaps, since the search evaluated only a few seconds after an onset. Then integrates
 /// anew.
 JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
   JudgedGuess best = walked(start, bench);
@@ -170,7 +171,7 @@ JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
   return anew.gain > best.gain ? anew : best;
 }
 
-/// Steps of Newton on onset and size together.
+/// Moves onset and size together by Newton steps.
 JudgedGuess settled(const JudgedGuess& start, CoarseBench& bench) {
   JudgedGuess at = start, best = start;
   for (int k = 0; k < kNewton; ++k) {
@@ -189,7 +190,7 @@ void refine(const JudgedGuess& start, CoarseBench& bench) {
   if (moves_with_onset(start.guess.kind)) settled(best, bench);
 }
 
-/// The best of each kind and joint; a free joint and a lost torque are one.
+/// Returns the best few guesses, one of each kind and joint; a free joint is a lost torque.
 std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
   std::vector<JudgedGuess> sorted = all, out;
   std::stable_sort(sorted.begin(), sorted.end(), more);
@@ -235,7 +236,7 @@ LogExplanation explain_coarse(const CoarseLog& log) {
   for (const JudgedGuess& j : to_refine(bench.best)) {
     const FaultKind kind = j.guess.kind;
     const bool fixed = kind == FaultKind::stuck_encoder || kind == FaultKind::sensor_bias ||
-                       kind == FaultKind::unknown;  // begins at a sample, or says nothing of its onset
+                       kind == FaultKind::unknown;  // begins with a sample, or does not determine its onset
     const double enough = std::max(kWorthRefining, kMayWin * bench.best_gain());
     if (j.gain >= enough && !fixed) refine(j, bench);
   }

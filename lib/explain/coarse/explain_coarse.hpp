@@ -6,15 +6,15 @@
 
 namespace faultline {
 
-/// What a log at a coarse rate says: the best hypothesis of each kind and joint, best first.
+/// Explains a log at a coarse rate: the best hypothesis of each kind and joint, best first.
 LogExplanation explain_coarse(const CoarseLog& log);
 
-/// A fault that lasted when the log began, as an earlier part of it has shown: with its end where the log
-/// shows one, at the log's first sample where it shows nothing of the fault that passes `limit` (nats).
+/// Follows a fault of an earlier part of the log that lasts when this one begins. Returns it with its new
+/// size and its end, if the log shows one: its first sample if the evidence for it is at most `limit` (nats).
 FaultClaim followed_coarse(const CoarseLog& log, FaultClaim lasting, double limit);
 
-/// What decides about the hypotheses of a log at a coarse rate. A hypothesis leaves so much that the fault is
-/// none of the kinds, or it does not: its misfit is 0 or without bound.
+/// Returns the functions that decide on the hypotheses of a log at a coarse rate. A misfit is infinite if the
+/// residuals are too large for a fault of a known kind, else 0.
 LogEvidence coarse_evidence(const CoarseLog& log, const LogExplanation& explanation);
 
 }  // namespace faultline

@@ -28,7 +28,7 @@ FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int join
   } else if (kind == FaultKind::friction_increase) {
     make(2);
     out.direction(at.viscous(j), 0) = out.direction(at.coulomb(j), 1) = 1.0;
-    // Of the usual torque at 1 rad/s or m/s, and at any speed, where the robot has no friction of its own.
+    // Shares of the usual torque, at 1 rad/s or m/s and at any speed, serve robots without friction.
     out.std << 3.0 * m.theta[at.viscous(j)] + 0.05 * m.torque_rms[j],
         3.0 * m.theta[at.coulomb(j)] + 0.1 * m.torque_rms[j];
   } else if (kind == FaultKind::payload_change) {

@@ -9,18 +9,18 @@
 
 namespace faultline {
 
-/// Directions of a kind's sizes in the numbers that move the robot, with the prior standard deviation of the
+/// Directions of a kind's sizes in the numbers of the law of motion, with the prior standard deviation of the
 /// sizes. Sizes: share of the torque lost; viscous and Coulomb friction added; kg at the end of the link;
-/// force on each joint; torque logged beside the true one; empty for kinds that move nothing.
+/// force on each joint; offset of the logged torque; empty for kinds that change no number.
 struct FaultDirections {
   Eigen::MatrixXd direction;  ///< numbers x sizes
   Eigen::VectorXd std;
 };
 
 FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
-/// What may be wrong with the robot.
+/// Returns the kinds and joints of the faults that are judged.
 std::vector<FaultLabel> fault_labels_of(const OneStepModel& model);
-/// Prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
+/// Returns the prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
 double usual_reading_error(const OneStepModel& model, int joint);
 
 }  // namespace faultline
