@@ -20,21 +20,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array kBlows_s{.02, .05, .1, .25};  // lengths of a collision
-constexpr std::array kLengths_s{.3, 1., 3.};       // of faults that end
+constexpr std::array kLengths_s{.3, 1., 3.};       // lengths of faults that end
 constexpr double kEndsScore = 10.0;                // nats by which an end must explain more in the search
-constexpr double kRest_s = 0.15;        // at the end of a log that a joint which stands still is measured by
-constexpr double kSurelyStands = 8.0;   // standard deviations of a position: a joint that stands is nearer
-constexpr double kSpringDoubt = 0.3;    // of a gear spring's way, by which its model may be off
-constexpr double kJumpTakenBack = 0.3;  // of a jump's size, by which the jump back may differ
+constexpr double kRest_s = 0.15;        // at the end of a log that gives the position of a joint at rest
+constexpr double kSurelyStands = 8.0;   // standard deviations of a position within which a joint stands still
+constexpr double kSpringDoubt = 0.3;    // share of a gear spring's deflection: error of its model
+constexpr double kJumpTakenBack = 0.3;  // share of a jump's size by which the jump back may differ
 constexpr double kLeastTolerance = 1e-5;  // rad or m that a joint may move while it stands
 constexpr double kLeastNoise = 1e-6;      // rad or m: noise of a position, at least
 constexpr double kJumpScore = 10.0,
-                 kRepeatScore = 1e3;  // nats: repeats are judged first, jumps where little else stands out
+                 kRepeatScore = 1e3;  // nats: repeats are judged first, jumps if little else stands out
 
 constexpr double kShift = 1e-3;                                          // rad or m of a numeric derivative
 constexpr std::array kDrifts{.003, .006, .012, .02, .03, .04, .06, .1};  // rad/s
 constexpr double kSlideShare = 0.5;   // m/s of a slide for each rad/s of a revolute joint
-constexpr double kNoTorque = 1e-9;    // N m for each rad: the position of such a joint does not matter
+constexpr double kNoTorque = 1e-9;    // N m for each rad, below which the position of a joint has no effect
 constexpr double kKernelReach = 4.0;  // standard deviations at which the kernel is cut
 
 /// The inertia matrix in each row, kg m^2, kg m or kg.
@@ -42,8 +42,8 @@ struct InertiaRows {
   std::vector<Eigen::MatrixXd> column;  ///< by joint: rows x joints
 };
 
-/// The impulse that a jump of a joint's velocity by 1 rad/s gives the momentum, for each onset: its product
-/// with what is left over, and its own square.
+/// Impulse of a jump of a joint's velocity by 1 rad/s, by onset: its product with the residual, and its own
+/// square.
 struct Impulse {
   VectorXd product, square;
 };
@@ -72,7 +72,7 @@ Impulse impulse_of(const WhiteSearch& s, const InertiaRows& all, int j) {
   return {std::move(vector), std::move(square)};
 }
 
-/// Changes of the torques by a position that is off: by 1 rad or m (`slope`), and by 1 rad or m more in each
+/// Changes of the residual by a false position: by 1 rad or m (`slope`), and by 1 rad or m more in each
 /// second since the first row (`growing`). A drift that begins at time t is `growing` - t `slope`.
 struct DriftingPosition {
   Stacked growing, slope;
@@ -104,7 +104,7 @@ class DriftSums {
         growing_effects_(effect_sums_from_each_row(s, position_.growing)),
         slope_effects_(effect_sums_from_each_row(s, position_.slope)) {}
 
-  /// Nats, by onset, for a drift of `d` rad/s (m/s) with the torque `friction` that it adds.
+  /// Returns the nats, by onset, for a drift of `d` rad/s (m/s) with the torque `friction` that it adds.
   VectorXd gain(const Stacked& friction, double d) const {
     ArrayXd with_left = sums_from_each_row(s_, friction, s_.left).array();
     ArrayXd square = sums_from_each_row(s_, friction, friction).array();
@@ -141,8 +141,8 @@ InertiaRows inertia_rows(const LogFit& fit) {
   return out;
 }
 
-/// Onsets at which the position of joint `j` (from 0) may begin to drift: friction with the true
-/// velocity, positions that are ever more off, and the jump of the velocity, each for a few rates of drift.
+/// Returns onsets at which the position of joint `j` (from 0) may begin to drift, by friction at the true
+/// velocity, growing errors of position and the jump of the velocity, for a few rates of drift.
 std::vector<Candidate> search_drift(const WhiteSearch& s, const InertiaRows& inertia, int j) {
   std::vector<Candidate> out;
   const LogFit& fit = s.fit;
@@ -174,7 +174,7 @@ void append(std::vector<Candidate> more, std::vector<Candidate>& out) {
   out.insert(out.end(), more.begin(), more.end());
 }
 
-/// Onsets of a fault that stays, and of one that ends after a while where that explains much more.
+/// Returns onsets of a fault that lasts, and of one that ends after a while if that explains much more.
 std::vector<Candidate> search_linear(const WhiteSearch& s, const LinearFault& fault) {
   std::vector<int> lengths = {0};
   for (const double length_s : kLengths_s)
@@ -190,7 +190,7 @@ std::vector<Candidate> search_linear(const WhiteSearch& s, const LinearFault& fa
   return out;
 }
 
-/// An unknown force of some length on any joint.
+/// Returns onsets of an unknown force on any joint, for some lengths.
 std::vector<Candidate> search_collision(const WhiteSearch& s) {
   std::vector<Candidate> out;
   const LogFit& fit = s.fit;
@@ -217,7 +217,7 @@ std::vector<Candidate> search_collision(const WhiteSearch& s) {
   return out;
 }
 
-/// Since when joint `j` stands still, but for its spring.
+/// Returns onsets of a lock: since when joint `j` (from 0) stands still except for its spring.
 std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   const double row_s = fit.model().setting.row_s();
   const Standstill stands = standstill(fit, j);
@@ -234,13 +234,13 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   return out;
 }
 
-/// Jumps of a position: those that stay, and those that another one takes back.
+/// Returns the jumps of a position: those that last, and those that a later one reverses.
 std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
   const std::vector<SensorJump> jumps = sensor_jumps(fit, j);
   std::vector<Candidate> out;
   for (const SensorJump& jump : jumps) {
     out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size});
-    const SensorJump* back = nullptr;  // the next one that takes it back
+    const SensorJump* back = nullptr;  // the next one that reverses it
     for (const SensorJump& other : jumps)
       if (other.onset_s > jump.onset_s &&
           std::abs(other.size + jump.size) < kJumpTakenBack * std::abs(jump.size) &&

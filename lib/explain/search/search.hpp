@@ -7,17 +7,17 @@
 
 namespace faultline {
 
-/// Onsets that stand out, for every kind and joint. One pass gives the score of a linear column for every
-/// onset from cumulative normal equations.
+/// Returns the onsets that stand out, for every kind and joint. One pass scores a linear column at every
+/// onset by cumulative normal equations.
 std::vector<Candidate> search(const LogFit& fit);
 
-/// Where a joint is, but for its spring, and how far it seems to move while it stands.
+/// Position of a joint without the deflection of its spring, and its apparent motion while it stands still.
 struct Standstill {
   Eigen::VectorXd place;  ///< by row, rad or m
   double tolerance = 0.0;
 };
 
-/// That of joint `joint` (from 0).
+/// Returns that of joint `joint` (from 0).
 Standstill standstill(const LogFit& fit, int joint);
 
 }  // namespace faultline

@@ -12,23 +12,23 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kLeastStep = 6.0;     // standard deviations by which a jump is off the motion, at least
+constexpr double kLeastStep = 6.0;     // standard deviations by which a jump differs from the motion
 constexpr int kApart = 15;             // samples between two jumps
 constexpr int kMost = 6;               // jumps of one joint
-constexpr int kAround = 14;            // samples on each side that a step is measured over
+constexpr int kAround = 14;            // samples on each side from which a step is estimated
 constexpr double kFewWaves = 0.3;      // decay of the fusion: below, the velocity is too noisy to show steps
 constexpr double kHighRate_s = 0.005;  // s: below, a cubic of the time beside the step gives its size
-constexpr double kMostOfJump = 50.0;   // nats: alone it names no fault, for one reading may be false
+constexpr double kMostOfJump = 50.0;   // nats: no fault by itself, for one measurement may be false
 constexpr std::size_t kMostRuns = 3;   // of repeated codes
-constexpr int kManyRepeats = 12;       // samples: a healthy position that repeats longer says nothing by it
+constexpr int kManyRepeats = 12;       // samples: if healthy positions repeat so long, it is no evidence
 
-/// Whether the velocity of joint `j` says nothing of steps of its position.
+/// Returns whether the velocity of joint `j` (from 0) does not show steps of its position.
 bool is_from_positions(const LogFit& fit, int j) {
   const RowSetting& setting = fit.model().setting;
   return setting.velocity_is_difference || fit.log().dq.rows() == 0 || setting.fusion[j] < kFewWaves;
 }
 
-/// How much each sample is off a smooth motion, and by which size.
+/// Returns the deviation of each step between samples from a smooth motion, rad or m.
 VectorXd off_motion(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   const RowSetting& setting = fit.model().setting;
@@ -46,7 +46,7 @@ VectorXd off_motion(const LogFit& fit, int j) {
   return out;
 }
 
-/// Standard deviation of what the samples are off, but for those that jump.
+/// Returns the standard deviation of such deviations by their median, which jumps do not change.
 double usual_size(std::vector<double> size) { return 1.4826 * upper_median(std::move(size)) + 1e-7; }
 
 std::vector<double> sizes_of(const VectorXd& off) {
@@ -54,7 +54,8 @@ std::vector<double> sizes_of(const VectorXd& off) {
   return {size.begin(), size.end()};
 }
 
-/// Step between samples `at` and `at` + 1, beside a cubic of the time.
+/// Estimates the step between samples `at` and `at` + 1 beside a cubic in time. Empty near the ends of the
+/// log, and if the position moves before the step only.
 std::optional<double> step_size(const UniformLog& log, int j, int at) {
   const int a = std::max(0, at - kAround), b = std::min(log.rows(), at + 2 + kAround);
   const int before = at - a, after = b - at - 1;
@@ -103,7 +104,7 @@ double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   if (claim.kind != FaultKind::sensor_bias || !claim.velocity_is_true || is_from_positions(fit, j))
     return 0.0;
-  const int first = log.first_row(claim.onset_s);  // sample that reads wrong
+  const int first = log.first_row(claim.onset_s);  // first sample with the false position
   if (first < 1 || first >= log.rows() || log.lost[first] || log.lost[first - 1]) return 0.0;
   const VectorXd off = off_motion(fit, j);
   // A velocity that changes within a period may move a joint further than its mean does.

@@ -8,7 +8,7 @@
 
 namespace faultline {
 
-/// A step of a measured position that no velocity explains.
+/// A step of a measured position that the motion of the joint does not explain.
 struct SensorJump {
   double onset_s = 0.0;
   double size = 0.0;  ///< rad or m
@@ -16,11 +16,11 @@ struct SensorJump {
 
 std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 
-/// Nats by which the readings at the onset of a false position (FaultKind::sensor_bias) are explained better
-/// by its jump than by the motion that the velocity shows; 0 where the velocity is not measured apart.
+/// Returns the nats by which the jump of a false position (FaultKind::sensor_bias) explains the measurements
+/// at its onset better than the motion by the velocity; 0 unless that is measured independently.
 double jump_evidence(const LogFit& fit, const FaultClaim& claim);
 
-/// Whether repeated codes of a position say anything: in healthy logs it repeats for a few samples only.
+/// Returns whether repeated codes of a position are evidence: healthy logs repeat it for a few samples only.
 bool repeats_say_something(const BalanceModel& model, int joint);
 
 /// A position that repeats one code for longer than healthy logs show.
@@ -29,7 +29,7 @@ struct RepeatedCode {
   double end_s = kNeverEnds;
 };
 
-/// The longest of them, by their length.
+/// Returns the longest of them, longest first.
 std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int joint);
 
 }  // namespace faultline

@@ -16,14 +16,14 @@ using Eigen::Ref;
 using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
-constexpr int kFirstOnsetRow = 6;  // rows: no onset is looked for before, where kLead_s has fewer
+constexpr int kFirstOnsetRow = 6;  // rows without an onset at the start, if kLead_s has fewer
 constexpr double kNothing = -std::numeric_limits<double>::infinity();  // score of a row that is no onset
 
 /// Normal equations of some columns for an onset at each row.
 struct OnsetEquations {
   std::vector<MatrixXd> square;  ///< by column a: sums with the columns 0 to a, (a + 1) x onsets
   std::vector<MatrixXd> cross;   ///< by column: sums with the effects, effects x onsets
-  MatrixXd vector;               ///< of each column with what is left over, columns x onsets
+  MatrixXd vector;               ///< of each column with the residual, columns x onsets
 };
 
 OnsetEquations onset_equations(const WhiteSearch& s, const StackedColumns& columns) {
@@ -45,8 +45,8 @@ OnsetEquations over_length(const OnsetEquations& all, int length) {
   return out;
 }
 
-/// Nats by which columns explain more from each onset on, their sizes and the effects integrated out: a
-/// Cholesky factor of the normal equations of all onsets at once.
+/// Returns the evidence for columns from each onset on, in nats, with their sizes and the effects integrated
+/// out: by a Cholesky factor of the normal equations of all onsets at once.
 VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance) {
   const Eigen::Index sizes = variance.size(), onsets = equations.vector.cols();
   std::vector<std::vector<ArrayXd>> factor(sizes);  // row, column, onset
