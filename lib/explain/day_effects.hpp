@@ -3,14 +3,14 @@
 
 namespace faultline {
 
-/// What differs between one healthy day of a robot and another.
+/// Effects by which the healthy days of a robot differ.
 enum class DayEffectKind {
-  friction,       ///< share by which a joint's friction is more than identified
-  torque_gain,    ///< share by which the drive gives more torque than logged
-  torque_offset,  ///< N m or N that the drive gives beside what is logged
+  friction,       ///< relative excess of a joint's friction over the identified one
+  torque_gain,    ///< relative excess of the drive's torque over the logged one
+  torque_offset,  ///< N m or N that the drive adds to the logged torque
 };
 
-/// The name used in reports, such as "torque_gain".
+/// Returns the name for reports, such as "torque_gain".
 inline const char* to_string(DayEffectKind kind) {
   switch (kind) {
     case DayEffectKind::friction:
@@ -23,15 +23,15 @@ inline const char* to_string(DayEffectKind kind) {
   return "";
 }
 
-/// What a log tells of an effect of its day: 0 is the robot that was identified.
+/// Estimate of an effect of the day of a log; 0 is the identified robot.
 struct DayEffect {
   DayEffectKind kind = DayEffectKind::friction;
   int joint = 0;  ///< from 1
   double value = 0.0;
   double std = 0.0;      ///< of the estimate
-  double day_std = 0.0;  ///< how far healthy days differ
+  double day_std = 0.0;  ///< standard deviation between healthy days
 
-  /// Normal days are within +- this.
+  /// Returns the bound of the effect on normal days, on either side of 0.
   double normal_range() const { return kStdsInRange * day_std; }
 
   static constexpr double kStdsInRange = 2.0;  ///< standard deviations of healthy days on either side

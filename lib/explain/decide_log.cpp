@@ -7,8 +7,8 @@ namespace faultline {
 namespace {
 
 constexpr double kBeyondHealthy = 3.0;   // times the evidence of healthy logs
-constexpr double kNearlyAll = 0.05;      // of the excess over the noise that a halt leaves at most
-constexpr double kAlmost = 5.0;          // nats, in units of the mean square left: as good as the best
+constexpr double kNearlyAll = 0.05;      // share of the excess over the noise that a lock leaves, at most
+constexpr double kAlmost = 5.0;          // nats over the mean square of residuals: as good as the best
 constexpr std::size_t kTraced = 4;       // hypotheses whose evidence is traced
 constexpr double kTracedBeyond_s = 1.0;  // s beyond the alarm, up to which it is traced
 
@@ -23,7 +23,7 @@ std::vector<LabelScore> scores_of(const LogExplanation& e) {
   return out;
 }
 
-/// How the evidence of `best` and of the hypotheses that come next to it grew.
+/// Returns the evidence over time of `best` and of the hypotheses that come next to it.
 EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, const EvidenceCourse& course,
                        const LogEvidence& evidence, double until_s) {
   std::vector<FaultLabel> labels = {{best.kind, best.joint}};

@@ -11,51 +11,52 @@
 
 namespace faultline {
 
-/// Evidence in nats that a hypothesis of each kind needs to be believed.
+/// Evidence in nats that a hypothesis of each kind must exceed to be reported.
 struct EvidenceLimits {
   std::array<double, kFaultKinds> nats{};
 
-  /// A drive that clips is an unknown fault, and healthy logs that resemble a lost torque resemble it, too.
+  /// Returns the limit of a kind. That of an unknown fault is at least that of a torque loss: a drive that
+  /// clips is an unknown fault, and healthy logs that resemble a torque loss resemble it, too.
   double of(FaultKind kind) const {
     const double own = nats[static_cast<std::size_t>(kind)];
     return kind == FaultKind::unknown ? std::max(own, of(FaultKind::torque_loss)) : own;
   }
 };
 
-/// Limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that was
-/// learned from the others: thrice the evidence that any of them gave for a kind, at least that of any kind,
-/// at least kLeastEvidence. The evidence for an unknown fault is that of a change of any form.
+/// Returns limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that
+/// was learned from the others: three times the largest evidence for the kind, at least the largest evidence
+/// for any kind, at least kLeastEvidence. For an unknown fault, the evidence of the free form counts, too.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
-inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less is the gain of another day
+inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less may be the gain of another day
 
-inline constexpr double kAlmostShare = 0.95;  ///< of the best evidence: as good as the best
+inline constexpr double kAlmostShare = 0.95;  ///< share of the best evidence that is as good as the best
 
-inline constexpr double kLeastEvidence = 100.0;  ///< nats; days unlike the few logged give some tens
+inline constexpr double kLeastEvidence = 100.0;  ///< nats; days unlike the few recorded ones give some tens
 
-/// The least evidence with which a fault of any kind is believed.
+/// Returns the least limit of all kinds, nats.
 double least_limit(const EvidenceLimits& limits);
 
-/// All limits times `factor`.
+/// Returns all limits times `factor`.
 EvidenceLimits scaled(EvidenceLimits limits, double factor);
 
-/// What a hypothesis of one kind and joint says of a log.
+/// Evidence of a hypothesis of one kind and joint on a log.
 struct LabelScore {
   FaultClaim claim;
-  double nats = 0.0;  ///< by which it explains the log better than what is known of it without
-  double left = 1.0;  ///< mean square of what it leaves, in variances of the noise
+  double nats = 0.0;  ///< by which it explains the log better than the known faults alone
+  double left = 1.0;  ///< mean square of its residuals, in variances of the noise
 
   FaultLabel label() const { return claim.label(); }
 };
 
-/// The fault of a log.
+/// A fault that explains a log.
 struct ExplainedFault {
   FaultClaim claim;
   double alarm_s = 0.0;   ///< earliest sample at which the evidence from the onset on passes the limit
   double evidence = 0.0;  ///< nats
-  double limit = 0.0;     ///< nats that it had to pass
-  double misfit = 0.0;    ///< nats by which a change of any form explains the log better
-  /// Of the mean square over that of the noise that the log leaves without the fault, the share with it.
+  double limit = 0.0;     ///< nats that the evidence had to exceed
+  double misfit = 0.0;    ///< nats by which a free form explains the log better
+  /// Excess of the mean square of the residuals over the noise, as a share of that without the fault.
   double left_share = 0.0;
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
   std::vector<LabelScore> scores;         ///< of each kind and joint that was judged, best first
@@ -64,50 +65,50 @@ struct ExplainedFault {
   FaultLabel label() const { return claim.label(); }
 };
 
-/// Limits that are at least kBeyondSimulated times the evidence that a fault of a healthy log gave, of each
-/// kind that was judged.
+/// Returns the limits, raised to at least kBeyondSimulated times the evidence that a healthy log with the
+/// false finding `fault` gave for each kind that was judged.
 EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fault);
 
-inline constexpr double kBeyondSimulated = 1.5;  ///< times: there are more simulated logs than recorded ones
+inline constexpr double kBeyondSimulated = 1.5;  ///< factor; there are more simulated logs than recorded ones
 
-/// What decides about the hypotheses of a log: how the evidence of one, and of a change of any form, grows,
-/// and how much better a change of any form explains the log. Without `course_of_free_form` an unknown fault
-/// has the onset and the alarm of the hypothesis that comes nearest.
+/// Functions that decide on the hypotheses of a log: the evidence of a hypothesis over time, its misfit (nats
+/// by which a free form explains the log better), and the evidence of the free form over time. Without the
+/// last one, an unknown fault has the onset and the alarm of the nearest hypothesis.
 struct LogEvidence {
   std::function<EvidenceCourse(const FaultHypothesis&)> course;
   std::function<double(const FaultHypothesis&)> misfit;
   std::function<EvidenceCourse()> course_of_free_form{};
 };
 
-/// That of rows of 50 Hz and more.
+/// Returns these functions for rows of 50 Hz and more; both arguments must outlive them.
 LogEvidence log_evidence(const LogFit& fit, const LogExplanation& explanation);
 
-/// The hypotheses that explain the log best and pass their limits, with their names: at most `most`, best
-/// first.
+/// Returns the best hypotheses that exceed their limits as faults: at most `most`, best first.
 std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, const EvidenceLimits& limits,
                                          const LogEvidence& evidence, std::size_t most);
 
-/// A fault of no kind, which `named` comes nearest to.
+/// Returns a fault of no known kind to which `named` is the nearest one.
 ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation,
                           const LogEvidence& evidence);
 
-/// A fault of no kind where no hypothesis passes its limit: a change of any form explains the log better than
-/// the healthy robot, by more than its own limit and than kOfNoKind.
+/// Returns a fault of no known kind for a log without a hypothesis above its limit. Empty unless a free form
+/// explains the log better than the healthy robot by more than its own limit and kOfNoKind.
 std::optional<ExplainedFault> unnamed_fault(const LogExplanation& explanation, const EvidenceLimits& limits,
                                             const LogEvidence& evidence);
 
-inline constexpr double kOfNoKind = 200.0;  ///< nats by which a change of any form explains much more
+inline constexpr double kOfNoKind = 200.0;  ///< nats of misfit above which a fault may be of no known kind
 
-/// Whether a change of any form explains the log so much better that a further fault or none of the kinds
-/// may.
+/// Returns whether the misfit of a fault is so large that there may be a further fault, or one of no known
+/// kind; never for a stuck encoder.
 bool leaves_much(const ExplainedFault& named);
 
-/// Whether the fault alone explains the log: it leaves little, or it is a halt that leaves a small share of a
-/// great deal: a joint that halts shakes the robot in ways that no column has, such as on soft springs.
+/// Returns whether the fault alone explains the log: its misfit is small, or it is a lock with residuals that
+/// are a small share of those without it. A joint that halts shakes the robot in ways that no column
+/// describes, such as on soft springs.
 bool suffices(const ExplainedFault& named);
 
-/// The fault that explains the log best, or `unknown` where a change of any form explains much more.
-/// Empty when no hypothesis passes its limit.
+/// Returns the fault that explains the log best, as `unknown` if it does not suffice. If no hypothesis
+/// exceeds its limit, returns that of unnamed_fault(), if any.
 std::optional<ExplainedFault> decide_log(const LogExplanation& explanation, const EvidenceLimits& limits,
                                          const LogEvidence& evidence);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kTracedTimes = 120;  // times of a trace, at most
 
-/// Evidence at a time: that of the last row before it.
+/// Returns the evidence at a time: that of the last row up to it; NaN before the first row.
 double at(const EvidenceCourse& course, double time_s) {
   const auto after = std::upper_bound(course.time_s.begin(), course.time_s.end(), time_s);
   if (after == course.time_s.begin()) return std::numeric_limits<double>::quiet_NaN();

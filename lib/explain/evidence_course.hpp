@@ -7,17 +7,17 @@
 
 namespace faultline {
 
-/// How the evidence of one label against the healthy robot grows, rows in order.
+/// Evidence of one label against the healthy robot over time.
 struct EvidenceCurve {
   FaultLabel label;
   std::vector<double> ratio;  ///< nats at EvidenceTrace::time; NaN before its onset
 };
 
-/// How the evidence of the labels grows that explain a fault best.
+/// Evidence of the labels that explain a fault best, over time.
 struct EvidenceTrace {
   std::vector<double> time;           ///< s
   double limit = 0.0;                 ///< nats that raise the alarm
-  std::vector<EvidenceCurve> curves;  ///< the likeliest first
+  std::vector<EvidenceCurve> curves;  ///< the most likely first
 };
 
 /// Evidence of a hypothesis from its onset on.
@@ -25,11 +25,11 @@ struct EvidenceCourse {
   std::vector<double> time_s;  ///< rising
   std::vector<double> nats;    ///< of all rows up to that time
 
-  /// The first time at which the evidence passes `threshold`; the last time where it never does.
+  /// Returns the first time at which the evidence exceeds `threshold`; the last time if it never does.
   double alarm_s(double threshold) const;
 };
 
-/// Courses of several labels, the likeliest first, at no more than some 120 common times up to `until_s`.
+/// Returns the courses of labels, the most likely first, at some 120 common times at most, up to `until_s`.
 EvidenceTrace trace_of(const std::vector<FaultLabel>& labels, const std::vector<EvidenceCourse>& courses,
                        double until_s);
 

@@ -19,13 +19,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Onsets that stand out: of all kinds together; of these tried for each kind, and for a drift.
+// Numbers of onsets that stand out: of all kinds together; of these, tried for each kind and for a drift.
 constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
-constexpr double kMuchLess = 0.5;  // of a lost torque's excess over noise: a clipping drive leaves less
+constexpr double kMuchLess = 0.5;  // share of a torque loss's excess over noise: a clipping drive leaves less
 constexpr double kMayPass =
-    0.33;  // share of the least limit from which an explanation counts: the search is not exact
+    0.33;  // share of the least limit from which a log is judged: the search is not exact
 constexpr std::size_t kJudgedFirst = 4;  // best candidates, judged before a log counts as quiet,
-constexpr double kHidden = 2.0;          // for these, times the least limit: some quiet windows pass it once
+constexpr double kHidden = 2.0;          // for these, times the least limit: quiet windows exceed it once
 constexpr std::size_t kRefined = 5;      // best hypotheses that are refined, at most
 constexpr double kSameNoise = 0.1;       // of a variance: noises that differ by less are the same
 constexpr std::size_t kBeside = 5;       // best hypotheses beside which the noise is estimated anew
@@ -40,7 +40,7 @@ std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int
   return out;
 }
 
-/// Onsets that stand out for any kind.
+/// Returns the onsets that stand out for any kind.
 std::vector<double> common_onsets(const std::vector<Candidate>& all) {
   std::vector<Candidate> sorted;
   for (const Candidate& c : all)
@@ -65,7 +65,7 @@ std::set<double> onsets_of(const std::vector<Candidate>& own, const std::vector<
   return out;
 }
 
-/// Onsets at which every kind is tried: those that stand out, and when the healthy robot ceases to explain.
+/// Returns the onsets at which every kind is tried: those that stand out, and that of the free form.
 std::vector<double> onsets_to_try(const std::vector<Candidate>& all, const FreeForm& change, double row_s) {
   std::vector<double> out = common_onsets(all);
   for (const double rows : {-1.0, -0.5, 0.0}) out.insert(out.begin(), change.onset_s + rows * row_s);
@@ -118,7 +118,7 @@ double best_gain(const JudgedHypotheses& bench) {
   return best;
 }
 
-/// Nats by which a change of any form explains the log better than the healthy robot.
+/// Returns the nats by which a free form explains the log better than the healthy robot.
 double gain_of(const LogFit& fit, const FreeForm& change) {
   double left = 0.0;
   for (const double z : fit.healthy().left)
@@ -126,9 +126,9 @@ double gain_of(const LogFit& fit, const FreeForm& change) {
   return left - change.row_cost.sum();
 }
 
-/// Whether anything is worth judging: an onset that the search found, or a change of any form. A reading that
-/// jumps has no score in the search. Scores take the noise as white; a fault that lasts gives more where the
-/// noise hardly wanders, so that the best candidates are judged before nothing is said to stand out.
+/// Returns whether any hypothesis should be judged, by the onsets of the search and the free form. A position
+/// that jumps has no score in the search. Scores assume white noise; a fault that lasts has more evidence if
+/// the noise is weak at low frequencies, so that the best candidates are judged before a log counts as quiet.
 bool stands_out(double free_gain, std::vector<Candidate> found, double least_evidence, const LogFit& fit) {
   const double least = std::max(kStandsOut, kMayPass * least_evidence);
   if (free_gain > least) return true;
@@ -149,7 +149,7 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
   });
 }
 
-/// Whether the rows of some joint have much less noise, and those of none more.
+/// Returns whether the rows of some joint have much less noise, and those of none more.
 bool is_quieter(const RowNoise& noise, const RowNoise& than) {
   bool out = false;
   for (std::size_t j = 0; j < noise.joint.size(); ++j) {
@@ -160,15 +160,15 @@ bool is_quieter(const RowNoise& noise, const RowNoise& than) {
   return out;
 }
 
-/// The noise of a log beside a fault.
+/// Noise of a log beside a fault.
 struct NoiseBeside {
   FaultLabel fault;
   RowNoise noise;
 };
 
-/// Noise of the log when one of its best explanations is known to be true: the first explanation that lowers
-/// the noise counts, since the fault that made the log loud need not have the most evidence while it is loud.
-/// An explanation that excludes rows lowers the noise in any case and counts only when it is the best.
+/// Returns the noise of the log as if one of its best explanations were known to be true: the first one that
+/// lowers the noise, since the fault that makes the log loud need not have the most evidence at first. An
+/// explanation that excludes rows lowers the noise in any case and counts only if it is the best.
 std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& log,
                                          const std::vector<FaultHypothesis>& best) {
   if (!is_quieter(fit.model().noise, fit.noise())) return std::nullopt;

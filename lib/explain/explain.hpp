@@ -10,34 +10,34 @@
 
 namespace faultline {
 
-/// What one log says: the best hypothesis of each kind and joint, best first; none where nothing stands out.
+/// Explanation of a log by the best hypothesis of each kind and joint, best first; none if none stands out.
 struct LogExplanation {
   std::vector<FaultHypothesis> best;
-  double healthy_square = 1.0;  ///< mean square of what the healthy robot leaves, in standard deviations
+  double healthy_square = 1.0;  ///< mean square of the whitened residuals of the healthy robot
   FreeForm free_form;
-  double free_gain = 0.0;  ///< nats by which that explains the log better than the healthy robot
+  double free_gain = 0.0;  ///< nats by which the free form explains the log better than the healthy robot
 };
 
-/// Where the search finds nothing that may give `least_evidence` (nats), no hypothesis is judged.
+/// Explains a log. Judges no hypothesis if the search finds none that may give `least_evidence` (nats).
 LogExplanation explain_log(const LogFit& fit, double least_evidence = 0.0);
 
-/// A log beside known faults, and what it says.
+/// A log with known faults, and its explanation.
 struct ExplainedFit {
   LogFit fit;
   LogExplanation explanation;
 };
-/// The same with the noise that the log has beside its best explanation. Before anything is known of a fault
-/// that begins early, it makes the log loud: what the effects of the day leave of it counts as noise.
-/// `explain` gives the explanation of a fit, such as explain_log().
+/// Explains a log with the noise that it has beside its best explanation: until a fault that begins early is
+/// known, its residuals beside the effects of the day count as noise. `explain` returns the explanation of a
+/// fit, such as explain_log().
 ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& model,
                                     const std::vector<FaultClaim>& known,
                                     const std::function<LogExplanation(const LogFit&)>& explain);
 
-/// Nats by which a change of any form explains the log better than a hypothesis: no fault has exactly the
-/// form of its columns, so a share of its torque is noise.
+/// Returns the nats by which a free form explains the log better than a hypothesis. A share of the torque of
+/// the fault counts as noise, since no fault has exactly the form of its columns.
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& hypothesis);
 
-/// Evidence of `hypothesis` from its onset on; the effects of the day are those of the whole log.
+/// Returns the evidence of `hypothesis` from its onset on, with the effects of the day of the whole log.
 EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& hypothesis);
 
 }  // namespace faultline

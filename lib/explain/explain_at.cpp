@@ -12,9 +12,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kLongestPush_s = 1.2;  // s, of a collision: what presses for longer is another fault
+constexpr double kLongestPush_s = 1.2;  // s of a collision: a longer force is another fault
 
-/// Times of a fault. Kinds that pass have an end in any case; those that repeat or jump begin with a sample.
+/// Times of a fault. A collision always has an end; a stuck encoder and a sensor bias begin with a sample.
 struct FaultTimes {
   double onset_s = 0.0, end_s = kNeverEnds;
   double sample_s = 0.0;  ///< first sample from the onset on
@@ -25,7 +25,7 @@ FaultTimes times_of(const UniformLog& log, double onset_s, double end_s) {
   return {onset_s, end_s, log.time_s(std::clamp(std::ceil(row - 1e-6), 0.0, log.rows() - 1.0))};
 }
 
-/// The jump of a joint's reading next to a time, as a size to begin with; 0 where there is none.
+/// Returns the jump of a joint's position next to a time, as an initial size; 0 if there is none.
 double jump_near(const LogFit& fit, int joint, double time_s) {
   double size = 0.0, nearest = 4.0 * fit.log().period_s;
   for (const SensorJump& jump : sensor_jumps(fit, joint - 1))
@@ -41,7 +41,7 @@ std::optional<ExplainedFault> first_of(const LogExplanation& e, const EvidenceLi
   return std::move(named.front());
 }
 
-/// Every kind and joint at the times of a fault.
+/// Judges every kind and joint at the times of a fault.
 LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(256);

@@ -7,9 +7,9 @@
 
 namespace faultline {
 
-/// The fault of a log that is known to begin at `onset_s` and to end at `end_s` (kNeverEnds for one that
-/// lasts): every kind at every joint is judged with these times and nothing is searched. Empty when no kind
-/// passes its limit. For logs whose truth is known: those that networks and cases learn from.
+/// Returns the fault of a log that is known to begin at `onset_s` and to end at `end_s` (kNeverEnds for one
+/// that lasts): judges every kind at every joint with these times, without a search. Empty if no kind exceeds
+/// its limit. For logs with known truth, from which networks and cases learn.
 std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
                                          double end_s);
 

@@ -14,24 +14,24 @@
 namespace faultline {
 namespace {
 
-constexpr std::size_t kMostFaults = 12;   // of one log
-constexpr std::size_t kMostTogether = 3;  // faults that are tried together where one alone leaves much
-constexpr std::size_t kFirsts = 3;        // named faults, at most, beside which further ones are looked for
+constexpr std::size_t kMostFaults = 12;   // faults of one log, at most
+constexpr std::size_t kMostTogether = 3;  // faults that are tried together if one alone does not suffice
+constexpr std::size_t kFirsts = 3;        // named faults, at most, beside which further ones are searched
 constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint that count as one
-constexpr double kFirstShare = 0.3;       // of the best one's evidence, that each of these has at least
+constexpr double kFirstShare = 0.3;       // share of the best evidence that each of these has, at least
 constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
-constexpr double kOppositeWithin = 0.3;   // of a false reading's size, by which its opposite may differ
+constexpr double kOppositeWithin = 0.3;   // share of a false reading's size by which its opposite may differ
 
-/// One step of the explanation: the faults that explain best what the known ones leave, best first.
+/// One step of the explanation: the faults that best explain the residuals of the known ones, best first.
 struct NextFault {
-  std::vector<ExplainedFault> named;  ///< none where what is left is healthy
-  /// By named fault: when the log shows it, where it comes and goes.
+  std::vector<ExplainedFault> named;  ///< none if the rest of the log is healthy
+  /// By named fault: the spans in which the log shows it, if it is linear.
   std::vector<std::vector<FaultClaim>> spans{};
   ExplainedFault unknown{};  ///< the best of them as a fault of no kind
-  ExplainedLog rest{};       ///< what the log says beside the known faults
+  ExplainedLog rest{};       ///< explanation of the log beside the known faults
 };
 
-/// Effects of the day that a person would look at, as far as the motion distinguishes them.
+/// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint.
 std::vector<DayEffect> effects_of(const LogFit& fit) {
   const DayLayout at = day_layout(fit.model().rigid);
   std::vector<DayEffect> out;
@@ -46,7 +46,7 @@ std::vector<DayEffect> effects_of(const LogFit& fit) {
   return out;
 }
 
-/// Standard deviation of the rows of each joint over that of the healthy logs' rows.
+/// Returns the standard deviation of the rows of each joint over that of the healthy logs' rows.
 std::vector<double> loudness_of(const LogFit& fit) {
   std::vector<double> out;
   for (int j = 0; j < fit.joints(); ++j)
@@ -55,14 +55,14 @@ std::vector<double> loudness_of(const LogFit& fit) {
   return out;
 }
 
-/// Time of the rows whose kernel crosses no lost sample.
+/// Returns the duration of the rows whose kernel crosses no lost sample.
 double judged_s(const LogFit& fit) {
   const std::vector<bool>& lost = fit.rows().lost;
   return fit.model().setting.row_s() * static_cast<double>(std::count(lost.begin(), lost.end(), false));
 }
 
-/// Whether two faults of one joint begin so close to each other that the second is what the columns of the
-/// first lack of its form.
+/// Returns whether two faults of a joint begin so close together that the second is a form error of the
+/// first.
 bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
   return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
 }
@@ -76,7 +76,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   const auto [fit, e] = explain_with_own_noise(
       log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogEvidence evidence = log_evidence(fit, e);
-  // What known faults leave is louder than the noise that evidence is counted by.
+  // Residuals of known faults are larger than the noise by which evidence is computed.
   const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
   std::vector<ExplainedFault> named = named_faults(e, own, evidence, kFirsts);
   std::erase_if(named, [&](const ExplainedFault& fault) {
@@ -99,7 +99,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   return out;
 }
 
-/// Those of `before`, and those of all faults but one.
+/// Returns `before`, and the claims of all faults except that at `left_out`.
 std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, std::size_t left_out,
                                    std::vector<FaultClaim> before) {
   std::vector<FaultClaim> out = std::move(before);
@@ -108,7 +108,7 @@ std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, st
   return out;
 }
 
-/// Each fault judged again with all others known, the weakest first: it goes where they explain the log
+/// Judges each fault again with all others known, the weakest first, and drops it if they explain the log
 /// without it. `before` are known and stay.
 std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
                                     const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
@@ -130,7 +130,7 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
       faults[k] = again[0];
     } else if (gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
-      k = 0;  // what was judged beside it is judged without it
+      k = 0;  // faults that were judged beside it are judged without it
       continue;
     }
     ++k;
@@ -138,8 +138,8 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
   return faults;
 }
 
-/// The first of the `most` best named faults that comes and goes and so explains the log, as a fault in each
-/// of its spans, judged beside each other; empty where none does.
+/// Returns the first of the `most` best named faults that comes and goes and explains the log by this: as a
+/// fault in each of its spans, judged beside each other. Empty if none does.
 std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceModel& model,
                                            const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
                                            const NextFault& next, std::size_t most) {
@@ -157,13 +157,13 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
   return {};
 }
 
-/// The fault that explains best what is left; or several that explain it together, where one alone leaves
-/// much; or a fault of no kind where these leave much, too.
+/// Returns the fault that best explains the residuals; or several that explain them together, if one alone
+/// leaves much; or a fault of no known kind, if these leave much, too.
 std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceModel& model,
                                         const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
                                         const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
-  // A drive that clips is no known kind: what several known faults explain comes before it.
+  // A drive that clips is no known kind: several known faults that explain the log are preferred to it.
   const bool is_enough = suffices(alone) && alone.claim.kind != FaultKind::unknown;
   std::vector<ExplainedFault> repeated =
       repeated_fault(log, model, limits, known, next, is_enough ? 1 : next.named.size());
@@ -188,8 +188,8 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
   return {suffices(alone) ? alone : next.unknown};
 }
 
-/// A false reading within another one of the joint that is its opposite, as two that follow each other: what
-/// they say of the log is the same, and the robot is healthy in between.
+/// Replaces a false reading within another one of the joint that is its opposite by two that follow each
+/// other: both predict the same log, and the robot is healthy in between.
 std::vector<ExplainedFault> unnested(std::vector<ExplainedFault> faults) {
   for (ExplainedFault& outer : faults)
     for (ExplainedFault& inner : faults) {
@@ -210,8 +210,8 @@ bool is_slip(const FaultClaim& a, const FaultClaim& b) {
          a.onset_s < b.onset_s && b.size[0] / a.size[0] > kAlike && a.size[0] / b.size[0] > kAlike;
 }
 
-/// An encoder that jumps again and again in one direction, as a belt that slips, is one fault of no kind.
-/// `faults` stand by their onset.
+/// Replaces jumps of an encoder in one direction, such as by a belt that slips, by one fault of no known
+/// kind. `faults` are sorted by onset.
 std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
   for (std::size_t k = 0; k < faults.size(); ++k) {
     const FaultClaim first = faults[k].claim;
@@ -224,7 +224,7 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
   return faults;
 }
 
-/// The log beside faults that are known, `before`.
+/// Explains the log beside the known faults `before`.
 ExplainedLog explained_beside(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                               const std::vector<FaultClaim>& before) {
   ExplainedLog out;
@@ -266,7 +266,7 @@ ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, co
   ExplainedLog out = explained_beside(log, model, limits, joined(known, balance_claims(drives)));
   const std::vector<JudgedStretch> all =
       with_laws(drives, signals.begin, claims_but(out.faults, out.faults.size(), known), &fit);
-  // What the torque balance shows while a control law is left has the same cause.
+  // What the torque balance shows in a stretch of a control law has the same cause.
   if (std::any_of(out.faults.begin(), out.faults.end(),
                   [&](const ExplainedFault& fault) { return begins_within_law(all, fault.claim); }))
     out = explained_beside(log, model, limits, joined(known, balance_claims(all)));

@@ -12,11 +12,11 @@
 namespace faultline {
 namespace {
 
-constexpr double kShortest_s = 1.5;  // of a log from 50 Hz on: the lead without onsets, and some moves
+constexpr double kShortest_s = 1.5;  // of a log of 50 Hz and more: the lead without onsets, and some motion
 constexpr int kFewestCoarse = 20;    // samples of a log below 50 Hz
-constexpr int kAtTheStart = 2;       // samples behind the earliest onset: a fault that begins with the log
+constexpr int kAtTheStart = 2;       // samples after the earliest onset: a fault that begins with the log
 
-/// By joint: standard deviations that the healthy robot leaves of the log's readings.
+/// Returns by joint the root mean square of the whitened residuals of the healthy robot.
 std::vector<double> loudness_of(const CoarseLog& log) {
   const int n = log.joints();
   std::vector<double> out;
@@ -27,7 +27,7 @@ std::vector<double> loudness_of(const CoarseLog& log) {
   return out;
 }
 
-/// An unknown fault begins where the healthy robot ceases to explain the log.
+/// Moves the onset of an unknown fault to where the healthy robot ceases to explain the log, if earlier.
 ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
   const std::optional<int> strike = first_strike(log);
   if (!strike || log.time_s(*strike) >= fault.claim.onset_s) return fault;
@@ -36,14 +36,14 @@ ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
   return fault;
 }
 
-/// Whether what explains a log best leaves more than noise, where smoothing did not converge: a robot that
-/// runs away is far from linear in its torques, and no hypothesis is judged rightly there.
+/// Returns whether the best explanation has larger residuals than noise and smoothing does not converge: a
+/// robot that runs away is far from linear in its torques, so that hypotheses are misjudged there.
 bool runs_away(const CoarseLog& log, const LogExplanation& e) {
   return log.settled < log.samples() && !e.best.empty() && e.best.front().fit.mean_square() > kMuchLeft;
 }
 
-/// At most one fault. An unknown fault that begins with the log is not reported: the model may not fit the
-/// log from its first row on, and the loudness of the log says so.
+/// Explains a log by one fault at most. An unknown fault that begins with the log is not reported: the model
+/// may not fit the log from its first row on, which the loudness of the log shows.
 ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits) {
   const LogExplanation e = explain_coarse(log);
   if (runs_away(log, e))
@@ -70,7 +70,7 @@ struct Part {
   int begin = 0, end = 0;
 };
 
-/// The parts of a log in which no fault is known.
+/// Returns the parts of a log without a known fault.
 std::vector<Part> parts_beside(const UniformLog& log, const std::vector<FaultClaim>& known) {
   const auto row = [&](double time_s) {
     return static_cast<int>(
@@ -89,7 +89,7 @@ std::vector<Part> parts_beside(const UniformLog& log, const std::vector<FaultCla
   return out;
 }
 
-/// While a fault lasts nothing else is looked for.
+/// Explains a log at a coarse rate. Searches no other fault while one lasts.
 ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& model,
                                     const EvidenceLimits& limits, std::vector<FaultClaim> lasting,
                                     const SignalStretches& signals) {

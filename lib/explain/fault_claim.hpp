@@ -11,36 +11,36 @@ namespace faultline {
 /// End of a fault that lasts to the end of the log, s.
 inline constexpr double kNeverEnds = std::numeric_limits<double>::infinity();
 
-/// What is said of a log: a fault of a kind at a joint, from when to when, and how large.
+/// A claim on a log: a fault of a kind at a joint, with onset, end and size.
 struct FaultClaim {
   FaultKind kind = FaultKind::none;
   int joint = 0;  ///< from 1
   double onset_s = 0.0;
   double end_s = kNeverEnds;
   /// Share of the torque lost; viscous and Coulomb friction added; kg at the end of the link; force on each
-  /// joint; torque that is logged beside the one that acts (N m or N); false position (rad or m) or drift
-  /// (rad/s or m/s). Empty for kinds without a size, and where it is not known.
+  /// joint; offset of the logged torque (N m or N); false position (rad or m) or drift (rad/s or m/s). Empty
+  /// for kinds without a size, and if it is unknown.
   Eigen::VectorXd size{};
-  /// From nothing at the onset; then `size` is that of each second, as friction that creeps.
+  /// Grows from zero at the onset, such as friction that creeps; then `size` is the growth in each second.
   bool grows = false;
-  /// Of a false position: the velocity is measured apart from it and shows nothing of it. A velocity that is
-  /// computed from the position drifts with it, and is wrong for a moment where it jumps.
+  /// For a false position: the velocity is measured independently and is true. A velocity that is computed
+  /// from the position drifts with it, and is wrong for a moment when it jumps.
   bool velocity_is_true = false;
 
   FaultLabel label() const { return {kind, joint}; }
 };
 
-/// Whether a fault makes a position read wrong and moves nothing.
+/// Returns whether a fault falsifies the measured position and does not change the motion.
 inline bool reads_wrong(FaultKind kind) {
   return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift;
 }
 
-/// Whether the torque balance of the joint says nothing while the fault lasts.
+/// Returns whether the rows of the joint are silent while the fault lasts.
 inline bool silences(FaultKind kind) {
   return kind == FaultKind::locked || kind == FaultKind::stuck_encoder || kind == FaultKind::unknown;
 }
 
-/// A free joint is one that loses its whole torque.
+/// Returns the kind whose columns describe a kind: a free joint loses its whole torque.
 inline FaultKind column_kind(FaultKind kind) {
   return kind == FaultKind::free_swinging ? FaultKind::torque_loss : kind;
 }

@@ -15,23 +15,23 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Velocities that a jump of the position reaches where the controller computes them from it: a difference
-/// and a filter.
+/// Times before and after a jump of the position in which it changes velocities that the controller computes
+/// from it, by a difference and a filter.
 constexpr double kVelocityBefore_s = 0.02, kVelocityAfter_s = 0.1;
-constexpr double kReach = 1.5, kReachOfJump = 4.0;  // kernels beside onset and end: rows say nothing there
-constexpr double kLongestReach_s = 0.1;    // s: most that the jump of a stuck encoder reaches in the velocity
-constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity: less does not show
+constexpr double kReach = 1.5, kReachOfJump = 4.0;  // kernels beside onset and end in which rows are silent
+constexpr double kLongestReach_s = 0.1;    // s: longest reach of the jump of a stuck encoder in the velocity
+constexpr double kShowsInVelocity = 0.01;  // share of a jump of the velocity, below which it has no effect
 constexpr double kEdgeKernels = 4.0;       // kernels on either side of an onset or end: rows that it reaches
 constexpr double kLossVariance = 0.25;     // of the share of the torque: a standard deviation of one half
 constexpr double kFrictionVariance = 9.0;  // of the joint's own friction, squared
 constexpr double kCreepVariance = 0.01;    // the same, per second
 constexpr double kPayloadVariance = 0.36;  // of the mass that the link carries, squared
-constexpr double kUnfelt = 1e-9;           // of the greatest square of a torque: rounding
+constexpr double kUnfelt = 1e-9;           // share of the greatest squared torque: less is rounding
 constexpr double kOffsetVariance = 0.36;   // of the joint's usual torque, squared
-constexpr double kLeastVariance = 1e-6;    // (N m s)^2 or (N m)^2: friction may rise where the model has none
+constexpr double kLeastVariance = 1e-6;    // (N m s)^2 or (N m)^2: friction may rise if the model has none
 
-/// Mass at the end of a link, kg, that the torque of its joint is like; of the joint before where that feels
-/// none of it. `unit`: torque of 1 kg there, rows x joints.
+/// Returns the mass at the end of a link, kg, that explains the torque of its joint best, or of the last
+/// joint before that it loads. `unit`: torque of 1 kg there, rows x joints.
 double carried_mass(const BalanceRows& rows, const BalanceModel& model, const MatrixXd& unit, int link) {
   const VectorXd square = unit.colwise().squaredNorm().transpose();
   for (int j = link; j >= 0; --j)
@@ -50,7 +50,7 @@ LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
   auto lost = out.columns.column.col(0);
   lost.segment(j * rows.rows(), rows.rows()) =
       rows.torque.col(j) - m.theta[at.delay(j)] * rows.column[j].col(at.delay(j));
-  // A torque that does not arrive bends no gear either.
+  // A lost torque deflects no gear spring either.
   const int spring = at.spring(j);
   for (int i = 0; i < rows.joints() && m.theta[spring] != 0.0; ++i)
     lost.segment(i * rows.rows(), rows.rows()) -= m.theta[spring] * rows.column[i].col(spring);
@@ -59,7 +59,7 @@ LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
   return out;
 }
 
-/// Friction that is added at once, or that creeps.
+/// Returns friction that is added at once, or that creeps.
 LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, int j, bool creeps) {
   const ColumnLayout layout = m.layout();
   const double fv = m.theta[layout.viscous(j)], fc = m.theta[layout.coulomb(j)];
@@ -79,7 +79,7 @@ LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, in
   return out;
 }
 
-/// A sensor that reads a torque beside the true one, so that the drive gives another one than is logged.
+/// Returns the offset of a torque sensor, by which the drive gives another torque than the logged one.
 LinearFault torque_offset(const BalanceRows& rows, const BalanceModel& m, int j) {
   LinearFault out{FaultKind::torque_sensor_error,
                   j + 1,
@@ -134,7 +134,7 @@ FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, d
   });
   FaultColumns out{StackedColumns::Zero(rows.rows() * n, 2 * n), VectorXd(2 * n)};
   for (int j = 0; j < n; ++j) {
-    out.column.col(j).segment(j * rows.rows(), rows.rows()) = -lasts;  // a push relieves the drive
+    out.column.col(j).segment(j * rows.rows(), rows.rows()) = -lasts;  // the force relieves the drive
     out.column.col(n + j).segment(j * rows.rows(), rows.rows()) = -swells;
     out.variance[j] = out.variance[n + j] = rows.torque.col(j).squaredNorm() / rows.rows();
   }
@@ -157,7 +157,7 @@ VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, double ti
 }
 
 StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const FaultClaim& claim) {
-  // The position of an encoder that sticks jumps when it moves on: that reaches all of the kernel.
+  // The position of a stuck encoder jumps at its end, which changes the rows within the whole kernel.
   const double reach = claim.kind == FaultKind::stuck_encoder
                            ? kReachOfJump * m.setting.kernel_s +
                                  std::min(velocity_reach_s(m.setting, kShowsInVelocity), kLongestReach_s)
@@ -177,8 +177,8 @@ StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const Fa
 
 namespace {
 
-/// Velocities around a jump of the position, which the controller computed from it: those of the positions
-/// without the jump.
+/// Replaces velocities around a jump, which the controller computed from the position, by differences of the
+/// positions without the jump.
 JointReading with_mended_velocity(JointReading reading, const UniformLog& log, double jump_s) {
   const int rows = log.rows();
   for (int k = 0; k < rows; ++k) {

@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kAbsentShare = 0.7;    // of the evidence that an absent fault gives
-constexpr double kSurelyLasts_s = 5.0;  // s behind the onset or the log's start, in which the fault goes on
-constexpr int kRestRows = 8;            // rows that show where a locked joint stands
+constexpr double kAbsentShare = 0.7;    // share of the evidence that an absent fault would give
+constexpr double kSurelyLasts_s = 5.0;  // s after the onset or the start of the log in which the fault lasts
+constexpr int kRestRows = 8;            // rows that give the position of a locked joint
 constexpr int kMovesRows = 3;           // rows in succession that show that it moves again
-constexpr double kTakenBack = 0.3;      // of a false reading's size, by which the jump back may differ
+constexpr double kTakenBack = 0.3;      // share of a false reading's size by which the jump back may differ
 
-/// When a joint that is locked from `from_s` on moves again: with its spring or without, as the lock may be
-/// on either side of it.
+/// Returns when a joint (from 0) that is locked from `from_s` on moves again, with its spring or without,
+/// since the lock may be on either side of it.
 std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
   const auto [place, tolerance] = standstill(fit, joint);
   const VectorXd q = fit.rows().q.col(joint);
@@ -40,7 +40,7 @@ std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
   return std::nullopt;
 }
 
-/// When an encoder that is stuck from `from_s` on gives another code.
+/// Returns when an encoder that is stuck from `from_s` on gives another code; `from_s` if it is not stuck.
 std::optional<double> reads_again_from(const LogFit& fit, int joint, double from_s) {
   for (const RepeatedCode& run : repeated_codes(fit, joint))
     if (run.onset_s <= from_s && run.end_s > from_s)
@@ -48,7 +48,7 @@ std::optional<double> reads_again_from(const LogFit& fit, int joint, double from
   return from_s;
 }
 
-/// When a jump of the position takes a false reading back.
+/// Returns when a jump of the position reverses a false reading.
 std::optional<double> taken_back_at(const LogFit& fit, const FaultClaim& claim) {
   std::optional<double> first;
   for (const SensorJump& jump : sensor_jumps(fit, claim.joint - 1)) {
@@ -61,7 +61,7 @@ std::optional<double> taken_back_at(const LogFit& fit, const FaultClaim& claim) 
   return first;
 }
 
-/// A known fault and where its sizes stand among the effects of the log.
+/// A known fault and the index of its first size among the effects of the log.
 struct KnownFault {
   const FaultClaim& claim;
   Eigen::Index begin = 0;
@@ -69,8 +69,9 @@ struct KnownFault {
   Eigen::Index sizes() const { return claim.size.size(); }
 };
 
-/// Whitened rows with the fault and without it. The effects are those that the rows before `until_s` show, up
-/// to which the fault is known to last: behind its end it would bend the effects of the day.
+/// Returns the whitened residuals with the fault and without it. The effects are estimated from the rows
+/// before `until_s`, up to which the fault is assumed to last: rows after its end would bias the effects of
+/// the day.
 WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault, double until_s) {
   const VectorXd effects = fit.day_before(until_s);
   Stacked torque = fit.residual() - fit.day_torque(effects);

@@ -8,28 +8,28 @@
 
 namespace faultline {
 
-/// Nats of a fault's absence that show its end, by the mean square that is left.
+/// Nats for the absence of a fault that show its end, per mean square of the residuals.
 inline constexpr double kEndEvidence = 50.0;
-inline constexpr double kLeastFault_s = 0.1;  ///< behind an onset, before which no end is looked for
-/// Of a fault that stays for a while and ends, and of the time for which it is gone: where a joint comes to
-/// rest, a row or two may look as if it were.
+inline constexpr double kLeastFault_s = 0.1;  ///< after an onset, before which no end is searched
+/// Shortest duration of a fault that ends, and of its absence: when a joint comes to rest, a row or two may
+/// look as if the fault were gone.
 inline constexpr double kLeastStay_s = 0.25;
 
-/// Whitened rows of a log, explained with a fault and without it.
+/// Whitened residuals of a log with a fault and without it.
 struct WithAndWithout {
-  Stacked with, without;  ///< NaN where rows do not count
+  Stacked with, without;  ///< NaN for rows without weight
 };
 
-/// The moment after `from_s` from which the log shows that a fault is gone (equation (11) of
+/// Returns the moment after `from_s` from which the log shows that a fault is gone, if any (equation (11) of
 /// docs/how-it-works.md): the evidence of its absence since then (a cumulative sum; Page 1954) is large
-/// beside what is left over, and nearly all that its torque could give. A fault that goes on in another form
+/// compared with the residuals, and most of what its torque could give. A fault that goes on in another form
 /// than its columns gives less.
 std::optional<double> gone_from(const LogFit& fit, const WithAndWithout& left, double from_s);
 
-/// Faults that lasted when the log began, as an earlier part of it has shown them: with their ends where this
-/// part shows that they are gone. The error of a reading grows while it drifts, so its size is estimated
-/// anew; others keep theirs, since this part has no rows of the healthy robot to compare with. Claims that
-/// end are left as they are.
+/// Returns faults that lasted when the log began, as an earlier part of it has shown them, with their ends if
+/// this part shows that they are gone. A false reading grows while it drifts, so its size is estimated anew;
+/// other sizes stay, since this part has no rows of the healthy robot for comparison. Claims with an end stay
+/// as they are.
 std::vector<FaultClaim> followed(const UniformLog& log, const BalanceModel& model,
                                  std::vector<FaultClaim> lasting);
 

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr int kRounds = 6;  // of spans and size in turn, at most
 
-/// From when to when the fault is present.
+/// Time in which the fault is present.
 struct Span {
   double onset_s = 0.0, end_s = kNeverEnds;
 
@@ -25,8 +25,8 @@ struct Span {
 /// The log explained by a fault that is present in some spans.
 struct SpanFit {
   VectorXd size;
-  Stacked absent;       ///< whitened rows without the fault
-  double square = 1.0;  ///< mean square of what is left
+  Stacked absent;       ///< whitened residuals without the fault
+  double square = 1.0;  ///< mean square of the residuals
 };
 
 SpanFit fit_of(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
@@ -38,7 +38,7 @@ SpanFit fit_of(const LogFit& fit, const LinearFault& fault, const std::vector<Sp
   return {e.size, fit.left_without_fault(e), e.mean_square()};
 }
 
-/// Nats, by row, by which the row is more likely without the fault than with it.
+/// Returns the nats, by row, by which the row is more likely without the fault than with it.
 VectorXd evidence_of_absence(const LogFit& fit, const StackedColumns& white, const SpanFit& by) {
   const Stacked torque = white * by.size;
   VectorXd out = VectorXd::Zero(fit.count());
@@ -51,8 +51,8 @@ VectorXd evidence_of_absence(const LogFit& fit, const StackedColumns& white, con
   return out;
 }
 
-/// By row, whether the fault is present: the most likely states together, each change of which costs
-/// `price` nats. It begins with the row before `first` at the earliest.
+/// Returns by row whether the fault is present: the most likely sequence of states, in which each change
+/// costs `price` nats. The fault begins with the row before `first` at the earliest.
 std::vector<bool> likely_states(const VectorXd& absence, int first, double price) {
   const Eigen::Index rows = absence.size();
   std::array<double, 2> cost = {0.0, price};  // absent, present
@@ -78,7 +78,7 @@ std::vector<bool> likely_states(const VectorXd& absence, int first, double price
   return out;
 }
 
-/// The spans of the states; moments shorter than kLeastStay_s belong to what surrounds them.
+/// Returns the spans of the states; times shorter than kLeastStay_s get the state around them.
 std::vector<Span> spans_of(const LogFit& fit, const std::vector<bool>& present) {
   std::vector<Span> out;
   const double half_s = 0.5 * fit.model().setting.row_s();

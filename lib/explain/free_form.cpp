@@ -18,11 +18,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Nats of a row and joint of which nothing is said: that of 1.7 standard deviations.
+/// Nats of a row and joint that nothing explains: that of 1.7 standard deviations.
 constexpr double kFreeRowCost = 1.5;
 
-/// Nats that each row costs: by joint as the rows before the change explain them, or each row of the change
-/// with a torque of its own as large as is usual for the joint, whichever costs less.
+/// Returns the nats of each row, by joint as the rows before the change explain them, or as if each row of
+/// the change had a torque of its own of usual size for the joint, whichever is less.
 VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
   const int rows = fit.count();
   VectorXd out = VectorXd::Zero(rows);
@@ -38,9 +38,9 @@ VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
   return out;
 }
 
-/// Whitened rows that no explanation but the healthy robot and the day has yet: without the work piece as
-/// seen before a fault could bend the effects of the day, and nothing where the piece changes, since a row
-/// does not know the time of that change.
+/// Returns the whitened rows that healthy robot and day are to explain: without the work piece, by its path
+/// before a fault could bias the effects of the day, and 0 near changes of the piece, whose times the rows do
+/// not contain.
 Stacked rows_to_explain(const LogFit& fit) {
   Stacked white = fit.whitened(torque_without_piece(fit));
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
@@ -49,14 +49,14 @@ Stacked rows_to_explain(const LogFit& fit) {
   return white;
 }
 
-/// The rows of one joint, with the effects of the day that reach them: sums from which the cost of any
-/// effects follows.
+/// Sums of the rows of one joint and of the effects of the day that reach them: they give the cost of
+/// effects.
 struct JointRows {
   std::vector<int> reach{};  ///< indices of the effects
   NormalEquations sums{};    ///< of those effects
 };
 
-/// Joints without a row so far.
+/// Returns the sums of the joints before any row is added.
 std::vector<JointRows> no_rows(const MatrixXd& effects, int joints) {
   const Eigen::Index rows = effects.cols() / joints;
   std::vector<JointRows> out(joints);
@@ -77,14 +77,14 @@ void add_row(const Eigen::Ref<const VectorXd>& effects, double white, JointRows&
   joint.sums.rows += 1.0;
 }
 
-/// Sum of squares that the effects of the day leave of rows.
+/// Returns the sum of squared residuals of the rows with these effects of the day.
 double square_left(const JointRows& joint, const VectorXd& day) {
   const VectorXd some = day(joint.reach);
   return joint.sums.square - 2.0 * some.dot(joint.sums.vector) + some.dot(joint.sums.matrix * some);
 }
 
-/// Nats of the rows of a joint if the change does not reach it, and if it does. Its rows have the variance
-/// that those before the change show, at least 1, that of the healthy logs.
+/// Nats of the rows of a joint if the change does not reach it, and if it does. The variance of its rows is
+/// estimated from those before the change, and at least 1, that of the healthy logs.
 struct CostOfJoint {
   double explained = 0.0, free = 0.0;
 };
@@ -97,11 +97,11 @@ CostOfJoint cost_of_joint(const JointRows& all, const JointRows& before, const V
           costs_before + rest * (row + kFreeRowCost)};
 }
 
-/// The joints of which a change may cost the rows.
+/// Joints whose rows a change may free.
 enum class ChangeOf { all_joints, some_joints };
 
-/// The change that costs least: from it on each row of all joints costs kFreeRowCost, or of those joints
-/// alone of which the rows would cost more as they are explained before it.
+/// Returns the change of least cost: after it each row costs kFreeRowCost, of all joints, or only of those
+/// joints whose rows would cost more if they were explained as before it.
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   const int rows = fit.count(), n = fit.joints();
   const MatrixXd effects = fit.white_effects().transpose();  // effects x rows
@@ -140,7 +140,7 @@ Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   return best;
 }
 
-/// From when on the healthy robot explains the rows again; kNeverEnds where it does not.
+/// Returns from when on the healthy robot explains the rows again; kNeverEnds if it does not.
 double explained_again_s(const LogFit& fit, const Stacked& left, const Change& change) {
   const int rows = fit.count();
   double back = 0.0, most = kEndEvidence, out = kNeverEnds;

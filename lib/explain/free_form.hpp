@@ -6,43 +6,42 @@
 
 namespace faultline {
 
-inline constexpr int kRowsOfChange = 6;  ///< on each side of a change of the work piece: kernel and filter
+inline constexpr int kRowsOfChange = 6;  ///< rows that a change of the work piece reaches on either side
 
-/// Torque that the robot leaves unexplained without the work piece, whose path is that before anything was
-/// known of the day.
+/// Returns the residual without the work piece, by its path before effects of the day were estimated.
 Stacked torque_without_piece(const LogFit& fit);
 
-/// Rows that the noise of the healthy logs counts for in the noise of a log.
+/// Rows as which the noise of the healthy logs counts in the estimate of the noise of a log.
 inline constexpr double kRowsOfHealthyLogs = 30.0;
 
-/// Where the healthy robot and the day cease to explain a log.
+/// The moment at which healthy robot and day cease to explain a log.
 struct Change {
-  int last_row = 0;       ///< that they explain
+  int last_row = 0;       ///< last one that they explain
   double onset_s = 0.0;   ///< of the row after it
-  Eigen::VectorXd day{};  ///< effects, as the rows up to the last one show them
+  Eigen::VectorXd day{};  ///< effects, estimated from the rows up to the last one
 };
 
-/// The moment from which on the rows of some joint cost more, as those before it explain them, than a few
+/// Returns the moment after which the rows of some joint, explained as those before it, cost more than a few
 /// nats each.
 Change first_change(const LogFit& fit);
 
-/// A change of any form: the log is explained up to a moment, and what follows is a torque of the usual size
-/// that every row has of its own, on the joints that need one.
+/// Free form of a fault: healthy robot and day explain the log up to a moment; after it, each row has a
+/// torque of its own, of usual size, on the joints that need one.
 struct FreeForm {
   double onset_s = 0.0;
-  double end_s = kNeverEnds;   ///< from which the healthy robot explains the rows again
-  Eigen::VectorXd row_cost{};  ///< nats of each row: what it is off by, or what a torque of its own costs
-  Eigen::VectorXd day{};       ///< effects, as the rows before the onset show them
-  Stacked left{};  ///< whitened rows left over, with the effects that the rows before the onset show
+  double end_s = kNeverEnds;   ///< time from which the healthy robot explains the rows again
+  Eigen::VectorXd row_cost{};  ///< nats of each row: of its residual, or of a torque of its own
+  Eigen::VectorXd day{};       ///< effects, estimated from the rows before the onset
+  Stacked left{};              ///< whitened residuals with these effects of the day
 };
 
-/// The moment up to which rows are explained, and from when on they are again, where each row of every joint
-/// in between costs a few nats. It is later than first_change() where one joint alone changes a little: a
-/// fault of no kind needs more evidence than rows that are not counted as the noise of the log. The effects
-/// of the day are those of the rows before.
+/// Estimates up to which moment the healthy robot explains the rows, and from when on again, if each row of
+/// every joint in between costs a few nats. The onset is later than first_change() if a single joint changes
+/// slightly: a fault of no known kind needs more evidence than the exclusion of rows from the noise of the
+/// log. The effects of the day are those of the rows before.
 FreeForm free_form(const LogFit& fit);
 
-/// How what the rows before a change cannot explain grows from it on.
+/// Returns the evidence of a free form from its onset on: excess of the squared residuals over noise.
 EvidenceCourse evidence_course(const LogFit& fit, const FreeForm& change);
 
 }  // namespace faultline

@@ -11,13 +11,13 @@ namespace faultline {
 
 /// A fault that may explain a log, judged exactly (equation (6) of docs/how-it-works.md).
 struct FaultHypothesis : FaultClaim {
-  double gain = 0.0;  ///< nats by which it explains the log better than what is known of it without
-  /// Part of `gain` that the readings at the onset give beside the rows of the torque balance.
+  double gain = 0.0;  ///< nats by which it explains the log better than the known faults alone
+  /// Part of `gain` that comes from the measurements at the onset, not from the torque-balance rows.
   double at_onset = 0.0;
   Explanation fit{};
 };
 
-/// The hypothesis of a claim as an explanation gives it; it costs `price` nats beside what it leaves.
+/// Returns the hypothesis of a claim with its explanation; `price`: nats that it costs beside its residuals.
 inline FaultHypothesis hypothesis(const LogFit& fit, const FaultClaim& claim, Explanation explanation,
                                   double price) {
   FaultHypothesis out{claim};

@@ -17,21 +17,21 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a blow's length
-constexpr int kReadingRounds = 3;      // of the size of a false reading
+constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a collision's length
+constexpr int kReadingRounds = 3;      // rounds that estimate the size of a false reading
 constexpr double kSettled = 0.05;      // share of the size: a round that changes less is the last
-constexpr double kHopeless = -5.0;     // nats: below, a false reading without a known size is given up
-constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld; nats: it is rare
-constexpr double kLeastClip = 0.04;  // of the greatest torque: a joint that gets less swings freely
-constexpr double kSurely = 4.0;      // standard deviations within which friction left may be negative
+constexpr double kHopeless = -5.0;     // nats below which a false reading without a known size is dropped
+constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld (std); nats: rare
+constexpr double kLeastClip = 0.04;  // share of the greatest torque: a joint that gets less swings freely
+constexpr double kSurely = 4.0;      // standard deviations within which remaining friction may be negative
 
-constexpr int kSamplesBefore = 20;    // before an onset, that show whether the joint comes to rest
-constexpr double kComesToRest = 0.3;  // share of them that repeat a code where the joint comes to rest
-constexpr double kJolt = 3.0;         // of the joint's usual torque: that of a halt
-constexpr double kRests = 0.02;  // of the joint's greatest healthy speed (rms): a joint that stands is slower
-constexpr double kSettles_s = 0.02;  // s behind the onset, until a locked joint stands
-constexpr double kShakes = 0.05;     // share of its evidence that the shaking of a halt explains at most
-constexpr double kCoupled = 0.1;     // of a joint's usual torque: what another joint's motion gives
+constexpr int kSamplesBefore = 20;    // samples before an onset that show whether the joint comes to rest
+constexpr double kComesToRest = 0.3;  // share of them that repeat a code if the joint comes to rest
+constexpr double kJolt = 3.0;         // times the joint's usual torque: that of a halt
+constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a joint at rest is slower (rms)
+constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
+constexpr double kShakes = 0.05;     // share of the evidence of a lock that its shaking adds, at most
+constexpr double kCoupled = 0.1;     // share of a joint's usual torque that the motion of another joint gives
 double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   const BalanceModel& m = fit.model();
   const double compliance = m.compliance(j);
@@ -49,10 +49,10 @@ double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   return 0.5 * (off / std).array().square().operator-(1.0).max(0.0).sum();
 }
 
-/// What the samples from onset to end say by repeating the position before them.
+/// Repeated positions in the samples from onset to end.
 struct Repeats {
   int samples = 0;
-  double share = 0.0;         ///< that repeat the position before
+  double share = 0.0;         ///< share that repeats the position before
   double share_before = 1.0;  ///< the same before the onset: a joint that comes to rest repeats, too
 };
 
@@ -69,7 +69,7 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
           first > from ? static_cast<double>(before) / (first - from) : 1.0};
 }
 
-/// Whether the velocity of a joint reads anew from onset to end while the joint stands: a frozen encoder
+/// Returns whether the measured velocity of a joint changes from onset to end and shows rest: a stuck encoder
 /// would repeat its velocity, too.
 bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
@@ -87,9 +87,9 @@ bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
          square < Eigen::numext::abs2(kRests * fit.model().top_speed[j]) * samples;
 }
 
-/// Nats by which the rows of the other joints are explained better with noise as large as they are while a
-/// joint is locked: its halt shakes an arm on soft springs, which the model does not follow. At most a share
-/// of the evidence of the lock itself: what another fault leaves is no shaking.
+/// Returns the nats by which noise as large as their residuals explains the rows of the other joints better
+/// while a joint is locked: its halt shakes an arm on soft springs, which the model does not describe. At
+/// most a share of the evidence of the lock: residuals of another fault are no shaking.
 double slack_of_halt(const LogFit& fit, const FaultClaim& claim, const Explanation& e, double gain) {
   const LeftWithin left = left_within(fit, claim, e);
   double slack = 0.0;
@@ -102,8 +102,8 @@ double slack_of_halt(const LogFit& fit, const FaultClaim& claim, const Explanati
   return std::min(slack, std::max(0.0, kShakes * gain));
 }
 
-/// Nats of the rows of other joints that a joint moves whose encoder is stuck: its unknown motion makes their
-/// torque as uncertain as a share of their usual one, not as their noise.
+/// Returns the nats of the rows of other joints that a joint with a stuck encoder moves: its unknown motion
+/// makes their torque as uncertain as a share of their usual one, not as their noise.
 double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropped) {
   double out = 0.0;
   for (int i = 0; i < fit.joints(); ++i) {
@@ -116,7 +116,7 @@ double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropp
   return out;
 }
 
-/// Rows at which the joint must stand still: those that lie within onset and end.
+/// Returns the rows within onset and end, at which the joint must stand still.
 std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
   std::vector<int> out;
@@ -125,7 +125,7 @@ std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   return out;
 }
 
-/// An impulse on each other joint when a joint halts.
+/// Returns the columns of an impulse on each other joint when a joint halts.
 FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
   const int rows = fit.count(), n = fit.joints();
   FaultColumns out{StackedColumns::Zero(rows * n, n - 1), VectorXd(n - 1)};
@@ -141,8 +141,8 @@ FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
   return out;
 }
 
-/// A hypothesis by which rows of a joint say nothing while it lasts: a lock, a stuck encoder, an unknown
-/// force. Empty where too few rows are left to say that a joint stands or that its encoder sticks.
+/// Judges a hypothesis with silent rows: a lock, a stuck encoder, an unknown force. Empty if too little data
+/// shows that the joint stands still or that its encoder is stuck.
 std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim& claim) {
   const BalanceModel& m = fit.model();
   const int j = claim.joint - 1;
@@ -170,7 +170,7 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   return out;
 }
 
-/// Nats that a size costs that this kind does not have.
+/// Returns the nats of a size that the kind does not have.
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
   const VectorXd& size = e.size;
   const FaultKind kind = claim.kind;
@@ -184,8 +184,7 @@ double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanati
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
   const VectorXd surely =
-      (size +
-       kSurely * e.size_covariance.diagonal().cwiseSqrt()) *  // friction that is left is none that drives
+      (size + kSurely * e.size_covariance.diagonal().cwiseSqrt()) *  // remaining friction must not drive
       seconds(std::min(claim.end_s, fit.time_s()[fit.count() - 1]));
   if (surely[0] < -theta[layout.viscous(j)] || surely[1] < -theta[layout.coulomb(j)]) return kNoSuchSize;
   double power = 0.0;  // that the friction takes
@@ -210,7 +209,8 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   return hypothesis(fit, claim, std::move(e), price);
 }
 
-/// A force on all joints from onset to end; it belongs to the joint whose force is greatest by its torque.
+/// Judges a force on all joints from onset to end. It is reported at the joint with the greatest force for
+/// its torque.
 FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   const FaultColumns columns = force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
   std::vector<VectorXd> starts;
@@ -237,10 +237,10 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
-/// Sizes of a false reading, rad or m, of a drift in each second.
+/// Sizes of a false reading, rad or m; of a drift in each second.
 struct ReadingSize {
   double usual = 0.0;  ///< prior standard deviation
-  double step = 0.0;   ///< of its derivative
+  double step = 0.0;   ///< of its numeric derivative
 };
 
 ReadingSize reading_size(const LogFit& fit, const FaultClaim& claim) {
@@ -249,17 +249,17 @@ ReadingSize reading_size(const LogFit& fit, const FaultClaim& claim) {
   return slide ? ReadingSize{0.03, 4e-4} : ReadingSize{0.1, 2e-3};
 }
 
-/// A reading that is off: the trajectory is corrected and the residual computed anew, linear in the size
-/// between the last two sizes (the secant method), until the size is settled. A claim of no size starts from
-/// none.
+/// Judges a false reading: corrects the trajectory and computes the residual anew, linear in the size between
+/// the last two sizes (the secant method), until the size is settled. A claim without a size starts from
+/// zero.
 FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   const bool bias = claim.kind == FaultKind::sensor_bias;
   const auto [usual, step] = reading_size(fit, claim);
   FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
-  // Without a size a drift changes nothing; a jump still says that the velocity is computed from the
-  // position.
+  // A drift of size zero changes nothing; a jump of size zero still replaces velocities that are computed
+  // from the position.
   Stacked at = size == 0.0 && !bias ? fit.residual() : residual_without(fit, claim, size),
           slope = (at - residual_without(fit, claim, size + step)) / step;
   for (int round = 0; round < kReadingRounds; ++round) {
@@ -268,7 +268,7 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
     std::vector<VectorXd> starts;
     if (fit.has_piece()) starts.push_back(VectorXd::Zero(1));
     Explanation e = fit.explain_with_piece(at, columns, starts, claim.onset_s);
-    // The size's own prior in place of the one about the size before.
+    // Replaces the prior about the size before by that of the size.
     const double price = 0.5 * size * size / (usual * usual) + elementary::log(usual / doubt);
     const double change = e.size[0];
     FaultHypothesis h = hypothesis(fit, claim, std::move(e), price);
@@ -289,7 +289,7 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
-/// A false position that the velocity shows, too, or does not where it is measured apart.
+/// Judges a false position that the velocity shows, too, or does not if it is measured independently.
 FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
   const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
   FaultHypothesis best = judge_reading(fit, claim);

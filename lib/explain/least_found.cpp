@@ -18,15 +18,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kOfTen = 1.2816;  // 90 % quantile of a standard normal variable: found nine times of ten
-constexpr double kNoInformation = 1e-9;  // share of the prior's precision: rows that tell less say nothing
+constexpr double kNoInformation = 1e-9;  // share of the prior's precision: less is no information
 
-/// What the rows of a log say of the sizes of a hypothesis; empty where they cannot show it.
+/// Posterior and prior of the sizes of a hypothesis, given the rows of a log; empty if they cannot show it.
 struct SizeKnowledge {
   MatrixXd covariance;
   VectorXd variance;  ///< prior
 };
 
-/// Where the size that reports name stands among those of a hypothesis, and how much of each it takes.
+/// Returns the direction of the size that reports name among the sizes of a hypothesis.
 VectorXd named_size(const FaultLabel& label, Eigen::Index sizes) {
   VectorXd out = VectorXd::Zero(sizes);
   switch (label.kind) {

@@ -16,18 +16,18 @@ struct LeastFound {
   double size = 0.0;  ///< share, rad, m, N m, N, kg and so on, of a collision its impulse; infinite for none
 };
 
-/// What a healthy log would show of each label whose kind has a size: the smallest fault that nine of ten
-/// times gives more evidence than its limit, when it begins in the middle of the log and lasts to its end (a
+/// Returns, for each label whose kind has a size, the smallest fault of a healthy log that gives more
+/// evidence than its limit nine of ten times, if it begins in the middle of the log and lasts to its end (a
 /// collision for kUsualPush_s). In closed form, from the columns of the fault (equation (13) of
-/// docs/how-it-works.md). Empty where the log cannot be explained.
+/// docs/how-it-works.md). Empty if the log cannot be explained.
 std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
                                     const std::vector<FaultLabel>& labels);
 
 inline constexpr double kUsualPush_s = 0.1;  ///< length of the collision whose smallest size is given
 
-/// Size along `direction` from which on evidence passes `limit` (nats) nine of ten times, when the sizes of a
-/// hypothesis have a prior `variance` and, by the rows of a log, the posterior `covariance`. Infinite where
-/// the rows say nothing of that direction.
+/// Returns the size along `direction` from which on the evidence exceeds `limit` (nats) nine of ten times, if
+/// the sizes of a hypothesis have a prior `variance` and, given the rows of a log, the posterior
+/// `covariance`. Infinite if the rows hold no information on that direction.
 double least_size_found(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& variance,
                         const Eigen::VectorXd& direction, double limit);
 

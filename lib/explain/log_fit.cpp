@@ -18,23 +18,24 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kForgotten = 1e-9;    // share of a change of a velocity: rows with less count as unchanged
-constexpr double kSilent = 1e6;        // times the standard deviation: a row that says nothing
-constexpr double kReadingDoubt = 0.1;  // of a false reading's size: error left once it is mended (std)
+constexpr double kSilent = 1e6;        // times the standard deviation: a silent row
+constexpr double kReadingDoubt = 0.1;  // share of a false reading's size: its error once corrected (std)
 constexpr double kSizeDoubt = 0.05;    // the same of a fault that began before the log
-constexpr int kNoiseRounds = 3;        // of the log's own noise, at most
+constexpr int kNoiseRounds = 3;        // rounds that estimate the log's own noise, at most
 
-constexpr double kModelShare = 0.004;                // of each model term: what a model of a machine lacks
+constexpr double kModelShare = 0.004;                // share of each model term: error of the model
 constexpr double kLeastLoud = 0.3, kMostLoud = 4.0;  // bounds of the noise, times that of the healthy logs
 
-/// From the first motion of the log on, unless it changes before: rows that count in any case. A log at rest
-/// says nothing of its noise.
+/// Rows that count for the noise in any case: s, and share of the log, from its first motion on, or from its
+/// start if it changes before. A log at rest does not show its noise.
 constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
 constexpr double kJustBefore_s = 0.2;  // s before the first motion: the kernels reach less far
-constexpr double kMoves = 0.05;        // of a joint's greatest healthy speed
-constexpr double kLost = 1e3;          // times the least standard deviation: a row that does not count
+constexpr double kMoves = 0.05;        // share of a joint's greatest healthy speed, from which it moves
+constexpr double kLost = 1e3;          // times the least standard deviation: a row without weight
 constexpr double kMostRows = 0.8, kFarLouder = 3.0;  // quantile, and times it: a larger row is no noise
 
-/// Squares of the terms of the model, each a column times its parameter, inertia, gravity and friction.
+/// Returns the sum of squares of the terms of the model, each a column times its parameter: inertia, gravity
+/// and friction.
 MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, const VectorXd& theta) {
   MatrixXd out(rows.rows(), rows.joints());
   const int rigid = layout.rigid();
@@ -43,7 +44,7 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
   return out;
 }
 
-/// Sums of products of rows that lie 0, 1, .. `order` apart.
+/// Returns the sums of products of rows that lie 0, 1, .. `order` apart.
 VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
   VectorXd out = VectorXd::Zero(order + 1);
   for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
@@ -51,15 +52,15 @@ VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
   return out;
 }
 
-/// Size beyond which a row behind a change is part of a fault and no noise: far above most rows of the log's
-/// motion.
+/// Returns the size beyond which a row after a change belongs to a fault and is no noise: far above most rows
+/// of the log's motion.
 double loudest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
   const VectorXd size = rows.cwiseAbs();
   const double most = upper_quantile({size.begin(), size.end()}, kMostRows);
   return kFarLouder * std::max(usual, std::isnan(most) ? 0.0 : most);
 }
 
-/// When any joint first moves; the first row where none does.
+/// Returns when any joint first moves; the time of the first row if none does.
 double first_motion_s(const LogFit& fit) {
   const VectorXd& top = fit.model().top_speed;
   for (int k = 0; k < fit.count(); ++k)
@@ -68,7 +69,7 @@ double first_motion_s(const LogFit& fit) {
   return fit.time_s()[0];
 }
 
-/// White noise of a log over that of the healthy logs, by joint.
+/// Returns the white noise of a log over that of the healthy logs, by joint.
 VectorXd row_loudness(const UniformLog& log, const BalanceModel& model) {
   const bool by_position = model.setting.velocity_is_difference || log.dq.rows() == 0;
   const VectorXd& now = by_position ? log.q_noise : log.dq_noise;
@@ -79,18 +80,17 @@ VectorXd row_loudness(const UniformLog& log, const BalanceModel& model) {
   return out;
 }
 
-/// Standard deviation of each row (rows x joints, N m or N): its noise, what a model of a machine lacks of
-/// each of its terms, and the unknown force of an end stop.
+/// Returns the standard deviation of each row (rows x joints, N m or N): its noise, the error of each model
+/// term, and the unknown force of an end stop.
 MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const VectorXd& loudness) {
   const MatrixXd noise = row_std(rows, model.setting, model.noise, loudness), stop = stop_std(rows, model),
                  terms = squared_terms(rows, model.layout(), model.theta);
   return (noise.array().square() + stop.array().square() + kModelShare * kModelShare * terms.array()).sqrt();
 }
 
-/// The noise of a log as its rows before any change show it (first_change()), joint by joint where it is
-/// louder than that of the healthy logs: a robot may have what no healthy log had, such as ripple or friction
-/// that depends on load, and what it leaves from the first row on is no evidence for a fault that begins
-/// later.
+/// Estimates the noise of a log from its rows before any change (first_change()), for each joint for which it
+/// exceeds that of the healthy logs: a robot may have what no healthy log had, such as ripple or friction
+/// that depends on load, and residuals from the first row on are no evidence for a fault that begins later.
 RowNoise own_noise(const LogFit& fit) {
   const Change change = first_change(fit);
   const Stacked torque = torque_without_piece(fit) - fit.day_torque(change.day);
@@ -122,7 +122,7 @@ RowNoise own_noise(const LogFit& fit) {
   return out;
 }
 
-/// What the size of a false reading that is mended still changes.
+/// Returns the column of the remaining error of a false reading that was corrected.
 FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
   const double doubt = kReadingDoubt * std::abs(claim.size[0]);
   return {StackedColumns((fit.residual() - residual_without(fit, claim, doubt)) / doubt),
@@ -211,7 +211,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   whiten_effects();
   settle_healthy();
   loosen_halts();
-  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // a louder log dates its change later
+  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // with louder noise the change comes later
     RowNoise own = own_noise(*this);
     if (own == noise_) break;
     noise_ = std::move(own);
@@ -220,7 +220,8 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   }
 }
 
-/// While a joint is known to be locked the rows of the others are as loud as they are: its halt shakes them.
+/// While a joint is known to be locked, raises the noise of all rows to their residuals: its halt shakes
+/// them.
 void LogFit::loosen_halts() {
   MatrixXd louder = MatrixXd::Ones(count(), joints());
   for (const FaultClaim& claim : known_) {
@@ -244,7 +245,7 @@ void LogFit::whiten_effects() {
   before_.clear();
 }
 
-/// A known fault is an effect whose size is estimated, and what its columns lack of its true form is noise.
+/// Adds a known fault as an effect whose size is estimated; the form error of its columns is noise.
 void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   const Stacked torque = columns.column * claim.size;
   if (!reads_wrong(claim.kind)) {
@@ -266,7 +267,7 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   }
 }
 
-/// The log explained without a further fault; a work piece's path and the effects are estimated in turn.
+/// Explains the log without a further fault; path of a work piece and effects are estimated in turn.
 void LogFit::settle_healthy() {
   if (!has_piece()) {
     healthy_ = explain(residual_, {}, {});

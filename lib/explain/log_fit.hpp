@@ -14,46 +14,46 @@
 
 namespace faultline {
 
-/// How well a log is explained by the robot, the day's effects and the columns of a hypothesis.
+/// Explanation of a log by the robot, the effects of the day and the columns of a hypothesis.
 struct Explanation {
   double log_likelihood = 0.0;      ///< marginal: effects, sizes and changes of the work piece integrated out
   Eigen::VectorXd day;              ///< effects: those of the day, then sizes of known faults
   Eigen::VectorXd day_std;          ///< standard deviation of each; only without a hypothesis
   Eigen::VectorXd size;             ///< of the hypothesis' columns
-  Eigen::MatrixXd size_covariance;  ///< of the sizes, by rows and prior
-  Stacked left;                     ///< whitened rows left over; NaN where rows do not count
+  Eigen::MatrixXd size_covariance;  ///< of the sizes, given rows and prior
+  Stacked left;                     ///< whitened residuals; NaN for rows without weight
   PiecePath path;                   ///< of the work piece; empty without one
   Eigen::VectorXd piece_level;      ///< the path, smoothed
-  Eigen::VectorXd later_s;          ///< by change of the path: than the middle between its two rows
-  Eigen::VectorXd row_gain;         ///< by sample, at coarse rates: nats by which it beats the healthy robot
-  double mean_square() const;       ///< of what is left: 1 where it is noise
+  Eigen::VectorXd later_s;          ///< by change of the path: delay after the middle of its two rows
+  Eigen::VectorXd row_gain;         ///< by sample, at coarse rates: nats over the healthy robot
+  double mean_square() const;       ///< of the residuals: 1 if they are noise
 };
 
-/// A white column that is 0 but for a few rows: what the time of a change of the work piece is off by.
+/// A whitened column that is 0 except in a few rows: the effect of a change of the work piece that comes at
+/// another time than its path has it.
 struct WhitePulse {
-  int begin = 0;           ///< row
+  int begin = 0;           ///< first row
   Eigen::MatrixXd torque;  ///< rows from there on x joints
   double variance = 1.0;   ///< of its size
 };
 
-inline constexpr int kPathRounds = 4;  ///< of the work piece's path and the effects in turn
+inline constexpr int kPathRounds = 4;  ///< rounds that estimate path of the work piece and effects in turn
 
-/// One log against one model: what all hypotheses share.
+/// One log and one model: the common part of all hypotheses.
 class LogFit {
  public:
-  /// `known` are faults that the log is known to hold: their sizes are estimated beside the effects of the
-  /// day (near the size of the claim where the fault began before the log: without healthy rows to compare
-  /// with, a lost torque and the gain of the day look alike), false readings are mended, rows that say
-  /// nothing do not count. `noise`: that of the rows where it is known; else that of the model, or the log's
-  /// own where it is louder (own_noise()). Throws Error(input) when the log is shorter than the kernels. The
-  /// model must outlive it.
+  /// `known` are faults that the log is known to contain: their sizes are estimated beside the effects of the
+  /// day (near the size of the claim if the fault began before the log, since a lost torque and the gain of
+  /// the day cannot be distinguished without healthy rows), false readings are corrected, silent rows have no
+  /// weight. `noise`: that of the rows; without it, that of the model, or that of the log if it is louder
+  /// (own_noise()). Throws Error(input) when the log is shorter than the kernels. The model must outlive it.
   LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {},
          const std::optional<RowNoise>& noise = std::nullopt);
 
-  /// Without the false readings that are known.
+  /// Log without the known false readings.
   const UniformLog& log() const { return log_; }
   const std::vector<FaultClaim>& known() const { return known_; }
-  /// Whether a known fault leaves nothing to be said of joint `joint` (from 1) at a time.
+  /// Returns whether the rows of joint `joint` (from 1) are silent at a time because of a known fault.
   bool is_silent(int joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
   const RowNoise& noise() const { return noise_; }
@@ -61,60 +61,60 @@ class LogFit {
   int count() const { return rows_.rows(); }
   int joints() const { return model_.joints(); }
   const Eigen::VectorXd& time_s() const { return rows_.time_s; }
-  /// First row at or behind a time; count() where there is none.
+  /// Returns the first row at or after a time; count() if there is none.
   int first_row(double time_s) const;
   const Eigen::VectorXd& loudness() const { return loudness_; }
   /// Standard deviation of each row, rows x joints.
   const Eigen::MatrixXd& std() const { return std_; }
-  /// Torque that robot and known faults leave unexplained, without effects.
+  /// Residual torque of robot and known faults, before the effects.
   const Stacked& residual() const { return residual_; }
-  /// The same of a log that has other readings of joint `joint` (from 0) from `from_s` on.
+  /// Returns the residual of a log with other measurements of joint `joint` (from 0) from `from_s` on.
   Stacked residual_of(const JointReading& moved, int joint, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
-  /// Effects that every hypothesis has: those of the day (DayLayout), then the sizes of the known faults. By
-  /// joint: rows x effects.
+  /// Columns of the effects of every hypothesis: those of the day (DayLayout), then the sizes of the known
+  /// faults. By joint: rows x effects.
   const std::vector<Eigen::MatrixXd>& effect_columns() const { return effect_column_; }
   /// The same, whitened and stacked.
   const StackedColumns& white_effects() const { return effect_white_; }
   const Eigen::VectorXd& effect_variance() const { return effect_variance_; }
   const Explanation& healthy() const { return healthy_; }
-  /// Path of the work piece before anything was known of the day.
+  /// Path of the work piece before effects of the day were estimated.
   const PiecePath& first_path() const { return first_path_; }
   bool has_piece() const { return model_.piece_kg > 0.0; }
 
   Stacked whitened(const Stacked& torque) const;
   StackedColumns whitened(const StackedColumns& columns) const;
 
-  /// The log explained with these columns; `path` holds where a work piece is known to come and go.
+  /// Explains the log with these columns and the path of the work piece `path` (empty without one).
   Explanation explain(const Stacked& residual, const FaultColumns& columns, const PiecePath& path,
                       const StackedMask& dropped = {}) const {
     return explain(prepared(residual, columns, dropped), path);
   }
-  /// The same with the path of the work piece that fits the hypothesis best, from several starts: `starts`
-  /// are sizes to begin with, empty for the path of the healthy log. `onset_s` is that of the hypothesis:
-  /// effects of the day are first taken from the rows before it.
+  /// Explains the log likewise with the best path of the work piece for the hypothesis, searched from that of
+  /// the healthy log and from one for each of the sizes `starts`. `onset_s` is that of the hypothesis: the
+  /// paths for `starts` take the effects of the day from the rows before it.
   Explanation explain_with_piece(const Stacked& residual, const FaultColumns& columns,
                                  const std::vector<Eigen::VectorXd>& starts, double onset_s,
                                  const StackedMask& dropped = {}) const;
-  /// Torque of the effects.
+  /// Returns the torque of the effects.
   Stacked day_torque(const Eigen::VectorXd& day) const;
   Stacked piece_torque(const Eigen::VectorXd& level) const;
-  /// Whitened rows that remain when the fault of an explanation is taken away and its effects of the day and
-  /// its work piece stay.
+  /// Returns the whitened residuals of an explanation without its fault, but with its effects of the day and
+  /// its work piece.
   Stacked left_without_fault(const Explanation& explanation) const;
-  /// Effects of the day as the rows before `time_s` show them.
+  /// Returns the effects of the day, estimated from the rows before `time_s`.
   Eigen::VectorXd day_before(double time_s) const;
-  /// Columns of a fault while it lasts.
+  /// Returns the columns of a fault while it lasts.
   FaultColumns between(const FaultColumns& columns, double onset_s, double end_s) const;
 
  private:
-  /// What all paths of the work piece share.
+  /// Common part of all paths of the work piece.
   struct Prepared {
-    Stacked white;             ///< the residual's rows; 0 where they are dropped
-    StackedColumns column;     ///< of the hypothesis, white
+    Stacked white;             ///< whitened residual; 0 for dropped rows
+    StackedColumns column;     ///< of the hypothesis, whitened
     Eigen::VectorXd variance;  ///< of their sizes
-    StackedMask dropped;       ///< empty where no row is
-    int lost = 0;              ///< rows that are dropped
+    StackedMask dropped;       ///< empty if no row is
+    int lost = 0;              ///< number of dropped rows
     Eigen::MatrixXd square;    ///< X' X of the effects, then of the columns
   };
 
@@ -125,9 +125,10 @@ class LogFit {
   void settle_healthy();
   void whiten_effects();
   Explanation regressed(const Prepared& hypothesis, const PieceRamps& ramps) const;
-  /// What changes of a path between and beside the rows would add.
+  /// Returns the whitened columns of the changes of a path, and of changes before the first and after the
+  /// last row.
   std::vector<WhitePulse> white_pulses(const PieceRamps& ramps, const StackedMask& dropped) const;
-  /// When the changes of a path come, as far as the healthy explanation has the same ones.
+  /// Returns the times of the changes of a path as the healthy explanation has them; 0 for those it lacks.
   Eigen::VectorXd known_times_of(const PiecePath& path) const;
   PiecePath path_of(const Stacked& left, const StackedMask& dropped, bool wide) const;
 
@@ -140,9 +141,9 @@ class LogFit {
   RowNoise noise_;
   Eigen::MatrixXd std_, tip_;
   Stacked residual_, spring_;
-  Stacked known_torque_;  ///< of the faults that are known, as large as their claims say
+  Stacked known_torque_;  ///< of the known faults, with the sizes of their claims
   std::vector<LinearFault> linear_;
-  StackedMask silent_;  ///< empty where no row is
+  StackedMask silent_;  ///< empty if no row is
   std::vector<Eigen::MatrixXd> effect_column_;
   StackedColumns effect_white_;
   std::vector<Eigen::VectorXd> end_levels_;  ///< of a work piece that changes beside the first or last row
@@ -153,16 +154,16 @@ class LogFit {
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;
 };
 
-/// By joint: rows of an explanation that count from onset to end of a claim, and the mean of the squares of
-/// what it leaves of them, whitened; 1 where no row counts.
+/// For each joint: the number of rows between onset and end of a claim that have weight in an explanation,
+/// and the mean square of their whitened residuals; 1 without such rows.
 struct LeftWithin {
   Eigen::VectorXd rows, square;
 };
 LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
 
-/// Residual of the log without a false reading of that size.
+/// Returns the residual of the log after the correction of a false reading of that size.
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size);
-/// Columns of a linear fault or of a push while it lasts.
+/// Returns the columns of a linear fault or of a collision while it lasts.
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim);
 
 }  // namespace faultline

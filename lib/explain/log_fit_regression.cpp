@@ -12,14 +12,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e9;  // N m or N: standard deviation of a row that does not count
+constexpr double kSaysNothing = 1e9;  // N m or N: standard deviation of a row without weight
 constexpr double kGravity = 9.81;     // m/s^2: only for the scale of a work piece's weight
 constexpr int kBeforeRows = 5;        // rows of onsets that share one estimate of the effects before them
 constexpr int kTimeRounds = 4;        // Newton rounds for the times of the changes, at most
 constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
 constexpr double kFarthest_rows = 1.5;     // rows from the middle between the two rows of a change, at most
 
-/// X' X without some rows of X.
+/// Returns X' X without some rows of X.
 MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const StackedMask& dropped) {
   std::vector<int> rows;
   for (std::size_t i = 0; i < dropped.size(); ++i)
@@ -29,7 +29,7 @@ MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const Stac
   return square;
 }
 
-/// X' p of stacked columns X and a pulse p.
+/// Returns X' p of stacked columns X and a pulse p.
 VectorXd along(const WhitePulse& pulse, const Eigen::Ref<const MatrixXd>& columns) {
   VectorXd out = VectorXd::Zero(columns.cols());
   const Eigen::Index rows = columns.rows() / pulse.torque.cols();

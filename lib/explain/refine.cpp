@@ -16,13 +16,13 @@ using Eigen::VectorXd;
 
 constexpr double kSameFault_s = 0.3;    // s between two onsets of one kind and joint that are one fault
 constexpr double kLeastGain = 0.1;      // nats by which a move explains more
-constexpr double kLongestBlow_s = 1.2;  // of a collision: what presses for longer is another fault
-constexpr int kMostRefineMoves = 40;    // of an onset or an end: a size that grows could go on for ever
+constexpr double kLongestBlow_s = 1.2;  // of a collision: a longer force is another fault
+constexpr int kMostRefineMoves = 40;    // of an onset or an end: a size that grows could move it for ever
 constexpr double kFirstMove_s = 1.28;   // of an onset or an end; halved each time that nothing is gained
-constexpr double kStillEnough = 0.5;    // of the evidence without an end that the one with it must have
+constexpr double kStillEnough = 0.5;    // share of the evidence without an end that is kept with it, at least
 
-/// Whether the same fault is known from about this moment on, or a drift that goes on: it does not begin
-/// twice.
+/// Returns whether the same fault is known from about this moment on, or as a drift that lasts: it does not
+/// begin twice.
 bool is_known(const LogFit& fit, const FaultClaim& claim) {
   return std::any_of(fit.known().begin(), fit.known().end(), [&](const FaultClaim& known) {
     return column_kind(known.kind) == column_kind(claim.kind) && known.joint == claim.joint &&
@@ -32,7 +32,7 @@ bool is_known(const LogFit& fit, const FaultClaim& claim) {
   });
 }
 
-/// Whether onset and end may be moved: those of a stuck or jumped encoder begin with a sample.
+/// Returns whether onset and end may be moved; those of a stuck or jumped encoder lie at samples.
 bool can_move(FaultKind kind) { return kind != FaultKind::stuck_encoder && kind != FaultKind::sensor_bias; }
 
 /// Moves onset or end (a member of the claim) while that explains more: a few steps, then halved ones.
@@ -62,15 +62,15 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   return best;
 }
 
-/// Rows with the fault and without it, by effects of the day as the rows before its onset show them: where a
-/// fault ends and the hypothesis does not, the effects that it estimates are bent.
+/// Returns residuals with the fault and without it, with the effects of the day estimated from the rows
+/// before its onset: if a fault ends and the hypothesis does not, its own effects are biased.
 WithAndWithout by_earlier_effects(const LogFit& fit, const FaultHypothesis& h) {
   const Stacked shift = fit.white_effects() * (h.fit.day - fit.day_before(h.onset_s));
   return {h.fit.left + shift, fit.left_without_fault(h.fit) + shift};
 }
 
-/// The hypothesis with an end, where the log shows that the fault is gone; it takes the place of the one
-/// without.
+/// Adds the hypothesis with an end, if the log shows that the fault is gone; it replaces those that last
+/// longer.
 void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   if (silences(h.kind) || h.end_s < kNeverEnds) return;
   const std::optional<double> end_s =

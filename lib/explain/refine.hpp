@@ -15,16 +15,16 @@ struct JudgedHypotheses {
   const LogFit& fit;
   std::vector<FaultHypothesis> judged;
 
-  /// Judges a claim. Null where it cannot be judged, or says nothing beside what is known.
+  /// Judges a claim. Null if it cannot be judged, or if a known fault silences its joint or is the same.
   const FaultHypothesis* go(const FaultClaim& claim);
   const FaultHypothesis* go_from(const Candidate& candidate);
 };
 
-/// The best of each kind and joint, best first.
+/// Returns the best of each kind and joint, best first.
 std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all);
 
-/// Adds the hypothesis with onset and end at their best; where the log shows that the fault is gone, the one
-/// that ends takes the place of the one that does not.
+/// Adds the hypothesis with the best onset and end. If the log shows that the fault is gone, the hypothesis
+/// with an end replaces those that last longer.
 void refine(const FaultHypothesis& hypothesis, JudgedHypotheses& bench);
 
 }  // namespace faultline

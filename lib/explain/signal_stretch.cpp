@@ -10,10 +10,10 @@
 namespace faultline {
 namespace {
 
-constexpr double kAnyForm = 0.5;        // of what only a difference of any form explains: its price
-constexpr double kSensorStays_s = 1.0;  // for which a sensor that is off stays so at least
-constexpr double kSensorForm = 0.7;     // of a difference, that an offset explains where a sensor may be off
-constexpr double kLongAnswer_s = 1.0;   // a law that is left for longer after a fault is an answer to it
+constexpr double kAnyForm = 0.5;        // price of any form, as a share of what it alone explains
+constexpr double kSensorStays_s = 1.0;  // shortest duration of the offset of a sensor
+constexpr double kSensorForm = 0.7;     // share of a difference that an offset of a sensor explains, at least
+constexpr double kLongAnswer_s = 1.0;   // a longer stretch of a law after a fault is a response to it
 constexpr double kAtOnce_s = 0.1;       // between two onsets, or an end and an onset, that may be one
 
 /// A hypothesis of a stretch.
@@ -29,14 +29,15 @@ FaultClaim claim_of(const SignalStretch& stretch, FaultKind kind) {
   return {kind, stretch.joint, stretch.onset_s, stretch.end_s};
 }
 
-/// Nats that a hypothesis gives in the torque balance.
+/// Returns the nats of a hypothesis by the torque balance; 0 without `fit`.
 double gain_in_balance(const LogFit* fit, const FaultClaim& claim) {
   if (fit == nullptr) return 0.0;
   const std::optional<FaultHypothesis> judged = judge(*fit, claim);
   return judged ? judged->gain : 0.0;
 }
 
-/// A torque of any form: it explains an offset, as that of a drive, and has a price for all other forms.
+/// Scores a torque of any form: it explains an offset, such as that of a drive, and has a price for all other
+/// forms.
 StretchScore of_no_kind(const SignalStretch& s, const LogFit* fit) {
   StretchScore out{claim_of(s, FaultKind::unknown)};
   const double moved = std::max(0.0, gain_in_balance(fit, out.claim));
@@ -51,8 +52,8 @@ bool may_be_loss(const SignalStretch& s) {
   return s.pair == SignalPair::drive && s.loss > kLeastLoss && s.loss < kMostLoss;
 }
 
-/// The torque balance of what was asked for estimates size and end, too: where too little is asked for, or
-/// more than was learned, the signals say nothing of the end.
+/// Scores a loss. The torque balance of the command estimates size and end, too: if the command is too small,
+/// or larger than those learned, the signals do not show the end.
 StretchScore of_loss(const SignalStretch& s, const LogFit* fit) {
   StretchScore out{claim_of(s, FaultKind::torque_loss)};
   if (s.loss > kFreeShare) out.claim.kind = FaultKind::free_swinging;
@@ -77,7 +78,8 @@ bool may_be_sensor(const SignalStretch& s) {
          s.end_s - s.onset_s >= kSensorStays_s;
 }
 
-/// A torque sensor that is off shows in a torque balance of what it measures; empty where it does not.
+/// Scores an offset of the torque sensor, which a torque balance of its measurements shows; empty if it does
+/// not.
 std::optional<StretchScore> of_sensor(const SignalStretch& s, const LogFit* fit) {
   if (fit == nullptr || s.balance_is_of_command) return std::nullopt;
   const std::optional<FaultHypothesis> judged = judge(*fit, claim_of(s, FaultKind::torque_sensor_error));
@@ -85,8 +87,8 @@ std::optional<StretchScore> of_sensor(const SignalStretch& s, const LogFit* fit)
   return StretchScore{*judged, s.offset_explains * s.nats + judged->gain};
 }
 
-/// Whether a stretch is how the controller answers to a fault: a control law that is left after its onset,
-/// while the fault lasts, or for long.
+/// Returns whether a stretch is the response of the controller to a fault: a control law that fails after the
+/// onset, while the fault lasts, or for long.
 bool answers(const SignalStretch& stretch, const FaultClaim& fault) {
   if (stretch.pair != SignalPair::control_law || fault.onset_s >= stretch.onset_s + kAtOnce_s) return false;
   return answers_earlier_fault(stretch) || fault.end_s >= stretch.onset_s - kAtOnce_s;

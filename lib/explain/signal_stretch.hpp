@@ -9,8 +9,8 @@ namespace faultline {
 
 /// Two signals of a log that contradict each other.
 enum class SignalPair {
-  drive,        ///< the torque that the drive gave, and the torque that it was asked for
-  control_law,  ///< the torque that was asked for, and what the controller makes of reference and motion
+  drive,        ///< torque of the drive, and its command
+  control_law,  ///< commanded torque, and what the controller computes from reference and motion
 };
 
 /// A stretch of a log in which two signals of a joint contradict each other. Their difference is a row of its
@@ -19,27 +19,27 @@ enum class SignalPair {
 struct SignalStretch {
   SignalPair pair = SignalPair::drive;
   int joint = 0;         ///< from 1
-  std::size_t id = 0;    ///< of whoever asks
-  double onset_s = 0.0;  ///< first sample that differs
+  std::size_t id = 0;    ///< chosen by the caller
+  double onset_s = 0.0;  ///< first sample at which they differ
   double alarm_s = 0.0;  ///< earliest sample at which the difference passes its limit
   double end_s = kNeverEnds;
   double nats = 0.0;   ///< by which a difference of any form explains the signals better than none
-  double limit = 0.0;  ///< nats that it had to pass
-  double loss = 0.0;   ///< share of the asked torque that is missing, by least squares
-  double loss_explains = 0.0, offset_explains = 0.0;  ///< of `nats`, what that loss or an offset explains
-  /// The torque balance is written with the torque that was asked for; else with the one that the drive gave.
+  double limit = 0.0;  ///< nats that they had to exceed
+  double loss = 0.0;   ///< share of the commanded torque that is missing, by least squares
+  double loss_explains = 0.0, offset_explains = 0.0;  ///< shares of `nats` that they explain
+  /// The torque balance uses the commanded torque; else the torque of the drive.
   bool balance_is_of_command = true;
 };
 
 /// The stretches that concern a part of a log.
 struct SignalStretches {
-  std::vector<FaultClaim> known{};     ///< that an earlier part has judged
-  std::vector<SignalStretch> begin{};  ///< that begin in this part, by onset
+  std::vector<FaultClaim> known{};     ///< faults of stretches that an earlier part has judged
+  std::vector<SignalStretch> begin{};  ///< those that begin in this part, by onset
 };
 
-/// The fault that explains a stretch, by one score of the difference and the torque balance: a drive that
-/// gives a share of its torque, a torque sensor that is off, or a fault of no kind. Without `fit` the torque
-/// balance says nothing.
+/// Returns the fault that explains a stretch, by one score of the difference and the torque balance: a drive
+/// that gives a share of its torque, a torque sensor with an offset, or a fault of no known kind. Without
+/// `fit` the torque balance gives no evidence.
 ExplainedFault judge_stretch(const SignalStretch& stretch, const LogFit* fit);
 
 /// A stretch and the fault that explains it.
@@ -48,24 +48,24 @@ struct JudgedStretch {
   ExplainedFault fault;
 };
 
-/// The faults of the torque balance beside which a further fault is to be judged: none for a loss that the
-/// torque balance does not show.
+/// Returns the faults of stretches that are known to the torque balance when a further fault is judged: all
+/// except losses that it does not show.
 std::vector<FaultClaim> balance_claims(const std::vector<JudgedStretch>& stretches);
 
-/// The faults of all drives.
+/// Judges the stretches of all drives.
 std::vector<JudgedStretch> judged_drives(const std::vector<SignalStretch>& stretches, const LogFit* fit);
 
-/// The same with those of control laws, but for laws that are left because the controller answers to a fault
-/// among `others` or these.
+/// Adds the stretches of control laws, except those in which the controller responds to a fault among
+/// `others` or to one that is judged before. Sorted by onset.
 std::vector<JudgedStretch> with_laws(std::vector<JudgedStretch> drives,
                                      const std::vector<SignalStretch>& stretches,
                                      const std::vector<FaultClaim>& others, const LogFit* fit);
 
-/// Whether a fault begins while a control law is left.
+/// Returns whether a fault begins in a stretch of a control law.
 bool begins_within_law(const std::vector<JudgedStretch>& stretches, const FaultClaim& fault);
 
-/// Whether a stretch is how the controller answers to any fault that an earlier part of the log held: a
-/// control law that is left for long.
+/// Returns whether a stretch is the response of the controller to some fault of an earlier part of the log: a
+/// long stretch of a control law.
 bool answers_earlier_fault(const SignalStretch& stretch);
 
 }  // namespace faultline

@@ -20,7 +20,7 @@ constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
 constexpr double kNearSize = 0.2;          // relative difference of sizes that can share their steps
 constexpr double kLeastDuration_s = 1e-3;  // shortest duration of a fault
-// Longest Newton step of an onset: share of a long sample; s where samples are short.
+// Longest Newton step of an onset: share of a long sample; s for short samples.
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
 
 /// Returns whether steps about one size can replace those about another one.
