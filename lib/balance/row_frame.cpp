@@ -56,7 +56,7 @@ CoarseGrid coarse_grid(int samples, const RowSetting& setting, const VectorXd& k
   CoarseGrid grid;
   grid.first = reach_samples(setting, kernel);
   grid.step = setting.decimation;
-  const int last = samples - 1 - grid.first;  // exclusive
+  const int last = samples - 1 - grid.first;  // one beyond the last middle
   grid.count = last > grid.first ? (last - grid.first + grid.step - 1) / grid.step : 0;
   return grid;
 }

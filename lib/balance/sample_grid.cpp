@@ -94,7 +94,7 @@ std::vector<Ending> next_endings(const std::vector<Ending>& endings, int row, do
   return out;
 }
 
-/// The sequences of points that end at each row, for one period.
+/// Sequences of points that end at each row, for one period.
 struct Sequences {
   double period_s = 0.0;
   std::vector<std::vector<Ending>> ending;  ///< by row

@@ -49,7 +49,7 @@ UniformLog rows_from(const UniformLog& log, int first);
 UniformLog first_rows(UniformLog log, int rows);
 
 /// Reads each whole log, from its start, onto grids of one period: the median of the periods of the logs.
-/// Throws Error(input) when a log has fewer than two rows with all values.
+/// Throws Error(input) when there is no log, or one with fewer than two rows that have all values.
 std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs);
 
 /// Returns the median over the logs of a value of each joint, such as its noise; `by_log` is not empty.
