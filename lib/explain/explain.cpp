@@ -167,8 +167,8 @@ struct NoiseBeside {
 };
 
 /// Returns the noise of the log as if one of its best explanations were known to be true: the first one that
-/// lowers the noise, since the fault that makes the log loud need not have the most evidence at first. An
-/// explanation that excludes rows lowers the noise in any case and counts only if it is the best.
+/// lowers the noise, since the fault that raises it need not have the most evidence at first. An explanation
+/// that excludes rows lowers the noise in any case and counts only if it is the best.
 std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& log,
                                          const std::vector<FaultHypothesis>& best) {
   if (!is_quieter(fit.model().noise, fit.noise())) return std::nullopt;

@@ -69,7 +69,7 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
 
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
-  // The halt of a known lock makes the other joints' rows loud, and the search less exact.
+  // The halt of a known lock raises the noise of the other joints and makes the search less exact.
   const bool is_exact =
       std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
   const double least = is_exact ? least_limit(limits) : 0.0;

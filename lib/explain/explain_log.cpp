@@ -43,7 +43,7 @@ bool runs_away(const CoarseLog& log, const LogExplanation& e) {
 }
 
 /// Explains a log by one fault at most. An unknown fault that begins with the log is not reported: the model
-/// may not fit the log from its first row on, which the loudness of the log shows.
+/// may not fit the log from its first row on, which the noise level of the log shows.
 ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits) {
   const LogExplanation e = explain_coarse(log);
   if (runs_away(log, e))

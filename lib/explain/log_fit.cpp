@@ -211,7 +211,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   whiten_effects();
   settle_healthy();
   loosen_halts();
-  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // with louder noise the change comes later
+  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // with more noise the change comes later
     RowNoise own = own_noise(*this);
     if (own == noise_) break;
     noise_ = std::move(own);

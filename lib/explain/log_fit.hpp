@@ -45,7 +45,7 @@ class LogFit {
   /// `known` are faults that the log is known to contain: their sizes are estimated beside the effects of the
   /// day (near the size of the claim if the fault began before the log, since a lost torque and the gain of
   /// the day cannot be distinguished without healthy rows), false readings are corrected, silent rows have no
-  /// weight. `noise`: that of the rows; without it, that of the model, or that of the log if it is louder
+  /// weight. `noise`: that of the rows; without it, that of the model, or that of the log if it is larger
   /// (own_noise()). Throws Error(input) when the log is shorter than the kernels. The model must outlive it.
   LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known = {},
          const std::optional<RowNoise>& noise = std::nullopt);

@@ -87,8 +87,8 @@ std::optional<StretchScore> of_sensor(const SignalStretch& s, const LogFit* fit)
   return StretchScore{*judged, s.offset_explains * s.nats + judged->gain};
 }
 
-/// Returns whether a stretch is the response of the controller to a fault: a control law that fails after the
-/// onset, while the fault lasts, or for long.
+/// Returns whether a stretch is the response of the controller to a fault: one of a control law that begins
+/// after the onset, while the fault lasts, or that is long.
 bool answers(const SignalStretch& stretch, const FaultClaim& fault) {
   if (stretch.pair != SignalPair::control_law || fault.onset_s >= stretch.onset_s + kAtOnce_s) return false;
   return answers_earlier_fault(stretch) || fault.end_s >= stretch.onset_s - kAtOnce_s;

@@ -5,7 +5,7 @@
 
 namespace faultline {
 
-/// Nats that a guess costs which cannot be integrated.
+/// Price in nats of a guess that cannot be integrated.
 inline constexpr double kImpossibleAtCoarse = 1e14;
 
 /// Returns the price of a guess in nats beside its residuals: for sizes that its kind does not have, for
