@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kMostFaults = 12;   // faults of one log, at most
 constexpr std::size_t kMostTogether = 3;  // faults that are tried together if one alone does not suffice
 constexpr std::size_t kFirsts = 3;        // named faults, at most, beside which further ones are searched
+constexpr int kStretchRounds = 2;         // in which the stretches of other signals are judged
 constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint that count as one
 constexpr double kFirstShare = 0.3;       // share of the best evidence that each of these has, at least
 constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
@@ -76,8 +77,10 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   const auto [fit, e] = explain_with_own_noise(
       log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogEvidence evidence = log_evidence(fit, e);
-  // Residuals of known faults are larger than the noise by which evidence is computed.
-  const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, e.healthy_square));
+  // The residual of known faults is larger than the noise that evidence is counted by, unless the further
+  // fault explains it.
+  const double left = e.best.empty() ? e.healthy_square : e.best.front().fit.mean_square();
+  const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, left));
   std::vector<ExplainedFault> named = named_faults(e, own, evidence, kFirsts);
   std::erase_if(named, [&](const ExplainedFault& fault) {
     return std::any_of(known.begin(), known.end(),
@@ -251,26 +254,45 @@ std::vector<FaultClaim> joined(std::vector<FaultClaim> claims, const std::vector
   return claims;
 }
 
+/// Returns the claims of faults that no stretch of a drive may have caused: those of other joints, and those
+/// that begin beside all stretches.
+std::vector<FaultClaim> apart_from(const std::vector<SignalStretch>& stretches,
+                                   const std::vector<ExplainedFault>& faults) {
+  std::vector<FaultClaim> out;
+  for (const ExplainedFault& fault : faults)
+    if (std::none_of(stretches.begin(), stretches.end(), [&](const SignalStretch& stretch) {
+          return stretch.pair == SignalPair::drive && stretch.joint == fault.claim.joint &&
+                 fault.claim.onset_s > stretch.onset_s - kAsOne_s &&
+                 fault.claim.onset_s < stretch.end_s + kAsOne_s;
+        }))
+      out.push_back(fault.claim);
+  return out;
+}
+
+/// Explains a log with stretches of other signals. `alone` is what the torque balance shows without them. The
+/// stretches are judged twice: beside the faults of `alone`, then beside those that are found beside them.
+ExplainedLog explained_with_signals(const UniformLog& log, const BalanceModel& model,
+                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+                                    const SignalStretches& signals, const ExplainedLog& alone) {
+  ExplainedLog out = alone;
+  for (int round = 0; round < kStretchRounds; ++round) {
+    const LogFit fit(log, model, joined(known, apart_from(signals.begin, out.faults)));
+    std::vector<JudgedStretch> stretches = judged_stretches(signals.begin, alone.faults, known, &fit);
+    const std::vector<FaultClaim> shown = balance_claims(stretches);
+    out = shown.empty() ? alone : explained_beside(log, model, limits, joined(known, shown));
+    out.stretches = std::move(stretches);
+    if (shown.empty() || out.faults.empty()) return out;
+  }
+  return out;
+}
+
 }  // namespace
 
 ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                             const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
   const std::vector<FaultClaim> before = followed(log, model, lasting), known = joined(before, signals.known);
-  if (signals.begin.empty()) {
-    ExplainedLog out = explained_beside(log, model, limits, known);
-    out.followed = before;
-    return out;
-  }
-  const LogFit fit(log, model, known);
-  const std::vector<JudgedStretch> drives = judged_drives(signals.begin, &fit);
-  ExplainedLog out = explained_beside(log, model, limits, joined(known, balance_claims(drives)));
-  const std::vector<JudgedStretch> all =
-      with_laws(drives, signals.begin, claims_but(out.faults, out.faults.size(), known), &fit);
-  // What the torque balance shows in a stretch of a control law has the same cause.
-  if (std::any_of(out.faults.begin(), out.faults.end(),
-                  [&](const ExplainedFault& fault) { return begins_within_law(all, fault.claim); }))
-    out = explained_beside(log, model, limits, joined(known, balance_claims(all)));
-  out.stretches = all;
+  ExplainedLog out = explained_beside(log, model, limits, known);
+  if (!signals.begin.empty()) out = explained_with_signals(log, model, limits, known, signals, out);
   out.followed = before;
   return out;
 }

@@ -97,8 +97,7 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
     if (claim.end_s >= kNeverEnds)
       if (const std::optional<CoarseLog> followed = followed_log(log, model))
         claim = followed_coarse(*followed, std::move(claim), limits.of(claim.kind));
-  const std::vector<JudgedStretch> drives = judged_drives(signals.begin, nullptr),
-                                   stretches = with_laws(drives, signals.begin, {}, nullptr);
+  const std::vector<JudgedStretch> stretches = judged_stretches(signals.begin, {}, signals.known, nullptr);
   std::vector<FaultClaim> known = signals.known;
   for (const FaultClaim& claim : lasting)
     known.push_back({claim.kind, claim.joint, log.start_s, claim.end_s});
@@ -114,9 +113,7 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
     out.loudness = std::move(explained.loudness);
     out.judged_s += explained.judged_s;
   }
-  std::vector<FaultClaim> found;
-  for (const ExplainedFault& fault : out.faults) found.push_back(fault.claim);
-  out.stretches = with_laws(drives, signals.begin, found, nullptr);
+  out.stretches = judged_stretches(signals.begin, out.faults, signals.known, nullptr);
   out.followed = std::move(lasting);
   return out;
 }

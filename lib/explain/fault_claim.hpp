@@ -26,6 +26,8 @@ struct FaultClaim {
   /// For a false position: the velocity is measured independently and is true. A velocity that is computed
   /// from the position drifts with it, and is wrong for a moment when it jumps.
   bool velocity_is_true = false;
+  /// For an unknown fault: another torque of this joint's drive, so that the rows of the other joints hold.
+  bool is_of_drive = false;
 
   FaultLabel label() const { return {kind, joint}; }
 };
@@ -38,6 +40,11 @@ inline bool reads_wrong(FaultKind kind) {
 /// Returns whether the rows of the joint are silent while the fault lasts.
 inline bool silences(FaultKind kind) {
   return kind == FaultKind::locked || kind == FaultKind::stuck_encoder || kind == FaultKind::unknown;
+}
+
+/// Returns whether the torque balance of every joint is silent while the fault lasts.
+inline bool silences_all(const FaultClaim& claim) {
+  return claim.kind == FaultKind::unknown && !claim.is_of_drive;
 }
 
 /// Returns the kind whose columns describe a kind: a free joint loses its whole torque.

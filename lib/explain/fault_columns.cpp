@@ -167,7 +167,7 @@ StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const Fa
   StackedMask out(static_cast<std::size_t>(rows.rows() * rows.joints()), false);
   for (int i = 0; i < rows.joints(); ++i) {
     const bool coupled = claim.kind == FaultKind::stuck_encoder && is_revolute(j) && is_revolute(i);
-    if (i != j && !coupled && claim.kind != FaultKind::unknown) continue;
+    if (i != j && !coupled && !silences_all(claim)) continue;
     for (int k = 0; k < rows.rows(); ++k)
       out[i * rows.rows() + k] =
           rows.time_s[k] > claim.onset_s - reach && rows.time_s[k] < claim.end_s + reach;

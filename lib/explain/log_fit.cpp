@@ -291,8 +291,8 @@ int LogFit::first_row(double at_s) const {
 
 bool LogFit::is_silent(int joint, double time_s) const {
   return std::any_of(known_.begin(), known_.end(), [&](const FaultClaim& claim) {
-    return silences(claim.kind) && (claim.joint == joint || claim.kind == FaultKind::unknown) &&
-           time_s >= claim.onset_s && time_s < claim.end_s;
+    return silences(claim.kind) && (claim.joint == joint || silences_all(claim)) && time_s >= claim.onset_s &&
+           time_s < claim.end_s;
   });
 }
 

@@ -37,35 +37,30 @@ struct SignalStretches {
   std::vector<SignalStretch> begin{};  ///< those that begin in this part, by onset
 };
 
-/// Returns the fault that explains a stretch, by one score of the difference and the torque balance: a drive
-/// that gives a share of its torque, a torque sensor with an offset, or a fault of no known kind. Without
-/// `fit` the torque balance gives no evidence.
-ExplainedFault judge_stretch(const SignalStretch& stretch, const LogFit* fit);
-
 /// A stretch and the fault that explains it.
 struct JudgedStretch {
   SignalStretch stretch;
   ExplainedFault fault;
+  double in_balance = 0.0;  ///< part of its evidence by the torque balance; 0 if that shows nothing of it
 };
 
-/// Returns the faults of stretches that are known to the torque balance when a further fault is judged: all
-/// except losses that it does not show.
+/// Finds the fault that explains a stretch, by one score of the difference and the torque balance: a drive
+/// that gives a share of its torque, a torque sensor with an offset, or a fault of no kind. Without `fit` the
+/// torque balance is not considered.
+JudgedStretch judge_stretch(const SignalStretch& stretch, const LogFit* fit);
+
+/// Returns the faults of stretches that the torque balance shows: further faults are judged beside them.
 std::vector<FaultClaim> balance_claims(const std::vector<JudgedStretch>& stretches);
 
-/// Judges the stretches of all drives.
-std::vector<JudgedStretch> judged_drives(const std::vector<SignalStretch>& stretches, const LogFit* fit);
+/// Judges stretches. `others` are the faults that the torque balance shows without them, `known` those of
+/// earlier parts of the log. Leaves out the stretches that such a fault explains: those of control laws that
+/// are the response to a fault, and those of drives that begin with a fault which explains more.
+std::vector<JudgedStretch> judged_stretches(const std::vector<SignalStretch>& stretches,
+                                            const std::vector<ExplainedFault>& others,
+                                            std::vector<FaultClaim> known, const LogFit* fit);
 
-/// Adds the stretches of control laws, except those in which the controller responds to a fault among
-/// `others` or to one that is judged before. Sorted by onset.
-std::vector<JudgedStretch> with_laws(std::vector<JudgedStretch> drives,
-                                     const std::vector<SignalStretch>& stretches,
-                                     const std::vector<FaultClaim>& others, const LogFit* fit);
-
-/// Returns whether a fault begins in a stretch of a control law.
-bool begins_within_law(const std::vector<JudgedStretch>& stretches, const FaultClaim& fault);
-
-/// Returns whether a stretch is the response of the controller to some fault of an earlier part of the log: a
-/// long stretch of a control law.
+/// Returns whether a stretch is the response of the controller to any fault of an earlier part of the log: a
+/// control law that does not hold for long.
 bool answers_earlier_fault(const SignalStretch& stretch);
 
 }  // namespace faultline

@@ -36,67 +36,91 @@ SignalStretch law(double onset_s, double end_s) {
   return out;
 }
 
-TEST(SignalStretch, AShareThatIsMissingIsALossWhereAnOffsetExplainsLess) {
+FaultLabel label_of(const SignalStretch& stretch, const LogFit* fit = nullptr) {
+  return judge_stretch(stretch, fit).fault.label();
+}
+
+TEST(SignalStretch, AShareThatIsMissingIsALossIfAnOffsetExplainsLess) {
   SignalStretch lost = drive(3.0, kNeverEnds);
   lost.loss = 0.4;
   lost.loss_explains = 0.9;
   lost.offset_explains = 0.5;
-  EXPECT_EQ(judge_stretch(lost, nullptr).label(), (FaultLabel{FaultKind::torque_loss, 1}));
-  EXPECT_EQ(judge_stretch(lost, nullptr).claim.size[0], 0.4);
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(judge_stretch(lost, nullptr).fault.claim.size[0], 0.4);
   lost.offset_explains = 0.85;
-  EXPECT_EQ(judge_stretch(lost, nullptr).label(), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::unknown, 1}));
   lost.loss = 0.95;
   lost.offset_explains = 0.0;
-  EXPECT_EQ(judge_stretch(lost, nullptr).label(), (FaultLabel{FaultKind::free_swinging, 1}));
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::free_swinging, 1}));
 }
 
 TEST(SignalStretch, TheTorqueBalanceAddsItsEvidenceForALoss) {
   SignalStretch lost = drive(4.0, kNeverEnds);
   lost.loss = 0.3;
   lost.loss_explains = 0.45;
-  const LogFit loses = fit_of(with_loss(healthy(41), 1, 0.3, 4.0)), is_healthy = fit_of(healthy(41));
-  const ExplainedFault both = judge_stretch(lost, &loses), alone = judge_stretch(lost, &is_healthy);
-  EXPECT_EQ(both.label(), (FaultLabel{FaultKind::torque_loss, 1}));
-  EXPECT_GT(both.evidence, 0.45 * lost.nats + 100.0);
-  EXPECT_EQ(alone.label(), (FaultLabel{FaultKind::unknown, 1}));
-  EXPECT_EQ(alone.evidence, lost.nats) << "the torque balance shows nothing";
+  const LogFit loses = fit_of(with_loss(healthy(41), 1, 0.3, 4.0));
+  const JudgedStretch both = judge_stretch(lost, &loses);
+  EXPECT_EQ(both.fault.label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_GT(both.in_balance, 100.0);
+  EXPECT_NEAR(both.fault.evidence, 0.45 * lost.nats + both.in_balance, 1e-6);
+  EXPECT_NEAR(both.fault.claim.size[0], 0.3, 0.03);
 }
 
-TEST(SignalStretch, ALossLastsWhereTheTorqueBalanceShowsItAfterTheSignalsEnd) {
-  SignalStretch lost = drive(4.0, 5.0);
+TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsNoneOfTheDrive) {
+  SignalStretch lost = drive(4.0, kNeverEnds);
+  lost.loss = 0.3;
+  lost.loss_explains = 0.95;
+  const LogFit is_healthy = fit_of(healthy(41));
+  const ExplainedFault of_sensor = judge_stretch(lost, &is_healthy).fault;
+  EXPECT_EQ(of_sensor.label(), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(of_sensor.could_also_be, std::vector{kSensor1});
+  EXPECT_EQ(of_sensor.evidence, lost.nats) << "the torque balance shows nothing";
+}
+
+TEST(SignalStretch, TimesOfALossAreThoseThatTheTorqueBalanceExplainsBest) {
+  SignalStretch lost = drive(4.08, 5.2);
   lost.loss = 0.3;
   lost.loss_explains = 0.9;
-  const LogFit lasts = fit_of(with_loss(healthy(46), 1, 0.3, 4.0)),
-               ends = fit_of(with_loss(healthy(46), 1, 0.3, 4.0, 5.0));
-  EXPECT_EQ(judge_stretch(lost, &lasts).claim.end_s, kNeverEnds);
-  EXPECT_EQ(judge_stretch(lost, &ends).claim.end_s, 5.0);
-  EXPECT_NEAR(judge_stretch(lost, &ends).claim.size[0], 0.3, 0.05);
+  const LogFit ends = fit_of(with_loss(healthy(46), 1, 0.3, 4.0, 5.0));
+  const FaultClaim claim = judge_stretch(lost, &ends).fault.claim;
+  EXPECT_NEAR(claim.onset_s, 4.0, 0.03);
+  EXPECT_NEAR(claim.end_s, 5.0, 0.03);
+  EXPECT_NEAR(claim.size[0], 0.3, 0.05);
 }
 
-TEST(SignalStretch, ASensorThatIsOffShowsInTheBalanceOfWhatItMeasures) {
+TEST(SignalStretch, ASensorWithAnOffsetShowsInTheBalanceOfItsMeasurements) {
   SignalStretch off = drive(4.0, kNeverEnds);
   off.offset_explains = 0.95;
   off.balance_is_of_command = false;
   const LogFit shows =
                    fit_of(changed(healthy(42), 4.0, kNeverEnds, [](Log&l, int k) { l.tau[0][k] += 6.0; })),
                is_healthy = fit_of(healthy(42));
-  EXPECT_EQ(judge_stretch(off, &shows).label(), kSensor1);
-  const ExplainedFault of_drive = judge_stretch(off, &is_healthy);
+  EXPECT_EQ(label_of(off, &shows), kSensor1);
+  const ExplainedFault of_drive = judge_stretch(off, &is_healthy).fault;
   EXPECT_EQ(of_drive.label(), (FaultLabel{FaultKind::unknown, 1}));
   EXPECT_EQ(of_drive.could_also_be, std::vector{kSensor1});
   off.end_s = 4.2;
-  EXPECT_TRUE(judge_stretch(off, &is_healthy).could_also_be.empty()) << "a sensor that is off stays so";
+  EXPECT_TRUE(judge_stretch(off, &is_healthy).fault.could_also_be.empty()) << "an offset of a sensor lasts";
 }
 
-TEST(SignalStretch, ALawThatIsLeftForLongAfterAFaultIsTheControllersAnswer) {
-  const FaultClaim ended{FaultKind::locked, 1, 2.0, 3.0}, lasts{FaultKind::locked, 1, 2.0};
-  const auto left = [](const SignalStretch& stretch, const FaultClaim& fault) {
-    return with_laws({}, {stretch}, {fault}, nullptr).size();
+TEST(SignalStretch, ALawThatDoesNotHoldForLongAfterAFaultIsTheControllersResponse) {
+  const auto reported = [](const SignalStretch& stretch, const FaultClaim& fault) {
+    return judged_stretches({stretch}, {}, {fault}, nullptr).size();
   };
-  EXPECT_EQ(left(law(4.0, 9.0), ended), 0u);
-  EXPECT_EQ(left(law(4.0, 4.5), lasts), 0u);
-  EXPECT_EQ(left(law(4.0, 4.5), ended), 1u) << "short, and behind the end of the fault";
-  EXPECT_EQ(left(law(1.0, 9.0), lasts), 1u) << "the law was left first";
+  const FaultClaim ended{FaultKind::locked, 1, 2.0, 3.0}, lasts{FaultKind::locked, 1, 2.0};
+  EXPECT_EQ(reported(law(4.0, 9.0), ended), 0u);
+  EXPECT_EQ(reported(law(4.0, 4.5), lasts), 0u);
+  EXPECT_EQ(reported(law(4.0, 4.5), ended), 1u) << "short, and behind the end of the fault";
+  EXPECT_EQ(reported(law(1.0, 9.0), lasts), 1u) << "the law changed first";
+}
+
+TEST(SignalStretch, ADriveThatLagsBehindAJumpOfAMeasurementHasNoFault) {
+  ExplainedFault jump;
+  jump.claim = {FaultKind::sensor_bias, 1, 4.0};
+  jump.evidence = 5000.0;
+  EXPECT_TRUE(judged_stretches({drive(4.0, 4.1, 42.0)}, {jump}, {}, nullptr).empty());
+  EXPECT_EQ(judged_stretches({drive(4.0, 4.1, 9000.0)}, {jump}, {}, nullptr).size(), 1u);
+  EXPECT_EQ(judged_stretches({drive(6.0, 6.1, 42.0)}, {jump}, {}, nullptr).size(), 1u);
 }
 
 /// Joint 1 is pushed by a torque that nobody asked for, from 4 to 4.3 s.
@@ -104,42 +128,67 @@ Log pushed(std::uint64_t seed) {
   return changed(healthy(seed), 4.0, 4.3, [](Log& l, int k) { l.tau[0][k] -= 8.0; });
 }
 
-TEST(SignalStretch, WhatTheTorqueBalanceShowsOfADriveIsNoSecondFault) {
-  const UniformLog log = on_grid(pushed(43));
-  ASSERT_FALSE(explain_faults(log, scara_model(), evidence_limits({})).faults.empty());
-  const ExplainedLog out =
-      explain_faults(log, scara_model(), evidence_limits({}), {}, {.begin = {drive(4.0, 4.3)}});
+ExplainedLog explained(Log log, std::vector<SignalStretch> begin) {
+  return explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({}), {},
+                        {.begin = std::move(begin)});
+}
+
+TEST(SignalStretch, ATorqueOfADriveThatTheBalanceShowsIsNoSecondFault) {
+  ASSERT_FALSE(explained(pushed(43), {}).faults.empty());
+  const ExplainedLog out = explained(pushed(43), {drive(4.0, 4.3)});
   EXPECT_TRUE(out.faults.empty());
   ASSERT_EQ(out.stretches.size(), 1u);
   EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 1}));
-  EXPECT_GT(out.stretches[0].fault.evidence, 1000.0 + 50.0) << "both rows speak for it";
+  EXPECT_GT(out.stretches[0].in_balance, 50.0) << "both rows show it";
 }
 
-TEST(SignalStretch, AFurtherFaultIsFoundBesideADrive) {
-  Log log = changed(pushed(44), 6.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
-  const ExplainedLog out = explain_faults(on_grid(std::move(log)), scara_model(), evidence_limits({}), {},
-                                          {.begin = {drive(4.0, 4.3)}});
-  ASSERT_EQ(out.faults.size(), 1u);
-  EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::sensor_bias, 2}));
-  EXPECT_NEAR(out.faults[0].claim.onset_s, 6.0, 0.02);
+TEST(SignalStretch, AFurtherFaultIsFoundBesideADriveThatLasts) {
+  for (const double end_s : {4.3, kNeverEnds}) {
+    Log log = changed(healthy(44), 4.0, end_s, [](Log& l, int k) { l.tau[0][k] -= 8.0; });
+    log = changed(std::move(log), 6.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
+    const ExplainedLog out = explained(std::move(log), {drive(4.0, end_s)});
+    ASSERT_EQ(out.stretches.size(), 1u);
+    ASSERT_EQ(out.faults.size(), 1u);
+    EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+    EXPECT_NEAR(out.faults[0].claim.onset_s, 6.0, 0.02);
+  }
 }
 
-TEST(SignalStretch, WhatTheTorqueBalanceShowsWhileALawIsLeftHasTheSameCause) {
-  const ExplainedLog out = explain_faults(on_grid(pushed(45)), scara_model(), evidence_limits({}), {},
-                                          {.begin = {law(3.8, 4.35)}});
-  EXPECT_TRUE(out.faults.empty());
+TEST(SignalStretch, AFaultIsFoundWhileAControlLawDoesNotHold) {
+  const ExplainedLog out = explained(with_loss(healthy(45), 1, 0.4, 5.0), {law(3.0, kNeverEnds)});
   ASSERT_EQ(out.stretches.size(), 1u);
   EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 2}));
+  ASSERT_EQ(out.faults.size(), 1u);
+  EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
 }
 
-TEST(SignalStretch, ALossThatTheDriveMeasuredIsNotInTheBalanceOfWhatItMeasured) {
-  SignalStretch lost = drive(3.0, kNeverEnds);
-  lost.loss = 0.4;
-  lost.loss_explains = 0.9;
-  const auto claims = [&] { return balance_claims({{lost, judge_stretch(lost, nullptr)}}).size(); };
-  EXPECT_EQ(claims(), 1u);
+/// A stretch in which a drive loses 30 %.
+SignalStretch loss(double onset_s, double end_s) {
+  SignalStretch out = drive(onset_s, end_s);
+  out.loss = 0.3;
+  out.loss_explains = 0.9;
+  return out;
+}
+
+TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOne) {
+  const LogFit lasts = fit_of(with_loss(healthy(47), 1, 0.3, 3.0)),
+               twice = fit_of(with_loss(with_loss(healthy(47), 1, 0.3, 3.0, 4.0), 1, 0.3, 6.0));
+  const auto one = judged_stretches({loss(3.0, 4.0), loss(6.0, kNeverEnds)}, {}, {}, &lasts);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].fault.claim.end_s, kNeverEnds);
+  EXPECT_EQ(judged_stretches({loss(3.0, 4.0), loss(6.0, kNeverEnds)}, {}, {}, &twice).size(), 2u);
+  EXPECT_EQ(judged_stretches({loss(3.0, 4.0), loss(4.5, 5.0)}, {}, {}, nullptr).size(), 1u);
+  EXPECT_EQ(judged_stretches({loss(3.0, 4.0), loss(6.0, 7.0)}, {}, {}, nullptr).size(), 2u)
+      << "without a torque balance a second without a difference parts two faults";
+}
+
+TEST(SignalStretch, OnlyFaultsThatTheTorqueBalanceShowsAreInIt) {
+  SignalStretch lost = loss(3.0, kNeverEnds);
+  const LogFit loses = fit_of(with_loss(healthy(48), 1, 0.3, 3.0));
+  EXPECT_EQ(balance_claims({judge_stretch(lost, &loses)}).size(), 1u);
   lost.balance_is_of_command = false;
-  EXPECT_EQ(claims(), 0u);
+  const LogFit is_healthy = fit_of(healthy(48));
+  EXPECT_TRUE(balance_claims({judge_stretch(lost, &is_healthy)}).empty());
 }
 
 }  // namespace

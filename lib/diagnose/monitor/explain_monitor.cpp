@@ -67,11 +67,6 @@ int complete_rows(const Log& log) {
   return out;
 }
 
-/// Whether the fault of a stretch outlasts it, so that the torque balance alone determines its end.
-bool outlasts_signals(const JudgedStretch& judged) {
-  return judged.fault.claim.end_s >= kNeverEnds && judged.stretch.end_s < kNeverEnds;
-}
-
 }  // namespace
 
 void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
@@ -143,8 +138,6 @@ ExplainedLog ExplainMonitor::explained_window() const {
   std::vector<FaultClaim> lasting;
   for (const Lasting& l : lasting_)
     if (l.is_handed_on()) lasting.push_back(l.claim);
-  for (const JudgedStretch& judged : stretches_)
-    if (outlasts_signals(judged)) lasting.push_back(judged.fault.claim);
   const SignalStretches signals = signals_of_window();
   if (complete_rows(window_) >= kFewestRows) {
     MemorySource source(window_);
@@ -153,7 +146,7 @@ ExplainedLog ExplainMonitor::explained_window() const {
       return explain_whole_log(log, model_.explain, lasting, signals);
   }
   ExplainedLog out;
-  out.stretches = with_laws(judged_drives(signals.begin, nullptr), signals.begin, {}, nullptr);
+  out.stretches = judged_stretches(signals.begin, {}, signals.known, nullptr);
   out.followed = std::move(lasting);
   return out;
 }
@@ -164,7 +157,7 @@ SignalStretches ExplainMonitor::signals_of_window() const {
   const bool is_after_fault = !episodes_.empty() || !stretches_.empty();
   std::vector<JudgedStretch> reach_in;
   for (const JudgedStretch& judged : stretches_)
-    if (judged.fault.claim.end_s >= start_s && !outlasts_signals(judged)) reach_in.push_back(judged);
+    if (judged.stretch.end_s >= start_s) reach_in.push_back(judged);
   SignalStretches out{balance_claims(reach_in)};
   for (const SignalStretch& stretch : unjudged_)
     if (stretch.onset_s <= end_s && !(is_after_fault && answers_earlier_fault(stretch)))
@@ -191,8 +184,6 @@ std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<Fa
     lasting.claim = followed[k++];
     episodes_[lasting.episode].end_s = std::min(lasting.claim.end_s, window_.time.back());
   }
-  for (JudgedStretch& judged : stretches_)
-    if (outlasts_signals(judged)) judged.fault.claim = followed[k++];
   return unfollowed;
 }
 

@@ -113,8 +113,8 @@ FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fa
   FaultFinding finding;
   finding.label = fault.label();
   if (loses_torque(fault.claim.kind)) finding.extent = extent_of_torque_loss(fault.claim.size[0], model);
-  finding.onset_s = episode.onset_s;
-  finding.alarm_s = fault.alarm_s;
+  finding.onset_s = fault.claim.onset_s;
+  finding.alarm_s = std::max(fault.alarm_s, fault.claim.onset_s);
   finding.end_s = std::min(fault.claim.end_s, log_end_s);
   finding.confidence = confidence_of(episode);
   finding.decided_by = episode.kind == RelationKind::actuator ? DecidedBy::actuator : DecidedBy::control_law;

@@ -145,20 +145,6 @@ TEST(ExplainMonitor, ALawThatIsLeftForLongIsTheAnswerToAFaultOfAnEarlierWindow) 
   EXPECT_EQ(monitored(m, long_log(40, 150.0), 4096, {left}).stretches().size(), 1u);
 }
 
-TEST(ExplainMonitor, ALossThatOutlastsItsSignalsEndsWhereTheTorqueBalanceSaysSo) {
-  Log log = long_log(36, 190.0);
-  lose_torque(log, 20.0, 151.0);
-  SignalStretch lost = stretch(SignalPair::drive, 20.0, 22.0);
-  lost.joint = 2;
-  lost.loss = 0.3;
-  lost.loss_explains = 0.9;
-  const ExplainMonitor judged = monitored(model(), log, 4096, {lost});
-  EXPECT_TRUE(judged.episodes().empty());
-  ASSERT_EQ(judged.stretches().size(), 1u);
-  EXPECT_EQ(judged.stretches()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
-  EXPECT_NEAR(judged.stretches()[0].fault.claim.end_s, 151.0, 0.2);
-}
-
 TEST(ExplainMonitor, AStretchOfALogThatIsTooShortForATorqueBalanceIsAFault) {
   const ExplainMonitor judged =
       monitored(model(), slice(days(1, 0.0), 0, 100), 50, {stretch(SignalPair::drive, 0.1, 0.3)});
