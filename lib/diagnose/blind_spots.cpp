@@ -102,8 +102,8 @@ std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& re
     const SignalRelation& drive = relations[i];
     if (drive.kind != RelationKind::actuator || !(beyond_s[i] > 0.0)) continue;
     spots.push_back(fmt::format(
-        "Joint {} was asked for {:.2g} s for torques that no healthy log holds, where its drive gave {:.3g} to "
-        "{:.3g} {}: whether it gave what was asked then is not judged.",
+        "For {1:.2g} s the command of joint {0}, or its rate of change, lies beyond those of healthy logs, in which the "
+        "drive gave {2:.3g} to {3:.3g} {4}: whether the drive followed it is not judged.",
         drive.joint + 1, beyond_s[i], drive.low, drive.high, torque_unit(chain.geometry[drive.joint].kind)));
   }
   return spots;

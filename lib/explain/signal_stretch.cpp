@@ -43,18 +43,18 @@ double gain_in_balance(const LogFit* fit, const FaultClaim& claim) {
 }
 
 /// Scores a torque of any form: it explains an offset, such as that of a drive, and has a price for all other
-/// forms. A torque balance of the command lacks the torque that the drive did not give.
+/// forms. A torque balance of the command lacks the torque that the drive did not give; one of a sensor shows
+/// its error.
 StretchScore of_no_kind(const SignalStretch& s, const LogFit* fit) {
   StretchScore out{claim_of(s, FaultKind::unknown)};
   out.claim.is_of_drive = true;
-  double offset = 0.0, form = 0.0;
-  if (s.pair == SignalPair::drive && s.balance_is_of_command) {
-    offset = gain_in_balance(fit, claim_of(s, FaultKind::torque_sensor_error));
-    form = std::max(offset, gain_in_balance(fit, out.claim));
+  double offset = 0.0;
+  if (s.pair == SignalPair::drive) {
+    if (s.balance_is_of_command) offset = gain_in_balance(fit, claim_of(s, FaultKind::torque_sensor_error));
+    out.in_balance = std::max(offset, gain_in_balance(fit, out.claim));
   }
-  out.in_balance = form;
-  out.gain = s.nats + form;
-  out.price = kAnyForm * ((1.0 - s.offset_explains) * s.nats + form - offset);
+  out.gain = s.nats + out.in_balance;
+  out.price = kAnyForm * ((1.0 - s.offset_explains) * s.nats + out.in_balance - offset);
   return out;
 }
 
@@ -173,7 +173,8 @@ JudgedStretch judge_stretch(const SignalStretch& stretch, const LogFit* fit) {
         each.score() > kAlmostShare * best.score())
       out.fault.could_also_be.push_back(each.claim.label());
   const bool no_kind = best.claim.kind == FaultKind::unknown;
-  if (may_be_sensor(stretch) && no_kind && (best.in_balance <= 0.0 || !stretch.balance_is_of_command))
+  const bool shows = best.in_balance > 0.0;
+  if (no_kind && ((may_be_sensor(stretch) && !shows) || (shows && !stretch.balance_is_of_command)))
     out.fault.could_also_be.push_back(sensor);
   return out;
 }

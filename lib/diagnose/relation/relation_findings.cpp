@@ -56,7 +56,7 @@ std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const Expl
   items.push_back({"torque_difference", episode.mean, unit, "mean difference from onset to end"});
   for (EvidenceItem& item : limit_evidence(episode)) items.push_back(std::move(item));
   if (const double motion = fault.evidence - episode.nats; motion > 0.0)
-    items.push_back({"motion", motion, "nats", "part of the evidence that the torque balance gives"});
+    items.push_back({"motion", motion, "nats", "further evidence by the torque balance"});
   if (loses_torque(fault.claim.kind))
     items.push_back(
         {"torque_share", 100.0 * fault.claim.size[0], "%", "share of the commanded torque that is missing"});
@@ -77,8 +77,9 @@ bool answers(const RelationEpisode& episode, const std::vector<RelationEpisode>&
 
 std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode) {
   return {
-      {"times_limit", episode.times_limit, "", "largest mean over what healthy logs reach"},
-      {"log_likelihood_ratio", episode.nats, "nats", "log likelihood ratio against no difference"},
+      {"times_limit", episode.times_limit, "", "largest mean difference, as a multiple of its limit"},
+      {"log_likelihood_ratio", episode.nats, "nats",
+       "log likelihood ratio of the signals against no difference"},
   };
 }
 

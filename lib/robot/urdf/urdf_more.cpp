@@ -162,6 +162,7 @@ void read_urdf_more(Robot& robot, const std::string& text, const std::string& wh
   if (robot.identified) robot.chain = chain;  // identified values take precedence over known ones
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   robot.normal = normal_range_from_table(table.table("normal"));
+  robot.least_sizes = least_sizes_from_table(table.table("least_size"));
   table.finish();
 }
 

@@ -79,6 +79,8 @@ m3 = {value = 2.5, std = 0.01}
 [friction]
 offset = [0.1, -0.2, 0]
 width = 0.02
+[least_size]
+torque_loss = 0.08
 [log]
 torque = "measured"
 coupling = [[1, 0, 0], [-1, 1, 0], [0, 0, 1]]
