@@ -68,6 +68,32 @@ bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
   return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
 }
 
+/// Returns the mean square that known faults leave in the first second of each, at most that of the whole
+/// log: evidence is counted in units of it, if it is larger than the noise. Later rows may hold a further
+/// fault.
+double residual_of_known(const LogFit& fit) {
+  double out = 1.0;
+  for (FaultClaim claim : fit.known()) {
+    claim.onset_s = std::max(claim.onset_s, fit.log().start_s);
+    claim.end_s = std::min(claim.end_s, claim.onset_s + kAsOne_s);
+    const LeftWithin left = left_within(fit, claim, fit.healthy());
+    if (const double rows = left.rows.sum(); rows > 0.0)
+      out = std::max(out, left.rows.dot(left.square) / rows);
+  }
+  return std::min(out, std::max(1.0, fit.healthy().mean_square()));
+}
+
+/// Returns whether a fault that begins before all known faults is too weak: the rows before those were taken
+/// for healthy, and its evidence is counted in units of what is left of the whole log.
+bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, const LogFit& fit) {
+  const std::vector<FaultClaim>& known = fit.known();
+  const bool is_first = std::all_of(known.begin(), known.end(), [&](const FaultClaim& claim) {
+    return fault.claim.onset_s < claim.onset_s;
+  });
+  const double left = known.empty() ? 1.0 : std::max(1.0, fit.healthy().mean_square());
+  return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
+}
+
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
   // The halt of a known lock raises the noise of the other joints and makes the search less exact.
@@ -77,13 +103,11 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   const auto [fit, e] = explain_with_own_noise(
       log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogEvidence evidence = log_evidence(fit, e);
-  // The residual of known faults is larger than the noise that evidence is counted by, unless the further
-  // fault explains it.
-  const double left = e.best.empty() ? e.healthy_square : e.best.front().fit.mean_square();
-  const EvidenceLimits own = known.empty() ? limits : scaled(limits, std::max(1.0, left));
-  std::vector<ExplainedFault> named = named_faults(e, own, evidence, kFirsts);
+  std::vector<ExplainedFault> named =
+      named_faults(e, scaled(limits, residual_of_known(fit)), evidence, kFirsts);
   std::erase_if(named, [&](const ExplainedFault& fault) {
-    return std::any_of(known.begin(), known.end(),
+    return is_too_weak(fault, limits, fit) ||
+           std::any_of(known.begin(), known.end(),
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
