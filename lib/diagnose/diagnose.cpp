@@ -49,8 +49,7 @@ std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, 
   for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
   add_lasting_friction(run, model, faults);
   for (const JudgedStretch& judged : run.stretches)
-    faults.push_back(
-        finding_of(run.relation_episodes[judged.stretch.id], judged.fault, run.log.end_s, model));
+    faults.push_back(finding_of(run.relation_episodes[judged.stretch.id], judged, run.log.end_s, model));
   return faults;
 }
 

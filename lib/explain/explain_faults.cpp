@@ -100,8 +100,10 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   const bool is_exact =
       std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
   const double least = is_exact ? least_limit(limits) : 0.0;
-  const auto [fit, e] = explain_with_own_noise(
+  const ExplainedFit explained = explain_with_own_noise(
       log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
+  const LogFit& fit = explained.fit;
+  const LogExplanation& e = explained.explanation;
   const LogEvidence evidence = log_evidence(fit, e);
   std::vector<ExplainedFault> named =
       named_faults(e, scaled(limits, residual_of_known(fit)), evidence, kFirsts);

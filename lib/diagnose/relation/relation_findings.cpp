@@ -20,9 +20,7 @@ constexpr double kWellBeyond = 1.5;          // times the limit that is well bey
 constexpr double kJolt_s = 0.1;     // longest deviation of a drive as the controller reacts to another one
 constexpr double kSettles_s = 0.1;  // and the latest time of its onset after the end of that one
 
-bool loses_torque(FaultKind kind) {
-  return kind == FaultKind::torque_loss || kind == FaultKind::free_swinging;
-}
+bool loses_torque(FaultKind kind) { return column_kind(kind) == FaultKind::torque_loss; }
 
 std::string what_strayed(const RelationEpisode& episode, const FaultClaim& claim, const std::string& size) {
   if (loses_torque(claim.kind))
@@ -48,15 +46,16 @@ std::string next_check_of(const RelationEpisode& episode) {
       episode.joint + 1);
 }
 
-std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const ExplainedFault& fault,
+std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const JudgedStretch& judged,
                                       const std::string& unit) {
+  const ExplainedFault& fault = judged.fault;
   std::vector<EvidenceItem> items;
   items.push_back({"decision", std::nan(""), "",
                    what_strayed(episode, fault.claim, value_text(episode.mean) + " " + unit)});
   items.push_back({"torque_difference", episode.mean, unit, "mean difference from onset to end"});
   for (EvidenceItem& item : limit_evidence(episode)) items.push_back(std::move(item));
-  if (const double motion = fault.evidence - episode.nats; motion > 0.0)
-    items.push_back({"motion", motion, "nats", "further evidence by the torque balance"});
+  if (judged.in_balance > 0.0)
+    items.push_back({"motion", judged.in_balance, "nats", "further evidence by the torque balance"});
   if (loses_torque(fault.claim.kind))
     items.push_back(
         {"torque_share", 100.0 * fault.claim.size[0], "%", "share of the commanded torque that is missing"});
@@ -109,8 +108,9 @@ std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& epis
   return out;
 }
 
-FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fault, double log_end_s,
+FaultFinding finding_of(const RelationEpisode& episode, const JudgedStretch& judged, double log_end_s,
                         const Model& model) {
+  const ExplainedFault& fault = judged.fault;
   FaultFinding finding;
   finding.label = fault.label();
   if (loses_torque(fault.claim.kind)) finding.extent = extent_of_torque_loss(fault.claim.size[0], model);
@@ -121,7 +121,8 @@ FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fa
   finding.decided_by = episode.kind == RelationKind::actuator ? DecidedBy::actuator : DecidedBy::control_law;
   for (const FaultLabel& label : fault.could_also_be)
     finding.could_also_be.push_back({label, "explains the log almost as well"});
-  finding.evidence = evidence_of(episode, fault, torque_unit(model.robot.chain.geometry[episode.joint].kind));
+  finding.evidence =
+      evidence_of(episode, judged, torque_unit(model.robot.chain.geometry[episode.joint].kind));
   finding.next_check =
       fault.claim.kind == FaultKind::unknown ? next_check_of(episode) : next_check_for(finding.label);
   return finding;

@@ -20,7 +20,7 @@ double confidence_of(const RelationEpisode& episode);
 std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& episodes, TorqueMeaning torque);
 
 /// Makes the finding of an episode and the fault that explains it; it ends with the log at the latest.
-FaultFinding finding_of(const RelationEpisode& episode, const ExplainedFault& fault, double log_end_s,
+FaultFinding finding_of(const RelationEpisode& episode, const JudgedStretch& judged, double log_end_s,
                         const Model& model);
 
 }  // namespace faultline

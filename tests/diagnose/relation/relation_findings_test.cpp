@@ -31,7 +31,7 @@ RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end
 std::vector<FaultFinding> findings_of(const std::vector<RelationEpisode>& episodes) {
   std::vector<FaultFinding> out;
   for (const SignalStretch& stretch : stretches_of(episodes, TorqueMeaning::commanded))
-    out.push_back(finding_of(episodes[stretch.id], judge_stretch(stretch, nullptr).fault, 9.0, model()));
+    out.push_back(finding_of(episodes[stretch.id], judge_stretch(stretch, nullptr), 9.0, model()));
   return out;
 }
 
@@ -74,9 +74,9 @@ TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
 
 TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
   const RelationEpisode strayed = episode(RelationKind::actuator, 1, 3.0, 3.2);
-  ExplainedFault fault = judge_stretch(stretches_of({strayed}, TorqueMeaning::commanded)[0], nullptr).fault;
+  JudgedStretch fault = judge_stretch(stretches_of({strayed}, TorqueMeaning::commanded)[0], nullptr);
   EXPECT_EQ(item(finding_of(strayed, fault, 9.0, model()), "motion"), nullptr);
-  fault.evidence += 75.0;
+  fault.in_balance = 75.0;
   const FaultFinding finding = finding_of(strayed, fault, 9.0, model());
   ASSERT_NE(item(finding, "motion"), nullptr);
   EXPECT_DOUBLE_EQ(item(finding, "motion")->value, 75.0);
