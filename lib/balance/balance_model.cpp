@@ -20,25 +20,41 @@ Eigen::VectorXd by_width(const Eigen::VectorXd& speed, double width) {
   });
 }
 
+/// Returns tanh^2(speed / width): 1 in either direction, 0 at rest.
+Eigen::VectorXd either_direction(const Eigen::VectorXd& speed, double width) {
+  return speed.unaryExpr([width](double v) { return Eigen::numext::abs2(elementary::tanh(v / width)); });
+}
+
 }  // namespace
 
-std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetting& setting,
-                                         const ColumnLayout& layout, const Eigen::VectorXd& theta) {
+double viscous_part(double viscous, double dry, double top_speed) {
+  const double moving = std::max(viscous, 0.0) * 0.5 * top_speed, resting = std::max(dry, 0.0);
+  return moving > 0.0 ? moving / (moving + resting) : 0.0;
+}
+
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceModel& model) {
+  const ColumnLayout layout = model.layout();
+  const Eigen::VectorXd& theta = model.theta;
   const DayLayout day{layout.base, layout.joints};
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(rows.rows(), -1.0, 1.0);
   std::vector<Eigen::MatrixXd> out(layout.joints, Eigen::MatrixXd::Zero(rows.rows(), day.count()));
   for (int j = 0; j < layout.joints; ++j) {
     const Eigen::MatrixXd& column = rows.column[j];
     out[j].leftCols(layout.base) = column.leftCols(layout.base) * theta.head(layout.base).asDiagonal();
-    const Eigen::VectorXd friction = column.col(layout.viscous(j)) * theta[layout.viscous(j)] +
-                                     column.col(layout.coulomb(j)) * theta[layout.coulomb(j)];
+    const Eigen::VectorXd viscous = column.col(layout.viscous(j)) * theta[layout.viscous(j)];
+    const Eigen::VectorXd friction = viscous + column.col(layout.coulomb(j)) * theta[layout.coulomb(j)];
     out[j].col(day.friction(j)) = friction;
+    out[j].col(day.viscous_excess(j)) =
+        viscous -
+        viscous_part(theta[layout.viscous(j)], theta[layout.coulomb(j)], model.top_speed[j]) * friction;
     out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
     out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
     out[j].col(day.offset(j)).setOnes();
     out[j].col(day.delay()) = column.col(layout.delay(j));
+    out[j].col(day.direction(j)) =
+        theta[layout.coulomb(j)] * either_direction(rows.dq.col(j), model.setting.friction_width[j]);
     out[j].col(day.friction_width(j)) =
-        theta[layout.coulomb(j)] * by_width(rows.dq.col(j), setting.friction_width[j]);
+        theta[layout.coulomb(j)] * by_width(rows.dq.col(j), model.setting.friction_width[j]);
   }
   return out;
 }

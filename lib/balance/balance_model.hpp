@@ -41,7 +41,9 @@ struct BalanceModel {
 
 /// Indices of the effects of a day (equation (2) of docs/how-it-works.md): relative change of each base
 /// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
-/// the torque, relative width of the friction's step at rest; then the delay of all torques, samples.
+/// the torque, relative width of the friction's step at rest, relative excess of viscous over dry friction
+/// (see viscous_part), relative difference of dry friction by direction; then the delay of all torques,
+/// samples.
 struct DayLayout {
   int base = 0, joints = 0;
 
@@ -51,15 +53,21 @@ struct DayLayout {
   int gain(int joint) const { return base + 2 * joints + joint; }
   int offset(int joint) const { return base + 3 * joints + joint; }
   int friction_width(int joint) const { return base + 4 * joints + joint; }
-  int delay() const { return base + 5 * joints; }
+  int viscous_excess(int joint) const { return base + 5 * joints + joint; }
+  int direction(int joint) const { return base + 6 * joints + joint; }
+  int delay() const { return base + 7 * joints; }
   int count() const { return delay() + 1; }
 };
 
 inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }
 
+/// Returns the viscous part of a joint's friction at half its top speed, from 0 to 1. On a day whose viscous
+/// friction exceeds its dry friction by the share d, viscous friction is (1 - part) d more and dry friction
+/// part d less than the usual one, so that their sum at that speed is that of the usual day.
+double viscous_part(double viscous, double dry, double top_speed);
+
 /// Returns the columns of the effects of a day, by joint: rows x effects.
-std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const RowSetting& setting,
-                                         const ColumnLayout& layout, const Eigen::VectorXd& theta);
+std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceModel& model);
 
 /// Returns the torque of the robot `theta` in each row: rows x joints, N m or N.
 Eigen::MatrixXd torque_of(const BalanceRows& rows, const Eigen::VectorXd& theta);

@@ -228,4 +228,18 @@ Eigen::VectorXd sample_noise(const Eigen::MatrixXd& values) {
   return noise;
 }
 
+RepeatedPositions repeated_positions(const UniformLog& log) {
+  RepeatedPositions out{Eigen::VectorXi::Zero(log.joints()), Eigen::VectorXd::Zero(log.joints())};
+  for (int j = 0; j < log.joints(); ++j) {
+    int run = 0, same = 0;
+    for (int k = 1; k < log.rows(); ++k) {
+      run = log.q(k, j) == log.q(k - 1, j) ? run + 1 : 0;
+      same += run > 0;
+      out.longest[j] = std::max(out.longest[j], run);
+    }
+    out.share[j] = static_cast<double>(same) / (log.rows() - 1);
+  }
+  return out;
+}
+
 }  // namespace faultline

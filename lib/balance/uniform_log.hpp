@@ -59,4 +59,11 @@ Eigen::VectorXd joint_medians(const std::vector<Eigen::VectorXd>& by_log);
 /// against motion and steps.
 Eigen::VectorXd sample_noise(const Eigen::MatrixXd& values);
 
+/// Samples of each joint that repeat the position before.
+struct RepeatedPositions {
+  Eigen::VectorXi longest;  ///< longest run of them
+  Eigen::VectorXd share;    ///< of all samples but the first
+};
+RepeatedPositions repeated_positions(const UniformLog& log);
+
 }  // namespace faultline

@@ -113,7 +113,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
-  for (const ExplainedFault& fault : out.named) out.spans.push_back(fault_spans(fit, fault.claim));
+  for (const ExplainedFault& fault : out.named) out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
     if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
       out.named = {*unnamed};

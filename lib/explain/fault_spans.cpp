@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "lib/balance/regress.hpp"
 #include "lib/explain/fault_end.hpp"
 #include "lib/explain/search/white_search.hpp"
 
@@ -29,13 +31,31 @@ struct SpanFit {
   double square = 1.0;  ///< mean square of the residuals
 };
 
-SpanFit fit_of(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
-  FaultColumns columns = fault.columns;
-  columns.column.setZero();
-  for (const Span& span : spans)
-    columns.column += fit.between(fault.columns, span.onset_s, span.end_s).column;
-  const Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, spans.front().onset_s);
+FaultColumns columns_in(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+  FaultColumns out = fault.columns;
+  out.column.setZero();
+  for (const Span& span : spans) out.column += fit.between(fault.columns, span.onset_s, span.end_s).column;
+  return out;
+}
+
+Explanation explained(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+  return fit.explain_with_piece(fit.residual(), columns_in(fit, fault, spans), fault.starts,
+                                spans.front().onset_s);
+}
+
+/// Returns the fit with the effects of the day that explain the log best beside the fault.
+SpanFit fit_with_day(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+  const Explanation e = explained(fit, fault, spans);
   return {e.size, fit.left_without_fault(e), e.mean_square()};
+}
+
+/// Returns the fit with the effects of the day that the rows before the change show.
+SpanFit fit_with_day_before(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans,
+                            const FreeForm& change) {
+  const FaultColumns columns = columns_in(fit, fault, spans);
+  const Regression sizes =
+      regress(normal_equations(fit.whitened(columns.column), change.left), columns.variance.cwiseInverse());
+  return {sizes.estimate, change.left, sizes.left / static_cast<double>(change.left.size())};
 }
 
 /// Returns the nats, by row, by which the row is more likely without the fault than with it.
@@ -97,30 +117,52 @@ std::vector<Span> spans_of(const LogFit& fit, const std::vector<bool>& present) 
   return out;
 }
 
-}  // namespace
+/// Spans of a fault with its size, and how well they explain the log.
+struct Spans {
+  std::vector<Span> spans{};
+  VectorXd size{};
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+};
 
-std::vector<FaultClaim> fault_spans(const LogFit& fit, const FaultClaim& claim) {
-  const LinearFault* fault = linear_of(fit.linear(), claim);
-  if (fault == nullptr || claim.grows) return {};
-  const StackedColumns white = fit.whitened(fault->columns.column);
+/// Estimates spans and size in turn, from the claim on. `fit_of` returns the fit of a fault in some spans.
+template <typename FitOf>
+Spans settled_spans(const LogFit& fit, const FaultClaim& claim, const LinearFault& fault,
+                    const FitOf& fit_of) {
+  const StackedColumns white = fit.whitened(fault.columns.column);
   const int first = std::max(1, fit.first_row(fit.time_s()[0] + kLead_s));
   std::vector<Span> spans = {{claim.onset_s, claim.end_s}};
-  SpanFit by = fit_of(fit, *fault, spans);
   for (int round = 0; round < kRounds; ++round) {
+    const SpanFit by = fit_of(spans);
     const double price = kEndEvidence * std::max(1.0, by.square);
     std::vector<Span> next = spans_of(fit, likely_states(evidence_of_absence(fit, white, by), first, price));
     if (next.empty()) return {};
     const bool is_settled = next == spans;
     spans = std::move(next);
-    by = fit_of(fit, *fault, spans);
     if (is_settled) break;
   }
+  const Explanation e = explained(fit, fault, spans);
+  const double price = kEndEvidence * std::max(1.0, e.mean_square());
+  return {spans, e.size, e.log_likelihood - 2.0 * price * static_cast<double>(spans.size())};
+}
+
+}  // namespace
+
+std::vector<FaultClaim> fault_spans(const LogFit& fit, const FaultClaim& claim, const FreeForm& change) {
+  const LinearFault* fault = linear_of(fit.linear(), claim);
+  if (fault == nullptr || claim.grows) return {};
+  const auto with_day = [&](const auto& spans) { return fit_with_day(fit, *fault, spans); };
+  const auto with_day_before = [&](const auto& spans) {
+    return fit_with_day_before(fit, *fault, spans, change);
+  };
+  const Spans own = settled_spans(fit, claim, *fault, with_day),
+              early = settled_spans(fit, claim, *fault, with_day_before),
+              best = early.log_likelihood > own.log_likelihood ? early : own;
   std::vector<FaultClaim> out;
-  for (const Span& span : spans) {
+  for (const Span& span : best.spans) {
     out.push_back(claim);
     out.back().onset_s = span.onset_s;
     out.back().end_s = span.end_s;
-    out.back().size = by.size;
+    out.back().size = best.size;
   }
   return out;
 }

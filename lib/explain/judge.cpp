@@ -32,10 +32,24 @@ constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a
 constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
 constexpr double kShakes = 0.05;     // share of the evidence of a lock that its shaking adds, at most
 constexpr double kCoupled = 0.1;     // share of a joint's usual torque that the motion of another joint gives
+constexpr double kYields = 2e-3;     // of a joint's range: a lock yields less to the torque
+
+/// Returns the compliance of a lock, rad per N m or m per N, by which its brake or jammed gear yields to the
+/// torque; 0 if the position follows the torque further, which no lock allows. `range` is that of healthy
+/// logs.
+double compliance_of_lock(const VectorXd& q, const VectorXd& torque, double range) {
+  const VectorXd t = torque.array() - torque.mean(), p = q.array() - q.mean();
+  const double compliance = std::abs(t.dot(p)) / std::max(t.squaredNorm(), 1e-12);
+  return compliance * t.cwiseAbs().maxCoeff() < kYields * range ? compliance : 0.0;
+}
+
+/// Returns the nats by which the positions of the rows `late` speak against a joint (from 0) at rest that
+/// yields to its torque.
 double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
   const BalanceModel& m = fit.model();
-  const double compliance = m.compliance(j);
   const VectorXd q = fit.rows().q.col(j)(late), torque = fit.rows().torque.col(j)(late);
+  const double compliance =
+      std::max(m.compliance(j), compliance_of_lock(q, torque, m.q_high[j] - m.q_low[j]));
   MatrixXd x(q.size(), compliance > 0.0 ? 2 : 1);
   x.col(0).setOnes();
   if (compliance > 0.0) x.col(1) = torque;

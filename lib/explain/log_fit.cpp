@@ -190,7 +190,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   known_torque_ = Stacked::Zero(residual_.size());
   std_ = row_deviation(rows_, model, loudness_);
   linear_ = linear_faults(rows_, model);
-  effect_column_ = day_columns(rows_, model.setting, layout, model.theta);
+  effect_column_ = day_columns(rows_, model);
   effect_variance_ = model.day_variance;
   for (const FaultClaim& claim : known_) {
     if (silences(claim.kind)) {

@@ -14,6 +14,8 @@ using Eigen::VectorXd;
 
 constexpr double kSaysNothing = 1e9;  // N m or N: standard deviation of a row without weight
 constexpr double kGravity = 9.81;     // m/s^2: only for the scale of a work piece's weight
+constexpr double kMostOfDay = 12.0;   // prior standard deviations: bound of an effect of the day
+constexpr double kHeld = 1e12;        // times its precision: of an effect that is held at its bound
 constexpr int kBeforeRows = 5;        // rows of onsets that share one estimate of the effects before them
 constexpr int kTimeRounds = 4;        // Newton rounds for the times of the changes, at most
 constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
@@ -46,6 +48,32 @@ double product(const WhitePulse& a, const WhitePulse& b) {
   return a.torque.middleRows(begin - a.begin, end - begin)
       .cwiseProduct(b.torque.middleRows(begin - b.begin, end - begin))
       .sum();
+}
+
+/// Returns the regression with each of the first `bounded` parameters within kMostOfDay prior standard
+/// deviations: those beyond it are held at the bound. A large fault of slightly another form than its
+/// hypothesis would bend the effects of the day to what no day is.
+Regression regress_within(NormalEquations sums, VectorXd precision, int bounded) {
+  Regression fit = regress(sums, precision);
+  VectorXd held = VectorXd::Zero(precision.size());
+  double price = 0.0;
+  for (bool is_within = false; !is_within;) {
+    is_within = true;
+    for (int i = 0; i < bounded; ++i) {
+      const double most = kMostOfDay / std::sqrt(precision[i]);
+      if (held[i] != 0.0 || std::abs(fit.estimate[i]) <= most) continue;
+      is_within = false;
+      held[i] = std::copysign(most, fit.estimate[i]);
+      sums.square += held[i] * (held[i] * sums.matrix(i, i) - 2.0 * sums.vector[i]);
+      sums.vector -= held[i] * sums.matrix.col(i);
+      precision[i] *= kHeld;
+      price += 0.5 * kMostOfDay * kMostOfDay;
+    }
+    if (!is_within) fit = regress(sums, precision);
+  }
+  fit.estimate += held;
+  fit.log_likelihood -= price;
+  return fit;
 }
 
 void take_away(const WhitePulse& pulse, double size, Stacked& rows) {
@@ -110,7 +138,8 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
     for (int d = 0; d <= c; ++d) sums.matrix(fixed + d, fixed + c) = product(pulse, pulses[d]);
     sums.matrix.row(fixed + c).head(fixed + c) = sums.matrix.col(fixed + c).head(fixed + c).transpose();
   }
-  const Regression fit = regress(sums, precision);
+  const Regression fit =
+      regress_within(std::move(sums), std::move(precision), static_cast<int>(model_.day_variance.size()));
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, sizes);
   const auto std_of = [&](int k) { return std::sqrt(fit.factor.solve(VectorXd::Unit(all, k))[k]); };

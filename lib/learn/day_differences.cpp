@@ -30,6 +30,7 @@ struct Differences {
     for (int j = 0; j < m.joints(); ++j) {
       out.offset[j] = std::sqrt(m.day_variance[at.offset(j)]);
       out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.viscous_excess[j] = std::sqrt(m.day_variance[at.viscous_excess(j)]);
       out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
       take_missed_torque(m, j, out);
     }
@@ -41,6 +42,7 @@ struct Differences {
     for (int j = 0; j < m.joints(); ++j) {
       out.offset[j] = std::sqrt(m.day_variance[at.force(j)]);
       out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.viscous_excess[j] = std::sqrt(m.day_variance[at.viscous_excess(j)]);
       out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
     }
     return out;
@@ -70,6 +72,7 @@ struct Widen {
     const DayLayout at = day_layout(m.rigid);
     for (int j = 0; j < m.joints(); ++j) {
       friction(m.day_variance[at.friction(j)]);
+      friction(m.day_variance[at.viscous_excess(j)]);
       offset(m.day_variance[at.offset(j)], j);
       gain(m.day_variance[at.gain(j)]);
     }
@@ -78,6 +81,7 @@ struct Widen {
     const StepDayLayout at = m.day_layout();
     for (int j = 0; j < m.joints(); ++j) {
       friction(m.day_variance[at.friction(j)]);
+      friction(m.day_variance[at.viscous_excess(j)]);
       offset(m.day_variance[at.force(j)], j);
       gain(m.day_variance[at.gain(j)]);
     }

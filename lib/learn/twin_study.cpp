@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/learn/twin_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <mutex>
 
+#include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/diagnose/decide_episode.hpp"
@@ -16,7 +19,8 @@ namespace faultline {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr int kRowsAtATime = 64;  // rows of a segment of a simulated log
+constexpr int kFewestRunRows = 2;  // of a simulated log, that can be diagnosed
+constexpr int kRowsAtATime = 64;   // rows of a segment of a simulated log
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
@@ -53,6 +57,13 @@ LabelledResiduals labelled_residuals(const TwinRun& run, const ResidualGenerator
   return out;
 }
 
+Error runs_diverge(double period_s) {
+  constexpr auto kMessage =
+      "simulated runs of the identified robot diverge within a few sample periods of {:.3g} s: the motion "
+      "between samples is not determined. Give logs with slower moves or a shorter sample period";
+  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
+}
+
 }  // namespace
 
 Model with_rigid_gears(Model model) {
@@ -73,6 +84,7 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
   int done = 0;
   parallel_for(static_cast<int>(labels.size()), options.threads, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], options.first_seed + static_cast<std::uint64_t>(i));
+    if (run.log.rows() < kFewestRunRows) throw runs_diverge(twin.sample_period_s);
     MonitoredRun& out = study.runs[i];
     out.label = run.label;
     out.onset_s = run.onset_s;

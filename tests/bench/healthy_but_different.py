@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Healthy robots that differ from the one learned from: simulates, learns, diagnoses and prints the table.
 
-Usage: healthy_but_different.py [ROW...]     called by healthy_but_different.sh
+Usage: healthy_but_different.py [ROW...]     called by healthy_but_different.sh; SEED in the environment draws
+other motions and noise
 """
 import concurrent.futures
 import csv
@@ -16,6 +17,7 @@ import time
 
 FAULTLINE = os.environ["FAULTLINE"]
 OUT = os.path.join(os.environ["FAULTLINE_OUT"], "healthy-but-different")
+SEED = int(os.environ.get("SEED", "0"))
 HEALTHY_SEEDS = 4
 FAULT_SEEDS = 1
 PERIOD_S = 0.002
@@ -47,8 +49,8 @@ def scaled(values, by):
 class Row:
     """A difference: what the simulated machine is, and what becomes of its log."""
 
-    def __init__(self, friction=1.0, masses=1.0, noise=1.0, change=None, load=0.0, ripple_rates=()):
-        self.friction, self.masses, self.noise, self.change = friction, masses, noise, change
+    def __init__(self, friction=1.0, viscous=1.0, masses=1.0, noise=1.0, change=None, load=0.0, ripple_rates=()):
+        self.friction, self.viscous, self.masses, self.noise, self.change = friction, viscous, masses, noise, change
         self.load, self.ripple_rates = load, ripple_rates
 
 
@@ -109,6 +111,8 @@ ROWS = {
     "ripple_1%_of_rating": Row(ripple_rates=(8, 6, 60)),
     "cogging_1%_of_rating": Row(ripple_rates=(120, 90, 900)),
     "friction_of_load_5%": Row(load=0.05),
+    "dry_x0.85_viscous_x1.2": Row(friction=0.85, viscous=1.2 / 0.85),
+    "dry_x1.15_viscous_x0.8": Row(friction=1.15, viscous=0.8 / 1.15),
 }
 
 
@@ -140,7 +144,7 @@ dwell_s = [0.1, 0.3]
 name = "different"
 axes = "RRP"
 known = {{{known}, l1 = 0.4, l2 = 0.3}}
-friction = {{viscous = {scaled(VISCOUS, row.friction)}, coulomb = {scaled(COULOMB, row.friction)}, width = 0.02, load = {row.load}}}
+friction = {{viscous = {scaled(VISCOUS, row.viscous * row.friction)}, coulomb = {scaled(COULOMB, row.friction)}, width = 0.02, load = {row.load}}}
 ripple = [{ripples}]
 """
 
@@ -210,7 +214,7 @@ def learned(logs, folder):
 
 def learn():
     folder = os.path.join(OUT, "learn")
-    simulate(folder, Row(), 9001, [((f"healthy_{i}", "none", 0), "duration_s = 8") for i in range(3)])
+    simulate(folder, Row(), 100000 * SEED + 9001, [((f"healthy_{i}", "none", 0), "duration_s = 8") for i in range(3)])
     return learn_from([os.path.join(folder, f"healthy_{i}.csv") for i in range(3)], folder, held=True)
 
 
@@ -284,7 +288,7 @@ def main(wanted):
         if wanted and name not in wanted:
             continue
         folder, runs = os.path.join(OUT, name), runs_of(turn)
-        simulate(folder, row, 100 * (turn + 1), runs)
+        simulate(folder, row, 100000 * SEED + 100 * (turn + 1), runs)
         paths += [os.path.join(folder, run_name + ".csv") for (run_name, _, _), _ in runs]
         rows.append((name, runs))
     reports = iter(diagnose_all(paths, model))

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tests/explain/explained_scara.hpp"
@@ -39,6 +40,36 @@ std::string said(const std::vector<ExplainedFault>& faults) {
 
 TEST(ExplainFaults, AHealthyLogHasNone) {
   EXPECT_TRUE(faults_of(simulate_closed_form(of_day(2), run_of(21))).empty());
+}
+
+TEST(ExplainFaults, ADayOfMoreViscousAndLessDryFrictionIsHealthy) {
+  ClosedFormScara warm = of_day(0);
+  for (int j = 0; j < 3; ++j) warm.fv[j] *= 1.2, warm.fc[j] *= 0.85;
+  for (const std::uint64_t seed : {21, 22, 23})
+    EXPECT_TRUE(faults_of(simulate_closed_form(warm, run_of(seed))).empty()) << seed;
+}
+
+TEST(ExplainFaults, ADayOfMoreFrictionInOneDirectionIsHealthy) {
+  for (const std::uint64_t seed : {21, 22, 23}) {
+    const Log log =
+        changed(simulate_closed_form(of_day(0), run_of(seed)), 0.0, kNeverEnds, [](Log& l, int k) {
+          const ClosedFormScara robot;
+          for (int j = 0; j < 3; ++j)
+            l.tau[j][k] += 0.1 * robot.fc[j] * std::pow(std::tanh(l.dq[j][k] / robot.width), 2);
+        });
+    const auto faults = faults_of(log);
+    EXPECT_TRUE(faults.empty()) << seed << ": " << said(faults);
+  }
+}
+
+TEST(ExplainFaults, ALargeFaultDoesNotBendTheDayToWhatNoDayIs) {
+  const Log log = changed(simulate_closed_form(of_day(0), run_of(24)), 5.0, kNeverEnds, [](Log& l, int k) {
+    l.tau[1][k] += 12.0 * std::sin(20.0 * l.time[k]) + 0.8 * l.tau[1][k];
+  });
+  const ExplainedLog out = explain_faults(on_grid(log), scara_model(), evidence_limits({}));
+  ASSERT_FALSE(out.faults.empty());
+  for (const ExplainedFault& fault : out.faults) EXPECT_GT(fault.claim.onset_s, 4.9) << said(out.faults);
+  for (const DayEffect& effect : out.day) EXPECT_LT(std::abs(effect.value), 12.1 * effect.day_std);
 }
 
 TEST(ExplainFaults, TheDayOfALogHasNoGainOfAnAxisThatLiftsItsOwnWeight) {

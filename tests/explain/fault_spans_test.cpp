@@ -10,6 +10,7 @@
 namespace faultline {
 namespace {
 
+using testing::ClosedFormRun;
 using testing::fit_of;
 using testing::of_day;
 using testing::run_of;
@@ -21,7 +22,7 @@ TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
   const LogFit fit = fit_of(with_loss_but_for_a_second(26));
   for (const FaultClaim& claim :
        {FaultClaim{FaultKind::torque_loss, 1, 3.5}, FaultClaim{FaultKind::torque_loss, 1, 6.6}}) {
-    const std::vector<FaultClaim> spans = fault_spans(fit, claim);
+    const std::vector<FaultClaim> spans = fault_spans(fit, claim, free_form(fit));
     ASSERT_EQ(spans.size(), 2u);
     EXPECT_NEAR(spans[0].onset_s, 3.5, 0.05);
     EXPECT_NEAR(spans[0].end_s, 5.5, 0.05);
@@ -31,21 +32,33 @@ TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
   }
 }
 
+TEST(FaultSpans, AStrongFaultDoesNotBendTheEffectsOfTheDay) {
+  ClosedFormRun run = run_of(27);
+  run.duration_s = 10.0;
+  Log log = with_loss(simulate_closed_form(of_day(0), run), 2, 0.98, 2.2, 4.2);
+  const LogFit fit = fit_of(with_loss(std::move(log), 2, 0.98, 6.2));
+  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 2, 0.6}, free_form(fit));
+  ASSERT_EQ(spans.size(), 2u);
+  EXPECT_NEAR(spans[0].onset_s, 2.2, 0.05);
+  EXPECT_NEAR(spans[0].end_s, 4.2, 0.05);
+  EXPECT_NEAR(spans[1].onset_s, 6.2, 0.05);
+}
+
 TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsBehindTheLead) {
   const LogFit fit = fit_of(with_loss(simulate_closed_form(of_day(0), run_of(26)), 1, 0.5, 0.0, 4.0));
-  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 1, 0.6});
+  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 1, 0.6}, free_form(fit));
   ASSERT_EQ(spans.size(), 1u);
   EXPECT_NEAR(spans[0].onset_s, kLead_s, 0.1);
 }
 
 TEST(FaultSpans, AFaultThatAHealthyLogDoesNotShowHasNone) {
   const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(26)));
-  EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1, 3.5}).empty());
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1, 3.5}, free_form(fit)).empty());
 }
 
 TEST(FaultSpans, AFaultThatIsNotLinearHasNone) {
   const LogFit fit = fit_of(with_loss_but_for_a_second(26));
-  EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1, 3.5}).empty());
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1, 3.5}, free_form(fit)).empty());
 }
 
 }  // namespace

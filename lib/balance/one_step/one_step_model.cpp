@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/one_step/one_step_model.hpp"
 
+#include "lib/balance/balance_model.hpp"
 #include "lib/balance/one_step/innovations.hpp"
 #include "lib/balance/smoothing.hpp"
 
@@ -32,6 +33,9 @@ MatrixXd OneStepModel::day_directions() const {
   for (int j = 0; j < at.joints; ++j) {
     out(at.viscous(j), day.friction(j)) = theta[at.viscous(j)];
     out(at.coulomb(j), day.friction(j)) = theta[at.coulomb(j)];
+    const double part = viscous_part(theta[at.viscous(j)], theta[at.coulomb(j)], top_speed[j]);
+    out(at.viscous(j), day.viscous_excess(j)) = (1.0 - part) * theta[at.viscous(j)];
+    out(at.coulomb(j), day.viscous_excess(j)) = -part * theta[at.coulomb(j)];
     out(at.force(j), day.force(j)) = 1.0;
     out(at.gain(j), day.gain(j)) = 1.0;
   }

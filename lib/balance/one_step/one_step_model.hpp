@@ -12,7 +12,8 @@ namespace faultline {
 inline constexpr double kCoarse_s = 0.020;
 
 /// Indices of the effects of a day at coarse rates: relative change of each base parameter; then, for each
-/// joint, relative friction, force added to the torque (N m or N) and relative gain of the torque.
+/// joint, relative friction, force added to the torque (N m or N), relative gain of the torque, and relative
+/// excess of viscous over dry friction (see viscous_part).
 struct StepDayLayout {
   int base = 0, joints = 0;
 
@@ -20,7 +21,8 @@ struct StepDayLayout {
   int friction(int joint) const { return base + joint; }
   int force(int joint) const { return base + joints + joint; }
   int gain(int joint) const { return base + 2 * joints + joint; }
-  int count() const { return base + 3 * joints; }
+  int viscous_excess(int joint) const { return base + 3 * joints + joint; }
+  int count() const { return base + 4 * joints; }
 };
 
 /// Model of a robot for logs at coarse rates: the robot, its normal variation between days and its noise.

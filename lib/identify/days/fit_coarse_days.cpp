@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_coarse_days.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,7 @@
 #include "lib/balance/regressor.hpp"
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/payload_columns.hpp"
@@ -37,6 +40,7 @@ constexpr int kStepHalvings = 8;         // of a step that keeps less
 constexpr int kInertiaRows = 40;         // of each log, at which the inertia is checked
 constexpr double kDayInertia = 1e-3;     // relative: least difference of masses between days
 constexpr double kDayFriction = 0.02;    // relative
+constexpr double kDayViscous = 0.02;     // relative, beyond dry friction
 constexpr double kDayForce = 1e-3;       // of the torque rms
 constexpr double kDayGain = 1e-3;        // relative
 constexpr double kNoGain = 1e-5;         // of a joint along gravity: its gain looks like its mass
@@ -72,14 +76,10 @@ void take_looks(const std::vector<UniformLog>& logs, OneStepModel& m) {
       std::vector<double> speed;
       for (int k = 0; k < log.rows(); ++k) speed.push_back(std::abs(x(n + j, k)));
       m.top_speed[j] = std::max(m.top_speed[j], lower_quantile(std::move(speed), kSpeedQuantile));
-      int run = 0, same = 0;
-      for (int k = 1; k < log.rows(); ++k) {
-        run = log.q(k, j) == log.q(k - 1, j) ? run + 1 : 0;
-        same += run > 0;
-        m.longest_repeat[j] = std::max(m.longest_repeat[j], run);
-      }
-      m.repeat_share[j] += static_cast<double>(same) / (log.rows() - 1) / static_cast<double>(logs.size());
     }
+    const RepeatedPositions repeats = repeated_positions(log);
+    m.longest_repeat = m.longest_repeat.cwiseMax(repeats.longest);
+    m.repeat_share += repeats.share / static_cast<double>(logs.size());
   }
   m.repeat_share = m.repeat_share.cwiseMax(1e-3).cwiseMin(0.999);
   m.torque_rms = (m.torque_rms / rows).cwiseSqrt().cwiseMax(1e-9);
@@ -235,8 +235,12 @@ MatrixXd robot_directions(const OneStepModel& m, const VectorXd& effect) {
   const StepDayLayout day = m.day_layout();
   MatrixXd out = MatrixXd::Identity(at.count(), at.learned());
   for (int p = 0; p < at.base; ++p) out(p, p) += effect[day.inertia(p)];
-  for (int j = 0; j < at.joints; ++j)
-    for (const int number : {at.viscous(j), at.coulomb(j)}) out(number, number) += effect[day.friction(j)];
+  for (int j = 0; j < at.joints; ++j) {
+    const double part = viscous_part(m.theta[at.viscous(j)], m.theta[at.coulomb(j)], m.top_speed[j]);
+    const double common = effect[day.friction(j)], excess = effect[day.viscous_excess(j)];
+    out(at.viscous(j), at.viscous(j)) += common + (1.0 - part) * excess;
+    out(at.coulomb(j), at.coulomb(j)) += common - part * excess;
+  }
   return out;
 }
 
@@ -278,6 +282,7 @@ VectorXd least_day_variance(const OneStepModel& m) {
   VectorXd std = VectorXd::Constant(day.count(), kDayInertia);
   for (int j = 0; j < m.joints(); ++j) {
     std[day.friction(j)] = kDayFriction;
+    std[day.viscous_excess(j)] = kDayViscous;
     std[day.force(j)] = kDayForce * m.torque_rms[j];
     std[day.gain(j)] = carries_weight(m.body.rigid(), j) ? kNoGain : kDayGain;
   }
@@ -330,6 +335,13 @@ ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, co
   return space;
 }
 
+Error predictions_diverge(double period_s) {
+  constexpr auto kMessage =
+      "no robot predicts their motion over one sample period of {:.3g} s. State how the torque acts between "
+      "samples ([log] torque_between_samples), or give logs with slower moves or a shorter sample period";
+  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
+}
+
 }  // namespace
 
 OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& robot,
@@ -374,6 +386,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
     between = effect_moments(blocks, fit.estimate).square.cwiseMax(least);
     m.reading_variance = (square / samples).cwiseMax(kLeastReading * kLeastReading);
   }
+  if (!m.theta.allFinite() || !m.reading_variance.allFinite()) throw predictions_diverge(m.setting.period_s);
   m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, Eigen::all);
   m.carried_kg = carried_masses(logs, m);
   m.day_variance = least + kCoarseUnseen * (between - least);

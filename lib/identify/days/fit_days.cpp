@@ -41,15 +41,16 @@ constexpr double kUnseenDays = 2.0;  // times the variance between the logged da
 /// Standard deviations of the effects: relative, but the offset as a share of the joint's torque rms and the
 /// delay in samples.
 struct EffectStd {
-  double inertia, friction, slope, gain, offset, width, delay;
+  double inertia, friction, slope, gain, offset, width, viscous, direction, delay;
 };
 
 // First: differences of robots from day to day. Least: differences that change no decision. Unseen:
 // differences that a few days cannot show (friction by the warmth of the gear, inertia and torque constants
-// by manufacture, friction near rest, where healthy logs have few rows).
-constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1};
-constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01};
-constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.3};
+// by manufacture, friction near rest, where healthy logs have few rows, viscous friction, which warmth
+// changes more than dry friction).
+constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1, 0.03, 0.1};
+constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 0.01};
+constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.3};
 
 /// Returns how many recorded samples are averaged into one sample of the rows.
 int samples_averaged(double period_s) {
@@ -76,15 +77,10 @@ BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
     for (int j = 0; j < n; ++j) {
       std::vector<double> v(speed.col(j).data(), speed.col(j).data() + speed.rows());
       m.top_speed[j] = std::max(m.top_speed[j], upper_quantile(std::move(v), kTopSpeed));
-      int run = 0, same = 0;
-      for (int k = 1; k < day.log.rows(); ++k) {
-        run = day.log.q(k, j) == day.log.q(k - 1, j) ? run + 1 : 0;
-        same += run > 0;
-        m.longest_repeat[j] = std::max(m.longest_repeat[j], run);
-      }
-      m.repeat_share[j] +=
-          static_cast<double>(same) / (day.log.rows() - 1) / static_cast<double>(days.size());
     }
+    const RepeatedPositions repeats = repeated_positions(day.log);
+    m.longest_repeat = m.longest_repeat.cwiseMax(repeats.longest);
+    m.repeat_share += repeats.share / static_cast<double>(days.size());
   }
   m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
   m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
@@ -265,6 +261,8 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
     out[day.gain(j)] = std.gain * std.gain;
     out[day.offset(j)] = offset * offset;
     out[day.friction_width(j)] = std.width * std.width;
+    out[day.direction(j)] = std.direction * std.direction;
+    out[day.viscous_excess(j)] = std.viscous * std.viscous;
   }
   return out;
 }

@@ -76,7 +76,7 @@ TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t se
 
 DayDifferences DayDifferences::none(int joints) {
   const std::vector<double> zero(static_cast<std::size_t>(joints), 0.0);
-  return {zero, zero, zero, zero, std::vector<double>(zero.size(), 1.0)};
+  return {zero, zero, zero, zero, zero, std::vector<double>(zero.size(), 1.0)};
 }
 
 double twin_run_length_s(const Twin& twin) {

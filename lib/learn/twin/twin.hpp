@@ -16,6 +16,7 @@ namespace faultline {
 /// number a joint, 0 for none.
 struct DayDifferences {
   std::vector<double> friction;         ///< share of viscous and Coulomb friction
+  std::vector<double> viscous_excess;   ///< share by which viscous friction exceeds Coulomb friction
   std::vector<double> gain;             ///< share of the torque that the drive gives
   std::vector<double> offset;           ///< N m or N that the drive gives beside what is logged
   std::vector<double> missed;           ///< N m or N: ripple, springs, shape of friction

@@ -132,10 +132,11 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
 
 void draw_day(const Twin& twin, Robot& robot, Random& random) {
   for (std::size_t j = 0; j < robot.chain.friction.size(); ++j) {
-    const double scale = std::max(1.0 + draw_change(twin.days.friction[j], random), kLeastFriction);
-    robot.chain.friction[j].viscous *= scale;
-    robot.chain.friction[j].coulomb *= scale;
-    robot.chain.friction[j].load *= scale;
+    const double scale = 1.0 + draw_change(twin.days.friction[j], random);
+    const double excess = draw_change(twin.days.viscous_excess[j], random);
+    robot.chain.friction[j].viscous *= std::max(scale + 0.5 * excess, kLeastFriction);
+    robot.chain.friction[j].coulomb *= std::max(scale - 0.5 * excess, kLeastFriction);
+    robot.chain.friction[j].load *= std::max(scale, kLeastFriction);
   }
 }
 
